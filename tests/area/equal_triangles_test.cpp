@@ -47,5 +47,20 @@ TEST(EqualTriangles, AreComparedInTheWorld) {
   EXPECT_TRUE(equal.is_first(2));
 }
 
+// More than any first table has room for.
+TEST(EqualTriangles, AreFoundAmongMany) {
+  constexpr std::uint32_t count = 1000;
+  Scene scene = testing::scene_of({{0, 0, 1}, {1, 0, 1}}, {});
+  Mesh& mesh = scene.meshes[0];
+  for (std::uint32_t i = 0; i < count; ++i) {
+    mesh.vertices.push_back({i * 0.5, 1, 2});
+    mesh.triangles.push_back({0, 1, i + 2});
+  }
+  for (std::uint32_t i = 0; i < count; ++i) mesh.triangles.push_back({i + 2, 0, 1});
+  const TriangleSource triangles(scene);
+  EqualTriangles equal(triangles);
+  for (std::uint32_t i = 0; i < 2 * count; ++i) EXPECT_EQ(equal.is_first(i), i < count) << i;
+}
+
 }  // namespace
 }  // namespace fathom

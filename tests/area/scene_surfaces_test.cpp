@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 
 #include "tests/inputs/random_scenes.h"
 #include "tests/inputs/soup.h"
@@ -65,6 +66,23 @@ TEST(SceneSurfaces, NeighboursAreThoseWhoseBoxesMeet) {
   std::mt19937_64 random(162);  // on several tiles of the index
   check(testing::soup(random, 40, true), testing::camera_of(160, 140, 64), Cull::none, pairs);
   EXPECT_GT(pairs, 500);
+}
+
+// Between two triangles, not only between two parts of thousands.
+TEST(SurfaceParts, AreInterruptedWithinAPart) {
+  std::atomic<bool> request{false};
+  const Interruptible here(&request);
+  SurfaceParts surfaces(SurfaceParts::triangles_per_part + 10);
+  ASSERT_EQ(surfaces.size(), 2U);
+  std::vector<std::uint32_t> asked_for;
+  const auto surface_of = [&](std::uint32_t number) -> std::optional<SurfaceRegion> {
+    asked_for.push_back(number);
+    request = asked_for.size() == 3;
+    return std::nullopt;
+  };
+  EXPECT_THROW(surfaces.make(1, surface_of), Interrupted);
+  constexpr std::uint32_t first = SurfaceParts::triangles_per_part;
+  EXPECT_EQ(asked_for, (std::vector<std::uint32_t>{first, first + 1, first + 2}));
 }
 
 }  // namespace

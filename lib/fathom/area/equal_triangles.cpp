@@ -36,12 +36,33 @@ bool have_same_corners(const Corners& a, Corners b) {
 bool EqualTriangles::is_first(std::uint32_t number) {
   const Corners corners = triangles_.world_corners(number);
   const std::size_t hash = hash_of(corners);
-  const auto [first, end] = by_hash_.equal_range(hash);
-  for (auto other = first; other != end; ++other) {
-    if (have_same_corners(triangles_.world_corners(other->second), corners)) return false;
+  if (2 * count_ >= table_.size()) grow();
+  std::size_t place = place_of(hash);
+  for (; table_[place].number; place = (place + 1) % table_.size()) {
+    const auto& [other_hash, other] = table_[place];
+    if (other_hash == hash && have_same_corners(triangles_.world_corners(*other), corners))
+      return false;
   }
-  by_hash_.emplace(hash, number);
+  table_[place] = {hash, number};
+  ++count_;
   return true;
+}
+
+/// Where the search for a hash begins: its best mixed bits after a multiplication by 2⁶⁴ over the
+/// golden ratio.
+std::size_t EqualTriangles::place_of(std::size_t hash) const {
+  return (std::uint64_t{hash} * 0x9e3779b97f4a7c15U >> 32U) % table_.size();
+}
+
+void EqualTriangles::grow() {
+  std::vector<First> before(2 * table_.size());
+  before.swap(table_);
+  for (const First& first : before) {
+    if (!first.number) continue;
+    std::size_t place = place_of(first.hash);
+    while (table_[place].number) place = (place + 1) % table_.size();
+    table_[place] = first;
+  }
 }
 
 }  // namespace fathom::area

@@ -2,7 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
+#include <optional>
+#include <vector>
 
 #include "fathom/scene/triangle_source.h"
 
@@ -20,8 +21,19 @@ class EqualTriangles {
   bool is_first(std::uint32_t number);
 
  private:
+  /// A triangle that is the first of its corners, by their hash.
+  struct First {
+    std::size_t hash;
+    std::optional<std::uint32_t> number;
+  };
+
+  void grow();
+  [[nodiscard]] std::size_t place_of(std::size_t hash) const;
+
   const TriangleSource& triangles_;
-  std::unordered_multimap<std::size_t, std::uint32_t> by_hash_;
+  /// An open table: in one piece, so that it is freed at once. Its size is a power of two.
+  std::vector<First> table_ = std::vector<First>(16);
+  std::size_t count_ = 0;
 };
 
 }  // namespace fathom::area

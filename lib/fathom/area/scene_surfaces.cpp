@@ -11,8 +11,6 @@ using namespace triangle;
 
 namespace {
 
-constexpr std::uint64_t triangles_per_part = 4096;
-
 bool meet(const PixelBox& a, const PixelBox& b) {
   return a.first_column <= b.last_column && b.first_column <= a.last_column &&
          a.first_row <= b.last_row && b.first_row <= a.last_row;
@@ -20,8 +18,18 @@ bool meet(const PixelBox& a, const PixelBox& b) {
 
 }  // namespace
 
+SurfaceParts::~SurfaceParts() {
+  // Work that has been interrupted leaves no sooner than its memory is free.
+  const Interruptible never(nullptr);
+  try {
+    in_parallel(parts_.size(), [&](std::size_t part) { Part().swap(parts_[part]); });
+  } catch (...) {
+    // Without memory for threads: the members free what is left.
+  }
+}
+
 std::uint64_t SceneSurfaces::parts(std::uint32_t triangles) {
-  return triangles / triangles_per_part + 1;
+  return triangles / SurfaceParts::triangles_per_part + 1;
 }
 
 SceneSurfaces::SceneSurfaces(const CoverageFrame& frame, Progress& progress)
@@ -31,17 +39,14 @@ SceneSurfaces::SceneSurfaces(const CoverageFrame& frame, Progress& progress)
       tiles_(std::size_t{columns_} * ((frame.camera.height - 1) / side_of_tile + 1)),
       first_(count()),
       first_of_object_(count()) {
-  parallel_for(std::uint64_t{0}, parts(count()), [&](std::uint64_t part) {
-    const std::uint64_t first = part * triangles_per_part;
-    const std::uint64_t end = std::min<std::uint64_t>(count(), first + triangles_per_part);
-    for (std::uint64_t number = first; number < end; ++number)
-      set_surface(frame, static_cast<std::uint32_t>(number));
+  parallel_for(std::uint32_t{0}, surfaces_.size(), [&](std::uint32_t part) {
+    surfaces_.make(part, [&](std::uint32_t number) { return surface_of(frame, number); });
     progress.part_done();
   });
   find_equal_triangles(frame.triangles);
   for (std::uint32_t number = 0; number < count(); ++number) {
     check_interruption();
-    if (!surfaces_[number]) continue;
+    if (surfaces_[number] == nullptr) continue;
     const PixelBox& box = boxes_[number];
     for (std::uint32_t y = box.first_row / side_of_tile; y <= box.last_row / side_of_tile; ++y) {
       for (std::uint32_t x = box.first_column / side_of_tile; x <= box.last_column / side_of_tile;
@@ -52,13 +57,15 @@ SceneSurfaces::SceneSurfaces(const CoverageFrame& frame, Progress& progress)
   }
 }
 
-void SceneSurfaces::set_surface(const CoverageFrame& frame, std::uint32_t number) {
+std::optional<SurfaceRegion> SceneSurfaces::surface_of(const CoverageFrame& frame,
+                                                       std::uint32_t number) {
   TierCounts counts;
   const ProjectedTriangle t =
       project(frame.triangles.world_corners(number), number, frame.camera, counts);
-  if (t.orientation == Sign::zero || !is_kept(t, frame.cull)) return;
+  if (t.orientation == Sign::zero || !is_kept(t, frame.cull)) return std::nullopt;
   boxes_[number] = bounding_box(t, frame.camera);
-  if (!boxes_[number].is_empty()) surfaces_[number] = surface_region(t, frame.camera);
+  if (boxes_[number].is_empty()) return std::nullopt;
+  return surface_region(t, frame.camera);
 }
 
 void SceneSurfaces::find_equal_triangles(const TriangleSource& triangles) {
@@ -67,7 +74,7 @@ void SceneSurfaces::find_equal_triangles(const TriangleSource& triangles) {
   std::optional<std::uint32_t> object;
   for (std::uint32_t number = 0; number < count(); ++number) {
     check_interruption();
-    if (!surfaces_[number]) continue;
+    if (surfaces_[number] == nullptr) continue;
     if (const std::uint32_t its = triangles.origin(number).object; its != object) {
       in_object.emplace(triangles);
       object = its;

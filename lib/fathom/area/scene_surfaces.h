@@ -1,12 +1,48 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "fathom/area/coverage_image.h"
+#include "fathom/threads/interruption.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::area {
+
+/// The surfaces of triangles, each with about twenty allocations of memory: they are made, and freed,
+/// in parts, which can be done by several threads.
+class SurfaceParts {
+ public:
+  using Part = std::vector<std::optional<SurfaceRegion>>;
+  static constexpr std::uint32_t triangles_per_part = 4096;
+
+  explicit SurfaceParts(std::uint32_t triangles)
+      : triangles_(triangles), parts_(triangles / triangles_per_part + 1) {}
+  SurfaceParts(const SurfaceParts&) = delete;
+  SurfaceParts& operator=(const SurfaceParts&) = delete;
+  ~SurfaceParts();
+
+  [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(parts_.size()); }
+  /// Sets the surfaces of a part, of each triangle in it to surface_of(its number).
+  template <class SurfaceOf>
+  void make(std::uint32_t part, const SurfaceOf& surface_of) {
+    const std::uint32_t first = part * triangles_per_part;
+    parts_[part].resize(std::min(triangles_per_part, triangles_ - first));
+    for (std::uint32_t k = 0; k < parts_[part].size(); ++k) {
+      check_interruption();
+      parts_[part][k] = surface_of(first + k);
+    }
+  }
+  [[nodiscard]] const SurfaceRegion* operator[](std::uint32_t number) const {
+    const auto& surface = parts_[number / triangles_per_part][number % triangles_per_part];
+    return surface ? &*surface : nullptr;
+  }
+
+ private:
+  std::uint32_t triangles_;
+  std::vector<Part> parts_;
+};
 
 /// All triangles of a scene as areas on the image need them, with an index by place.
 class SceneSurfaces {
@@ -19,7 +55,7 @@ class SceneSurfaces {
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(boxes_.size()); }
   /// Null if the triangle covers nothing: seen edge on, culled, or outside the image.
   [[nodiscard]] const SurfaceRegion* surface(std::uint32_t number) const {
-    return surfaces_[number] ? &*surfaces_[number] : nullptr;
+    return surfaces_[number];
   }
   [[nodiscard]] const PixelBox& box(std::uint32_t number) const { return boxes_[number]; }
   /// Whether no triangle of a lower number has the same three corners in the same
@@ -40,12 +76,13 @@ class SceneSurfaces {
 
   template <class Take>
   void for_each_near(std::uint32_t number, const Take& take) const;
-  void set_surface(const CoverageFrame& frame, std::uint32_t number);
+  /// Also sets the triangle's box.
+  std::optional<SurfaceRegion> surface_of(const CoverageFrame& frame, std::uint32_t number);
   void find_equal_triangles(const TriangleSource& triangles);
 
   std::uint32_t columns_;
   std::vector<PixelBox> boxes_;
-  std::vector<std::optional<SurfaceRegion>> surfaces_;
+  SurfaceParts surfaces_;
   std::vector<std::vector<std::uint32_t>> tiles_;
   std::vector<bool> first_, first_of_object_;
 };
