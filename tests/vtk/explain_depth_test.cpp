@@ -12,8 +12,10 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "fathom/numeric/errors.h"
+#include "tests/inputs/floating_point_modes.h"
 #include "tests/vtk/drawing.h"
 
 /// What VTK draws by itself is explained, whatever its camera and actors.
@@ -39,6 +41,15 @@ TEST(ExplainDepth, OfOneActor) {
   // The centre of the ball's face is 4 from the eye.
   EXPECT_NEAR(verdict.truth.depths[60 * 160 + 80], 4, 0.05);
   EXPECT_NEAR(verdict.map.depths[60 * 160 + 80], verdict.truth.depths[60 * 160 + 80], 1e-5);
+}
+
+TEST(ExplainDepth, IsTheSameInEveryFloatingPointMode) {
+  Drawing drawing;
+  drawing.add(ball());
+  fathom::testing::expect_same_in_all_modes([&] {
+    const DepthVerdict verdict = drawing.explained();
+    return std::pair(verdict.map.depths, verdict.attribution.counts);
+  });
 }
 
 TEST(ExplainDepth, OfActorsThatAreMovedTurnedAndScaled) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fathom/numeric/standard_arithmetic.h"
+
 namespace fathom {
 namespace {
 
@@ -18,6 +20,7 @@ constexpr std::uint64_t few_pixels = 100;
 }  // namespace
 
 void DepthAgreementSum::add(const DepthMap& truth, const DepthMap& reconstruction) {
+  const StandardArithmetic standard;
   const Samples<float>&true_depths = depths_of(truth), &depths = depths_of(reconstruction);
   if (true_depths.size() != depths.size() || truth.width != reconstruction.width)
     throw std::invalid_argument("maps of different sizes");
@@ -44,6 +47,7 @@ void DepthAgreementSum::add(const DepthMap& truth, const DepthMap& reconstructio
 }
 
 DepthAgreement DepthAgreementSum::result() const {
+  const StandardArithmetic standard;
   DepthAgreement result = sums_;
   result.metrics = errors_.result();
   if (result.views != 0) result.l1_of_all_pixels /= static_cast<double>(result.views);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/numeric/standard_arithmetic.h"
+
 namespace fathom {
 
 void DepthErrors::add(double truth, double other) {
@@ -26,6 +28,7 @@ void DepthErrors::add(double truth, double other) {
 }
 
 DepthMetrics DepthErrors::result() const {
+  const StandardArithmetic standard;
   DepthMetrics means = sums_;
   if (means.pixels == 0) return means;
   const auto n = static_cast<double>(means.pixels);
@@ -52,6 +55,7 @@ void DisparityErrors::add(double truth, double other) {
 }
 
 DisparityMetrics DisparityErrors::result() const {
+  const StandardArithmetic standard;
   DisparityMetrics means = sums_;
   if (means.pixels == 0) return means;
   const auto n = static_cast<double>(means.pixels);

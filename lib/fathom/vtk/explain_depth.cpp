@@ -18,6 +18,7 @@
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/attribution/pixels/corner_numbers.h"
 #include "fathom/numeric/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/vtk/camera_description.h"
 #include "fathom/vtk/camera_of.h"
 #include "fathom/vtk/depth_buffer.h"
@@ -108,6 +109,7 @@ std::string cause_of(const DepthVerdict& verdict, vtkRenderer& renderer) {
 }  // namespace
 
 DepthVerdict explain_depth(vtkRenderWindow& any_window, vtkRenderer& renderer) {
+  const StandardArithmetic standard;
   vtkOpenGLRenderWindow& window = window_to_judge(any_window, renderer);
   // A renderer without a camera makes one that sees all props: also those that will be hidden.
   if (renderer.IsActiveCameraCreated() == 0) renderer.ResetCamera();
