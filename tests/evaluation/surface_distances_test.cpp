@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "fathom/evaluation/depth_agreement.h"
 #include "fathom/numeric/errors.h"
 #include "tests/evaluation/scenes.h"
+#include "tests/inputs/floating_point_modes.h"
 
 namespace fathom {
 namespace {
@@ -174,6 +177,16 @@ TEST(DepthAgreement, CountsViewsWithMoreThanAHundredPixelsOfTheTruth) {
     EXPECT_EQ(d.views_of_truth, pixels == 101 ? 1U : 0U);
     EXPECT_EQ(d.l1_of_truth_pixels, pixels == 101 ? 3 / 101.0 : 0);
   }
+}
+
+TEST(DepthAgreement, IsTheSameInEveryFloatingPointMode) {
+  testing::expect_same_in_all_modes([] {
+    DepthAgreementSum sum;
+    for (int view = 0; view < 3; ++view)
+      sum.add(map_of({1.1F, 2.3F, 7}), map_of({1.3F, 2.7F, 9.1F}));
+    const DepthAgreement d = sum.result();
+    return std::array{d.l1_of_all_pixels, d.metrics.mae, d.metrics.rmse, d.metrics.rmse_log};
+  });
 }
 
 TEST(DepthAgreement, RefusesMapsOfOtherSizes) {

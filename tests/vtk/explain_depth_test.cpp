@@ -22,7 +22,7 @@
 namespace fathom::vtk {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// Every pixel is explained, and no bound is so wide that it would explain anything.
 void expect_explained(const DepthVerdict& verdict, std::size_t least_pixels = 1000) {
@@ -46,7 +46,7 @@ TEST(ExplainDepth, OfOneActor) {
 TEST(ExplainDepth, IsTheSameInEveryFloatingPointMode) {
   Drawing drawing;
   drawing.add(ball());
-  fathom::testing::expect_same_in_all_modes([&] {
+  testing::expect_same_in_all_modes([&] {
     const DepthVerdict verdict = drawing.explained();
     return std::pair(verdict.map.depths, verdict.attribution.counts);
   });
@@ -208,7 +208,7 @@ TEST(ExplainDepth, TextIsALineForEachThing) {
   drawing.add(ball()).GetProperty()->SetOpacity(0.5);
   std::ostringstream text;
   text << drawing.explained();
-  EXPECT_THAT(text.str(), testing::StartsWith("every pixel is explained\n"));
+  EXPECT_THAT(text.str(), ::testing::StartsWith("every pixel is explained\n"));
   EXPECT_THAT(text.str(), HasSubstr(" equal\n"));
   EXPECT_THAT(text.str(), HasSubstr("left out: vtkOpenGLActor 1 is translucent\n"));
 }
