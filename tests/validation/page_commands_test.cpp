@@ -57,10 +57,10 @@ Outcome run_by_shell(const std::string& command, const fs::path& folder) {
 }
 
 /// The pictures go; what is there afterwards is what the commands have drawn.
-/// `others` are those that no command draws. Gives what the commands have printed.
+/// `others` are those that no command draws; `scenes` lie beside the page, as it asks for. Gives what the commands have printed.
 std::map<std::string, std::string> expect_pictures_by_commands(
     const std::string& study, std::size_t least_commands, const std::set<std::string>& others,
-    const std::vector<std::string>& options = {}) {
+    const std::vector<std::string>& options = {}, const std::vector<fs::path>& scenes = {}) {
   std::map<std::string, std::string> printed;
   const TestFolder folder;
   std::vector<std::string> arguments{"study", study, "--out", "made"};
@@ -71,6 +71,7 @@ std::map<std::string, std::string> expect_pictures_by_commands(
   const fs::path beside = folder.path() / "made", shown = folder.path() / "shown";
   const std::string page = folder.read("made/index.html");
   fs::create_directory(shown);
+  for (const fs::path& scene : scenes) fs::copy(scene, beside);
   std::set<std::string> pictures;
   for (const std::string& picture : texts_between(page, "<img src=\"", "\"")) {
     fs::rename(beside / picture, shown / picture);
@@ -148,6 +149,22 @@ TEST(PageCommands, DrawThePicturesOfAntialiasing) {
                   ".png");
   }
   expect_pictures_by_commands("antialiasing", 6, others);
+}
+
+// Exact pictures are blended by the judge.
+TEST(PageCommands, DrawThePicturesOfBlending) {
+  expect_pictures_by_commands(
+      "blending", 13,
+      {"panes-exact.png", "wall-exact.png", "ring-exact.png", "penetration-exact.png"});
+}
+
+TEST(PageCommands, DrawThePicturesOfMitigation) {
+  expect_pictures_by_commands("mitigation", 7, {});
+}
+
+TEST(PageCommands, DrawThePicturesOfAScenesFights) {
+  const std::filesystem::path scene = source_dir() / "data/meshes/cube.obj";
+  expect_pictures_by_commands("z-fighting", 10, {}, {"--scene", scene}, {scene});
 }
 
 // Of the other pages: the plots.

@@ -3,12 +3,30 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "tests/effort.h"
 #include "validation/studies/study.h"
 
 namespace fathom::studies {
 namespace {
+
+/// Under each picture stands the command that makes it.
+void expect_commands(const std::string& page) {
+  const std::string begin = "<figure", end = "</figure>", code = "<figcaption>";
+  for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at + 1)) {
+    const std::string figure = page.substr(at, page.find(end, at) - at);
+    const std::size_t picture = figure.find("<img src="), caption = figure.find(code);
+    if (picture == std::string::npos) continue;
+    ASSERT_NE(caption, std::string::npos) << figure;
+    const std::string words = figure.substr(caption);
+    const bool named = std::ranges::any_of(
+        std::array{"fathom ", "fathom-pipeline ", "gnuplot "}, [&](const std::string& program) {
+          return words.find(program, words.find("<code>")) != std::string::npos;
+        });
+    EXPECT_TRUE(words.find("<code>") != std::string::npos && named) << figure;
+  }
+}
 
 std::size_t expect_complete(const std::vector<StudyFile>& files) {
   const auto named = [&](const std::string& name) {
@@ -27,6 +45,7 @@ std::size_t expect_complete(const std::vector<StudyFile>& files) {
     ++pictures;
   }
   EXPECT_NE(named("summary.json"), files.end());
+  expect_commands(page);
   return pictures;
 }
 
@@ -49,6 +68,25 @@ TEST(StudyPages, HiddenSurface) {
 }
 TEST(StudyPages, Lines) {
   EXPECT_EQ(pictures_of("lines", {.samples = 2}), 2U);
+}
+
+TEST(StudyPages, Clipping) {
+  EXPECT_EQ(pictures_of("clipping", {.samples = 2}), 5U);
+}
+TEST(StudyPages, DepthResolution) {
+  EXPECT_EQ(pictures_of("depth-resolution", {.samples = 5}), 8U);
+}
+TEST(StudyPages, Indistinguishable) {
+  EXPECT_EQ(pictures_of("indistinguishable", {.samples = 101}), 6U);
+}
+TEST(StudyPages, Mitigation) {
+  EXPECT_EQ(pictures_of("mitigation"), 7U);
+}
+TEST(StudyPages, Subpixel) {
+  EXPECT_EQ(pictures_of("subpixel"), 2U);
+}
+TEST(StudyPages, ZFighting) {
+  EXPECT_EQ(pictures_of("z-fighting", {.samples = 2}), 10U);
 }
 
 }  // namespace

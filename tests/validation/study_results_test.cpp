@@ -94,7 +94,8 @@ TEST(StudyPlot, PointsWithoutAPlaceAreLeftOut) {
 TEST(StudyPage, BlocksAndPlaceholders) {
   Page page(
       "# The {{what}} title\n\nA paragraph of\ntwo lines, {{what}} < all.\n\n## Next\n\n\n"
-      "{{plot:drawn}} Caption of {{what}}\n\n{{plot:empty}} Not there\n\n{{picture:seen}} Seen\n\n"
+      "{{plot:drawn}} Caption of {{what}}\n\n{{plot:empty}} Not there\n\n{{picture:seen}} Seen: "
+      "`run`\n\n"
       "{{text:words}} Words\n\n{{table:rows}}\n\n{{what}} first\n");
   page.add_value("what", "{{a}} & b");
   page.add_plot("drawn", true);
@@ -105,22 +106,25 @@ TEST(StudyPage, BlocksAndPlaceholders) {
   page.add_table("rows", table());
   const std::string html = page.html();
   EXPECT_THAT(html, HasSubstr("<title>The {{a}} &amp; b title</title>"));
-  EXPECT_EQ(html.substr(html.find("<body>\n")),
-            "<body>\n<h1>The {{a}} &amp; b title</h1>\n"
-            "<p>A paragraph of two lines, {{a}} &amp; b &lt; all.</p>\n<h2>Next</h2>\n"
-            "<figure><a href=\"drawn.svg\"><img src=\"drawn.png\" alt=\"Caption of {{a}} &amp; "
-            "b\"></a><figcaption>Caption of {{a}} &amp; b</figcaption></figure>\n"
-            "<figure class=\"small\"><img src=\"seen.png\" alt=\"Seen\"><figcaption>Seen"
-            "</figcaption></figure>\n"
-            "<figure class=\"small\"><pre>a  b\n</pre><figcaption>Words</figcaption></figure>\n" +
-                html_of(table()) + "<p>{{a}} &amp; b first</p>\n</body></html>\n");
+  EXPECT_EQ(
+      html.substr(html.find("<body>\n")),
+      "<body>\n<h1>The {{a}} &amp; b title</h1>\n"
+      "<p>A paragraph of two lines, {{a}} &amp; b &lt; all.</p>\n<h2>Next</h2>\n"
+      "<figure><a href=\"drawn.svg\"><img src=\"drawn.png\" alt=\"Caption of {{a}} &amp; "
+      "b\"></a><figcaption>Caption of {{a}} &amp; b: <code>gnuplot drawn.gp</code></figcaption>"
+      "</figure>\n"
+      "<figure class=\"small\"><img src=\"seen.png\" alt=\"Seen\"><figcaption>Seen: "
+      "<code>run</code>"
+      "</figcaption></figure>\n"
+      "<figure class=\"small\"><pre>a  b\n</pre><figcaption>Words</figcaption></figure>\n" +
+          html_of(table()) + "<p>{{a}} &amp; b first</p>\n</body></html>\n");
 }
 
 // What the browser shows may not be broken at a hyphen, and what it copies has to be the command.
 TEST(StudyPage, CommandsInTextsAndCaptions) {
   Page page(
       "# T\n\nSee `a --b | c > d` & more.\n\n{{picture:one}} one \"of\" them: `run -x`\n\n"
-      "{{pictures:one,two}} two\n");
+      "{{pictures:one,two}} two: `run`\n");
   page.add_picture("one", 40);
   page.add_picture("two");
   const std::string html = page.html();
@@ -131,7 +135,7 @@ TEST(StudyPage, CommandsInTextsAndCaptions) {
       "width=\"40\"><figcaption>one \"of\" them: <code>run <span>-x</span></code></figcaption>"
       "</figure>\n"
       "<figure class=\"row\"><img src=\"one.png\" alt=\"two\" width=\"40\"> "
-      "<img src=\"two.png\" alt=\"two\"><figcaption>two</figcaption></figure>\n"
+      "<img src=\"two.png\" alt=\"two\"><figcaption>two: <code>run</code></figcaption></figure>\n"
       "</body></html>\n");
 }
 
@@ -144,7 +148,8 @@ TEST(StudyPage, WhatIsThereDecides) {
     if (with_value) page.add_value("v", "7");
     return page.html();
   };
-  EXPECT_THAT(shown(true, false), HasSubstr("<figcaption>P</figcaption>"));
+  EXPECT_THAT(shown(true, false),
+              HasSubstr("<figcaption>P: <code>gnuplot p.gp</code></figcaption>"));
   EXPECT_THAT(shown(true, false), Not(HasSubstr("Nothing.")));
   EXPECT_THAT(shown(false, true), HasSubstr("<p>Nothing.</p>\n<p>Always.</p>\n<p>7 left.</p>\n"));
   EXPECT_THAT(shown(false, false), HasSubstr("<p>Always.</p>\n<p>Last.</p>\n"));
@@ -157,7 +162,11 @@ TEST(StudyPage, PagesThatDoNotFitAreRefused) {
   EXPECT_THROW(static_cast<void>(page.html()), std::logic_error);
   page.add_value("value", "v");
   EXPECT_THAT(page.html(), HasSubstr("<p>v</p>"));
-  EXPECT_THROW(static_cast<void>(Page("# T\n\n{{picture:none}} C\n").html()), std::logic_error);
+  EXPECT_THROW(static_cast<void>(Page("# T\n\n{{picture:none}} C: `run`\n").html()),
+               std::logic_error);
+  Page without_command("# T\n\n{{picture:p}} C\n");
+  without_command.add_picture("p");
+  EXPECT_THROW(static_cast<void>(without_command.html()), std::logic_error);
 }
 
 }  // namespace

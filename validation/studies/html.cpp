@@ -73,7 +73,7 @@ std::string html_paragraph(const std::string& text) {
 
 std::string html_plot(const std::string& name, const std::string& caption) {
   return "<figure><a href=\"" + name + ".svg\">" + image(name, caption) + "</a>" +
-         element("figcaption", caption) + "</figure>\n";
+         text_element("figcaption", caption + ": `gnuplot " + name + ".gp`") + "</figure>\n";
 }
 
 std::string html_pictures(const std::vector<ShownPicture>& pictures, const std::string& caption) {

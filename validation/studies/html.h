@@ -12,7 +12,7 @@ std::string escaped_html(const std::string& text);
 /// In paragraphs and captions what stands between a pair of ` is code.
 std::string html_heading(int level, const std::string& text);
 std::string html_paragraph(const std::string& text);
-/// The plot NAME.png, linked to NAME.svg.
+/// The plot NAME.png, linked to NAME.svg, with the command that draws it.
 std::string html_plot(const std::string& name, const std::string& caption);
 /// The picture NAME.png, `width` wide in the page; 0: as wide as it has pixels.
 struct ShownPicture {

@@ -98,6 +98,8 @@ std::string Page::block(const std::string& block) const {
   if (kind == name) return html_paragraph(with_values(block));
   const std::string caption = with_values(rest);
   if (kind.starts_with("picture")) {
+    if (caption.find('`') == std::string::npos)
+      throw std::logic_error("no command under the picture " + name);
     return html_pictures(pictures(name.substr(kind.size() + 1)), caption);
   }
   const std::string& content = part(name);

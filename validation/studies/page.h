@@ -17,8 +17,10 @@ namespace fathom::studies {
 ///   ## Heading
 ///   A paragraph.
 ///   {{name}}                    in any text: a value
-///   {{plot:name}} Caption       NAME.png, linked to NAME.svg; left out where nothing was drawn
-///   {{picture:name}} Caption    NAME.png, its pixels kept sharp
+///   {{plot:name}} Caption       NAME.png, linked to NAME.svg, and its command; left out where nothing
+///                               was drawn
+///   {{picture:name}} Caption    NAME.png, its pixels kept sharp; the caption names the command
+///                               that draws it
 ///   {{pictures:a,b,c}} Caption  several in a row
 ///   `text`                      in paragraphs and captions: code
 ///   {{text:name}} Caption       text in letters of one width

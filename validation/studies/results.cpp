@@ -25,8 +25,10 @@ std::string command_of(const std::string& study, const StudyOptions& options) {
 Results::Results(const std::string& study, std::string_view page, const StudyOptions& options)
     : summary_{{"study", Cell(study)}},
       page_(page),
-      command_(command_of(study, options)),
-      plots_(options.plots) {}
+      command_(command_of(study, options) + " --out DIR"),
+      plots_(options.plots) {
+  page_.add_value("study", command_);
+}
 
 void Results::figure(const std::string& key, const Cell& value, const char* page_format) {
   summary_.emplace_back(key, value);
@@ -69,6 +71,11 @@ void Results::picture(StudyFile png, std::uint32_t width) {
   files_.push_back(std::move(png));
 }
 
+void Results::picture(StudyFile png, const std::string& command, std::uint32_t width) {
+  quote("draw " + png.name.substr(0, png.name.rfind('.')), command);
+  picture(std::move(png), width);
+}
+
 void Results::file(StudyFile file) {
   files_.push_back(std::move(file));
 }
@@ -82,14 +89,9 @@ void Results::text(const std::string& name, const std::string& text) {
 }
 
 std::string Results::commands() const {
-  std::string text =
-      "`" + command_ + " --out DIR` makes this page with its tables, plots and pictures.";
-  std::string plots;
-  for (const StudyFile& file : files_)
-    if (file.name.ends_with(".gp")) plots += " " + file.name.substr(0, file.name.size() - 3);
-  if (plots.empty()) return text;
-  return text + " In its folder `for plot in" + plots +
-         "; do gnuplot $plot.gp; done` draws the plots again, as PNG and SVG.";
+  return "`" + command_ +
+         "` makes this page with its tables, plots and pictures. In its folder, the "
+         "command under a plot or a picture draws it again.";
 }
 
 std::vector<StudyFile> Results::files() const {

@@ -39,6 +39,8 @@ class Results {
   void plot(const HeatMap& map);
   /// NAME.png, which the page may show as {{picture:NAME}}, `width` wide; 0: as it is.
   void picture(StudyFile png, std::uint32_t width = 0);
+  /// And the command that draws it, which the page quotes as {{draw NAME}}.
+  void picture(StudyFile png, const std::string& command, std::uint32_t width = 0);
   void pictures(std::vector<StudyFile> pngs);
   /// A file that lies beside the page, such as a scene that a command of its captions reads.
   void file(StudyFile file);
@@ -56,7 +58,7 @@ class Results {
 
   Summary summary_;
   Page page_;
-  std::string command_;  ///< that runs the study, but for --out
+  std::string command_;  ///< that runs the study; the page quotes it as {{study}}
   bool plots_;
 };
 

@@ -1,10 +1,14 @@
 #include "validation/studies/blending/blended.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/camera/camera_files.h"
 #include "fathom/reference/probe.h"
 #include "validation/studies/pipeline_scenes.h"
+#include "validation/studies/scene_files.h"
 
 namespace fathom::studies {
 namespace {
@@ -33,6 +37,16 @@ Scene painted(Scene scene) {
   glass.alpha = opacity;
   scene.draw_states = {glass};
   return scene;
+}
+
+/// "wall-back-to-front-read-only-depth"
+std::string case_name(const std::string& scene, const std::string& method) {
+  std::string name = scene + "-";
+  for (const char c : method) {
+    if (c == ' ' || c == '-') name += '-';
+    if (c >= 'a' && c <= 'z') name += c;
+  }
+  return name;
 }
 
 /// Panes side on to the view, in an order that is that of no depths.
@@ -85,6 +99,35 @@ PipelineOptions options_of(const std::string& method, Scene& scene) {
   if (method == "front to back") options.draw_order = DrawOrder::front_to_back;
   if (method.starts_with("back to front")) options.draw_order = DrawOrder::back_to_front;
   return options;
+}
+
+/// The options of `fathom render` that stand for a method.
+std::string flags_of(const PipelineOptions& options) {
+  if (options.hidden_surface == pipeline::HiddenSurface::painter)
+    return " --hidden-surface painter";
+  if (options.draw_order == DrawOrder::front_to_back) return " --draw-order front-to-back";
+  if (options.draw_order == DrawOrder::back_to_front) return " --draw-order back-to-front";
+  if (options.draw_order == DrawOrder::random) return " --draw-order random";
+  return "";
+}
+
+std::string mesh_file(const std::string& scene, std::size_t object) {
+  return fmt::format("{}-{}.obj", scene, object);
+}
+
+/// A scene file with the state of each object.
+StudyFile scene_file(const std::string& name, const std::string& glass, const Scene& scene) {
+  std::string meshes;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const DrawState state = draw_state_of(scene, i);
+    meshes += fmt::format("{}\n  {{ \"file\": \"{}\"", i == 0 ? "" : ",", mesh_file(glass, i));
+    if (state.alpha)
+      meshes += fmt::format(
+          ", \"draw\": {{ \"alpha\": {}, \"depth_test\": \"{}\", \"depth_write\": {} }}",
+          *state.alpha, state.depth_test ? "always" : "nearer", state.depth_write);
+    meshes += " }";
+  }
+  return {name + ".json", "{ \"meshes\": [" + meshes + "\n] }\n"};
 }
 
 void compare(const ColourImage& exact, const ColourImage& image, const std::vector<bool>& seen,
@@ -145,7 +188,27 @@ BlendedCase blend(const GlassScene& glass, const std::string& method) {
   BlendedCase result{.scene = glass.name, .method = method};
   compare(glass.exact, image, seen, result);
   result.picture = pipeline::to_rgb(image);
+  result.name = case_name(glass.name, method);
+  result.file = scene_file(result.name, glass.name, scene);
+  result.command = fmt::format(
+      "fathom render {0}.json --camera camera.json --engine pipeline{1} --precision binary64 "
+      "--subpixel-bits 16 --shading none --background {2},{3},{4} --image {0}.png -o map.exr",
+      result.name, flags_of(options), background[0], background[1], background[2]);
   return result;
+}
+
+std::vector<StudyFile> mesh_files_of(const GlassScene& glass) {
+  std::vector<StudyFile> files;
+  for (std::size_t i = 0; i < glass.scene.objects.size(); ++i) {
+    Scene part;
+    part.meshes = {glass.scene.meshes[glass.scene.objects[i].mesh]};
+    files.push_back({mesh_file(glass.name, i), obj_of(part)});
+  }
+  return files;
+}
+
+StudyFile glass_camera_file() {
+  return {"camera.json", to_json(camera_of_glass()) + "\n"};
 }
 
 }  // namespace fathom::studies

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fathom/pipeline/render_pipeline.h"
+#include "validation/studies/study.h"
 
 /// Transparent surfaces in the orders in which a pipeline can draw them, against the exact order at
 /// every pixel.
@@ -31,6 +32,9 @@ struct BlendedCase {
   std::size_t wrong = 0;
   double mean_error = 0, greatest_error = 0;  ///< of a colour's component, over pixels with surface
   RgbImage picture;
+  std::string name;     ///< of the picture and of the scene file
+  StudyFile file;       ///< the scene, with the state of each object
+  std::string command;  ///< draws the picture from it, from mesh_files_of() and glass_camera_file()
 };
 
 inline constexpr const char* blending_methods[] = {"file order",
@@ -41,6 +45,11 @@ inline constexpr const char* blending_methods[] = {"file order",
                                                    "back to front",
                                                    "back to front, read-only depth",
                                                    "painter's algorithm"};
+
+/// The mesh of each object, which the scene files of the cases name.
+std::vector<StudyFile> mesh_files_of(const GlassScene& glass);
+/// camera.json, for all scenes.
+StudyFile glass_camera_file();
 
 BlendedCase blend(const GlassScene& glass, const std::string& method);
 

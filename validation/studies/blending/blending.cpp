@@ -20,16 +20,6 @@ Table cases_table(const std::vector<BlendedCase>& rows) {
            {Column("greatest_error", ".9g").page("greatest", ".3f"), &Row::greatest_error}}};
 }
 
-/// "wall-back-to-front-read-only-depth"
-std::string picture_name(const std::string& scene, const std::string& method) {
-  std::string name = scene + "-";
-  for (const char c : method) {
-    if (c == ' ' || c == '-') name += '-';
-    if (c >= 'a' && c <= 'z') name += c;
-  }
-  return name;
-}
-
 BarChart error_chart(const std::vector<BlendedCase>& cases, const std::vector<GlassScene>& scenes) {
   BarChart chart{.name = "errors",
                  .title = "Pixels of the wrong colour, by the order of drawing",
@@ -65,14 +55,21 @@ std::vector<StudyFile> study_blending(const StudyOptions& options,
   Results results("blending", page_texts::blending, options);
   results.table(cases_table(cases), {.csv = "cases", .json = "cases", .page = "cases"});
   results.plot(error_chart(cases, scenes));
-  for (const GlassScene& scene : scenes)
-    results.picture(picture_file(scene.name + "-exact", pipeline::to_rgb(scene.exact), 3));
+  results.file(glass_camera_file());
+  for (const GlassScene& scene : scenes) {
+    const RgbImage exact = pipeline::to_rgb(scene.exact);
+    results.picture(picture_file(scene.name + "-exact", exact), 3 * exact.width);
+    if (scene.name == "penetration") continue;  // no other picture
+    for (const StudyFile& file : mesh_files_of(scene)) results.file(file);
+  }
   for (const BlendedCase& c : cases) {
     const bool shown = c.scene == "wall"
                            ? c.method.find("depth") != std::string::npos || c.method[0] == 'p'
                        : c.scene == "ring" ? c.method.starts_with("back") || c.method[0] == 'p'
                                            : c.scene == "panes" && c.method[0] == 'f';
-    if (shown) results.picture(picture_file(picture_name(c.scene, c.method), c.picture, 3));
+    if (!shown) continue;
+    results.picture(picture_file(c.name, c.picture), c.command, 3 * c.picture.width);
+    results.file(c.file);
   }
   return results.files();
 }

@@ -1,5 +1,7 @@
 #include "validation/studies/hidden_surface/hidden_surface.h"
 
+#include <fmt/format.h>
+
 #include "fathom/numeric/errors.h"
 #include "validation/studies/hidden_surface/comparison.h"
 #include "validation/studies/hidden_surface/eye_scene.h"
@@ -101,7 +103,11 @@ void add_cases(Results& results, const std::vector<HiddenSurfaceCase>& scenes) {
   results.table(scenes_table(scenes), {.csv = "scenes", .json = "scenes", .page = "scenes"});
   for (const HiddenSurfaceCase& scene : scenes) {
     const std::uint32_t width = scene.picture.width;
-    results.picture(picture_file(scene.name, scene.picture), width <= 320 ? 2 * width : 0);
+    const std::string command = fmt::format(
+        "fathom render {0}.obj --camera {0}.json --engine pipeline --hidden-surface painter "
+        "--precision binary64 --subpixel-bits 16 --shading none --image {0}.png -o map.exr",
+        scene.name);
+    results.picture(picture_file(scene.name, scene.picture), command, width <= 320 ? 2 * width : 0);
     for (const StudyFile& file : scene.files) results.file(file);
   }
 }

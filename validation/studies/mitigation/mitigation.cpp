@@ -7,6 +7,7 @@
 #include "validation/studies/mitigation/cures.h"
 #include "validation/studies/page_texts.h"
 #include "validation/studies/results.h"
+#include "validation/studies/scene_files.h"
 
 namespace fathom::studies {
 namespace {
@@ -71,12 +72,29 @@ Plot offset_plot(const std::vector<OffsetCount>& counts) {
   return plot;
 }
 
-/// fights-NAME: where the scene fights in a format.
-void picture_fights(Results& results, const std::string& name, SceneView view,
-                    const DepthMap& visible, double near, Mapping mapping, Storage storage) {
+/// The files that the commands under the pictures read: the scene as it was given, or the panels.
+std::string scene_beside_page(Results& results, const SceneView& view, bool is_given) {
+  if (is_given) return view.name;
+  std::string names;
+  for (const Object& object : view.scene.objects) {
+    Scene part;
+    part.meshes = {view.scene.meshes[object.mesh]};
+    results.file({object.name + ".obj", obj_of(part)});
+    names += (names.empty() ? "" : " ") + object.name + ".obj";
+  }
+  return names;
+}
+
+/// fights-NAME: where the scene fights in a format; NAME.json: its camera.
+void picture_fights(Results& results, const std::string& name, const std::string& files,
+                    SceneView view, const DepthMap& visible, double near, Mapping mapping,
+                    Storage storage) {
   view.camera.near = near;
   const DepthFormat format = format_between(near, view.camera.far, mapping, storage);
-  results.picture(pictures_of(name, buffer_scene(view, visible, format)).front());
+  const BufferedScene buffered = buffer_scene(view, visible, format);
+  const FightPicture picture = pictures_of(name, buffered, files, name + ".json").front();
+  results.picture(picture.png, picture.command);
+  results.file(camera_file(name, view.camera));
 }
 
 }  // namespace
@@ -122,11 +140,13 @@ std::vector<StudyFile> study_mitigation(const StudyOptions& options,
   plot_cures(results, "formats", "Pixels that fight, by format", formats);
   results.plot(offset_plot(offsets));
   const double near = view.camera.near;
-  picture_fights(results, "before", view, visible, near, Mapping::standard, uncured_storage);
-  picture_fights(results, "near", view, visible, nears.back().fights.format.near, Mapping::standard,
-                 uncured_storage);
-  picture_fights(results, "reversed", view, visible, near, Mapping::reversed, Storage::float32);
-  picture_fights(results, "log", view, visible, near, Mapping::log, uncured_storage);
+  const std::string files = scene_beside_page(results, view, options.scene.has_value());
+  picture_fights(results, "before", files, view, visible, near, Mapping::standard, uncured_storage);
+  picture_fights(results, "near", files, view, visible, nears.back().fights.format.near,
+                 Mapping::standard, uncured_storage);
+  picture_fights(results, "reversed", files, view, visible, near, Mapping::reversed,
+                 Storage::float32);
+  picture_fights(results, "log", files, view, visible, near, Mapping::log, uncured_storage);
   tick(1);
   return results.files();
 }

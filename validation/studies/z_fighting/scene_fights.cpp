@@ -1,8 +1,11 @@
 #include "validation/studies/z_fighting/scene_fights.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/camera/camera_files.h"
 #include "validation/studies/formats.h"
 
 namespace fathom::studies {
@@ -23,21 +26,27 @@ BufferedScene buffer_scene(const SceneView& view, const DepthMap& visible,
   return buffered;
 }
 
-std::vector<StudyFile> pictures_of(const std::string& name, const BufferedScene& buffered) {
-  const auto& fight = *buffered.map.values<std::uint32_t>("Zfight");
-  const auto& error = *buffered.map.values<float>("Zerror");
-  const auto& id = *buffered.map.values<std::uint32_t>("id");
-  DepthMap map;
-  map.width = buffered.map.width;
-  map.height = buffered.map.height;
-  const std::string format = label_of(buffered.fights.format);
-  const std::string wrong = "wrong surface, " + format, off = "depth error, " + format;
-  map.channels = {{"id", id}, {wrong, Samples<float>(fight.begin(), fight.end())}, {off, error}};
+std::vector<FightPicture> pictures_of(const std::string& name, const BufferedScene& buffered,
+                                      const std::string& scene, const std::string& camera) {
+  const DepthFormat& format = buffered.fights.format;
   const double end = std::max(buffered.fights.greatest_error, 1e-30);
-  return {picture("fights-" + name, map,
-                  {.channel = wrong, .colours = ColourMap::grey, .low = 0, .high = 1}),
-          picture("error-" + name, map,
-                  {.channel = off, .colours = ColourMap::viridis, .low = -end, .high = end})};
+  const std::string map = fmt::format(
+      "fathom render {} --camera {} --depth-format {} --mapping {} --against-exact -o map.exr",
+      scene, camera, name_of(format.storage), name_of(format.mapping));
+  return {
+      {picture("fights-" + name, buffered.map,
+               {.channel = "Zfight", .colours = ColourMap::grey, .low = 0, .high = 1}),
+       fmt::format("{} && fathom preview map.exr --channel Zfight --colormap grey --range 0,1 "
+                   "-o fights-{}.png",
+                   map, name)},
+      {picture("error-" + name, buffered.map,
+               {.channel = "Zerror", .colours = ColourMap::viridis, .low = -end, .high = end}),
+       fmt::format("{} && fathom preview map.exr --channel Zerror --range {},{} -o error-{}.png",
+                   map, -end, end, name)}};
+}
+
+StudyFile camera_file(const std::string& name, const Camera& camera) {
+  return {name + ".json", to_json(camera) + "\n"};
 }
 
 }  // namespace fathom::studies

@@ -30,7 +30,17 @@ struct BufferedScene {
 BufferedScene buffer_scene(const SceneView& view, const DepthMap& visible,
                            const DepthFormat& format);
 
-/// Pictures: where it fights, and how far decoded depths are off.
-std::vector<StudyFile> pictures_of(const std::string& name, const BufferedScene& buffered);
+/// A picture, and the command that draws it in the folder of the page.
+struct FightPicture {
+  StudyFile png;
+  std::string command;
+};
+/// fights-NAME: where it fights; error-NAME: how far decoded depths are off. The commands read these
+/// files of the scene and its camera.
+std::vector<FightPicture> pictures_of(const std::string& name, const BufferedScene& buffered,
+                                      const std::string& scene, const std::string& camera);
+
+/// NAME.json
+StudyFile camera_file(const std::string& name, const Camera& camera);
 
 }  // namespace fathom::studies

@@ -168,8 +168,12 @@ std::vector<StudyFile> study_scene_fights(const StudyOptions& options,
   results.table(separations_table(losses), {.csv = "separations"});
   results.table(separation_lists(losses), {.json = "separations"});
   results.plot(separation_plot(losses));
+  results.file(camera_file("camera", view.camera));
   for (const DepthFormat& format : shown_formats(view.camera)) {
-    results.pictures(pictures_of(file_name_of(format), buffer_scene(view, visible, format)));
+    const std::string name = file_name_of(format);
+    const BufferedScene buffered = buffer_scene(view, visible, format);
+    for (const auto& [png, command] : pictures_of(name, buffered, view.name, "camera.json"))
+      results.picture(png, command);
   }
   tick(1);
   return results.files();
