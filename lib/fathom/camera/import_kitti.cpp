@@ -119,15 +119,8 @@ Matrix34 beside(const Matrix34& world_from_camera0, const std::array<Ratio, 3>& 
   // The inverse's rotation as it is; of its translation the exact one, plus t.
   Matrix34 pose = camera_from_world(world_from_camera0, PoseDirection::camera_to_world,
                                     CameraAxes::opencv, where);
-  const auto column = [&](std::size_t k) {
-    return ExactVector3{world_from_camera0[0][k], world_from_camera0[1][k],
-                        world_from_camera0[2][k]};
-  };
-  const ExactVector3 a0 = column(0), a1 = column(1), a2 = column(2), b = column(3);
-  const Dyadic det = determinant(a0, a1, a2);
-  const std::array<ExactVector3, 3> adjugate{cross(a1, a2), cross(a2, a0), cross(a0, a1)};
-  for (std::size_t i = 0; i < 3; ++i)
-    pose[i][3] = round_to_binary64(t[i] - Ratio(dot(adjugate[i], b), det));
+  const auto exact = exact_inverse(world_from_camera0);
+  for (std::size_t i = 0; i < 3; ++i) pose[i][3] = round_to_binary64(t[i] + exact->at(i)[3]);
   return pose;
 }
 

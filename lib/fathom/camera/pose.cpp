@@ -66,7 +66,7 @@ Matrix34 pose_that_takes(const Matrix3& R, const ExactVector3& X, const ExactVec
 }
 
 // A⁻¹ = adj A / det A; the rows of the adjugate are the cross products of the columns of A.
-std::optional<Matrix34> inverse(const Matrix34& pose) {
+std::optional<std::array<std::array<Ratio, 4>, 3>> exact_inverse(const Matrix34& pose) {
   const auto column = [&](std::size_t k) {
     return ExactVector3{pose[0][k], pose[1][k], pose[2][k]};
   };
@@ -74,12 +74,21 @@ std::optional<Matrix34> inverse(const Matrix34& pose) {
   const Dyadic det = determinant(a0, a1, a2);
   if (det.is_zero()) return std::nullopt;
   const std::array<ExactVector3, 3> adjugate{cross(a1, a2), cross(a2, a0), cross(a0, a1)};
-  const auto rounded = [&](const Dyadic& x) { return round_to_binary64(Ratio(x, det)); };
-  Matrix34 inverse;
+  const auto over_det = [&](const Dyadic& x) { return Ratio(x, det); };
+  std::array<std::array<Ratio, 4>, 3> inverse;
   for (std::size_t i = 0; i < 3; ++i)
-    inverse[i] = {rounded(adjugate[i][0]), rounded(adjugate[i][1]), rounded(adjugate[i][2]),
-                  rounded(-dot(adjugate[i], b))};
+    inverse[i] = {over_det(adjugate[i][0]), over_det(adjugate[i][1]), over_det(adjugate[i][2]),
+                  over_det(-dot(adjugate[i], b))};
   return inverse;
+}
+
+std::optional<Matrix34> inverse(const Matrix34& pose) {
+  const auto exact = exact_inverse(pose);
+  if (!exact) return std::nullopt;
+  Matrix34 rounded;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 4; ++k) rounded[i][k] = round_to_binary64((*exact)[i][k]);
+  return rounded;
 }
 
 }  // namespace fathom::camera

@@ -30,8 +30,9 @@ ExactVector3 rotate(const Matrix3& R, const ExactVector3& X);
 /// translation is the exact one rounded once.
 Matrix34 pose_that_takes(const Matrix3& R, const ExactVector3& X, const ExactVector3& target);
 
-/// [A⁻¹ | −A⁻¹·b] of a pose [A | b], each entry the exact one rounded once; nothing where A is
-/// singular.
+/// [A⁻¹ | −A⁻¹·b] of a pose [A | b], exactly; nothing where A is singular.
+std::optional<std::array<std::array<Ratio, 4>, 3>> exact_inverse(const Matrix34& pose);
+/// The same, each entry rounded once.
 std::optional<Matrix34> inverse(const Matrix34& pose);
 
 }  // namespace fathom::camera
