@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "fathom/triangle/sampling.h"
+
 namespace fathom::triangle {
 namespace {
 
@@ -82,11 +84,7 @@ bool Referee::is_in_range(std::uint32_t number, const ImagePoint& s, RenderStati
       return *certain;
     }
   }
-  const Ratio depth = depth_at(projected(number), s);
-  if (depth.sign() != Sign::positive) return false;
-  if (compare(depth, Ratio(Dyadic(camera_.near))) < 0) return false;
-  return camera_.far == std::numeric_limits<double>::infinity() ||
-         compare(depth, Ratio(Dyadic(camera_.far))) <= 0;
+  return triangle::is_in_range(depth_at(projected(number), s), camera_);
 }
 
 /// Needs    triangles that are not degenerate.
