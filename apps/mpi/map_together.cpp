@@ -6,6 +6,7 @@
 #include <exception>
 #include <filesystem>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "apps/mpi/banded_exr.h"
@@ -68,6 +69,8 @@ class MapTogether {
 
   /// What each rank has counted, but for the triangles of the scene, which all know.
   void sum_up_statistics() {
+    static_assert(std::has_unique_object_representations_v<RenderStatistics>,
+                  "expected counts alone, without padding and floating-point numbers");
     using Counts = std::array<std::uint64_t, sizeof(RenderStatistics) / sizeof(std::uint64_t)>;
     auto counts = std::bit_cast<Counts>(drawing_.statistics());
     ranks_.add_up(counts);
