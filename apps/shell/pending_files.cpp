@@ -9,7 +9,7 @@
 namespace fathom::app {
 namespace {
 
-// The one piece of global state: a signal handler has no other way to know.
+// Global, as a signal handler reaches nothing else.
 std::atomic<PendingFile*> first_pending{nullptr};
 
 }  // namespace
