@@ -20,12 +20,14 @@ std::vector<Companion> companions() {
   return {
       {"clip", "fathom-textbook", "Clip polygons and segments given as JSON lines"},
       {"scan", "fathom-textbook", "Rasterize lines, polygons and triangles given as JSON lines"},
-      {"pipeline", "fathom-textbook", "Look into the graphics pipeline"},
+      {"pipeline", "fathom-textbook",
+       "Trace primitives through the graphics pipeline, or run one of its stages"},
       {"study", "fathom-study",
-       "Precision of depth buffers, and what textbooks teach, measured: figures and pages"},
+       "Measure depth-buffer precision and textbook algorithms; write tables and web pages"},
       {"formats", "fathom-formats",
-       "Which libraries read meshes of foreign formats (FBX, COLLADA, 3DS, 3MF, …)"},
-      {"bench", "fathom-bench", "Time and memory beside VTK, Embree and the reference engine"},
+       "Show which libraries read foreign mesh formats (FBX, COLLADA, 3DS, 3MF, …)"},
+      {"bench", "fathom-bench",
+       "Compare time and memory with VTK, Embree and the reference engine"},
       {"validate", "fathom-validate",
        "Check another renderer's maps against the truth and explain every difference"}};
 }

@@ -95,26 +95,29 @@ int parse_repeat(const std::string& text) {
 
 void BenchArguments::add_to(Command& command) {
   command.option("--scene", "NAME", into(scenes, parse_scenes),
-                 "Scenes to render (default: see below)");
+                 "Render these scenes (default: see below)");
   command.option("--size", "WxH", into(sizes, parse_sizes),
-                 "Image sizes (default 1920x1080; with --parts 640x360)");
+                 "Render at these image sizes (default 1920x1080; with --parts 640x360)");
   command.option("--threads", "N", into(threads, parse_threads),
-                 "Numbers of threads (default: all processors; with --parts 1, 2, 4, …)");
-  const Option peers_option = command.option(
-      "--peers", "NAME", into(peers, parse_peers),
-      "Renderers beside fast and fast-kept: vtk, embree, reference, masked-occlusion-culling or "
-      "none (default: all that are built in, the reference engine up to 20000 triangles)");
+                 "Use these numbers of threads (default: all processors; with --parts 1, 2, 4, …)");
+  const Option peers_option =
+      command.option("--peers", "NAME", into(peers, parse_peers),
+                     "Compare fast and fast-kept with these renderers: vtk, embree, reference, "
+                     "masked-occlusion-culling or none (default: all that are built in; the "
+                     "reference engine up to 20000 triangles)");
   const Option channels_option =
       command.option("--channels", "LIST", into(channels, parse_channels),
-                     "Channels that our engines compute (default Z)");
+                     "Compute these channels with Fathom's engines (default Z)");
   command.option("--repeat", "N", into(repeat, parse_repeat),
-                 "Frames to time, within 20 seconds (default 9)");
-  command.option("--json", "FILE", json, "Also write the figures as JSON; - for only them");
-  command.flag("--parts", parts, "What each idea brings, instead of a comparison with others")
+                 "Time this many frames, within 20 seconds (default 9)");
+  command.option("--json", "FILE", json, "Also write the figures as JSON; - prints the JSON alone");
+  command
+      .flag("--parts", parts,
+            "Measure each optimisation of the fast engine instead of comparing renderers")
       .excludes(peers_option)
       .excludes(channels_option);
   command.option("--idea", "NAME", into(ideas, parse_ideas),
-                 "With --parts, only some: " + joined(bench::idea_names(), ", "));
+                 "Measure only these optimisations: " + joined(bench::idea_names(), ", "));
 }
 
 }  // namespace fathom::app

@@ -142,7 +142,7 @@ int run_bench(const BenchArguments& arguments, const Console& console) {
 
 void add_bench(Command& program) {
   Command& command = program.command(
-      "bench", "Time and memory beside VTK, Embree and the reference engine",
+      "bench", "Compare time and memory with VTK, Embree and the reference engine",
       "  fathom bench\n"
       "  fathom bench --scene sphere-200k,soup --threads 1,2 --json times.json\n"
       "  fathom bench --scene sphere-5k --peers reference --size 640x360\n"

@@ -106,7 +106,7 @@ int run(MpiBenchArguments arguments, const Console& console) {
 void add_measuring(Command& program) {
   const auto arguments = std::make_shared<MpiBenchArguments>();
   Command& command = program.command(
-      "measure", "Time the ranks of an MPI run on a scene that they make",
+      "measure", "Time the ranks of an MPI run on a generated scene",
       "  mpirun -n 2 fathom_mpi_bench --scene soup --triangles 1000000 -o map.exr\n");
   arguments->add_to(command);
   command.runs([arguments](const Console& console) { return run(*arguments, console); });

@@ -22,24 +22,24 @@ MpiBenchArguments::MpiBenchArguments() {
 
 void MpiBenchArguments::add_to(Command& command) {
   RenderArguments& render = rendering.render;
-  command.option("--scene", "NAME", into(scene.kind, parse_kind),
-                 "terrain (default: neighbours follow each other) or soup (nothing does)");
-  command.option("--triangles", "N", into(scene.triangles, parse_positive),
-                 "How many (default 1000000)");
   command.option(
-      "--edge", "LENGTH", into(scene.edge, parse_scale),
-      "Of the soup, which fills a cube of 1: the size of its triangles (default 2 / √N)");
-  command.option("--size", "WxH", into(size, parse_size), "Of the image (default 1920x1080)");
+      "--scene", "NAME", into(scene.kind, parse_kind),
+      "Scene: terrain (default; neighbouring triangles follow each other) or soup (random order)");
+  command.option("--triangles", "N", into(scene.triangles, parse_positive),
+                 "Number of triangles (default 1000000)");
+  command.option("--edge", "LENGTH", into(scene.edge, parse_scale),
+                 "Triangle size for the soup scene, which fills a unit cube (default 2 / √N)");
+  command.option("--size", "WxH", into(size, parse_size), "Image size (default 1920x1080)");
   command.option("--channels", "LIST", into(render.channels, parse_channels),
-                 "Those of the map (default Z)");
+                 "Channels of the map (default Z)");
   command.option("--partition", "NAME", into(rendering.partition, parse_partition),
-                 "How tiles are dealt out: load (default), rows or round-robin");
+                 "Distribute the tiles by load (default), rows or round-robin");
   command.option("--memory", "SIZE", into(rendering.memory, parse_bytes),
-                 "What a rank may take for its triangles, as 'fathom-mpi render' says");
+                 "Maximum memory of a rank for its triangles; see 'fathom-mpi render --help'");
   command.option("--threads", "N", into(render.scene.threads, parse_thread_count),
-                 "Of each rank (default 1)");
+                 "Threads per rank (default 1)");
   command.option("--traffic", "FILE", rendering.traffic,
-                 "Keep what 'fathom-mpi render --traffic' tells");
+                 "Write the report of 'fathom-mpi render --traffic' to this file");
   add_output_option(command, "FILE", render.output, "The map").required();
 }
 

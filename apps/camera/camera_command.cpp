@@ -4,7 +4,7 @@ namespace fathom::app {
 
 void add_camera(Command& program) {
   Command& family = program.command(
-      "camera", "Make a camera file",
+      "camera", "Make or import a camera file",
       "  fathom camera look-at --eye 2,1,3 --target 0,0,0 -o camera.json\n"
       "  fathom camera orbit spot.obj --views 12 -o path.json\n"
       "  fathom camera import colmap sparse/0 -o cameras.json\n"

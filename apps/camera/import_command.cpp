@@ -37,10 +37,12 @@ void add_source(Command& parent, const ImportSource& source) {
   Command& command = parent.command(source.name, source.description, source.example);
   command.argument("INPUT", arguments->input, source.input).required();
   source.declare(command, *arguments);
-  command.option("--image", "NAME", arguments->choice.image, "Only the camera of this image");
+  command.option("--image", "NAME", arguments->choice.image,
+                 "Import only the camera of this image");
   add_distortion_option(command, arguments->choice);
-  command.flag("--list", arguments->list, "Write the names of the images instead");
-  add_output_option(command, "FILE", arguments->output, "Camera file (default: standard output)");
+  command.flag("--list", arguments->list, "Print the names of the images instead");
+  add_output_option(command, "FILE", arguments->output,
+                    "Write the camera file here (default: standard output)");
   command.runs([arguments, read = source.read](const Console& console) {
     Warnings warnings;
     const std::vector<ImportedCamera> imported = read(*arguments, warnings);
@@ -53,7 +55,7 @@ void add_source(Command& parent, const ImportSource& source) {
 
 void add_import(Command& camera) {
   Command& family = camera.command(
-      "import", "Convert the cameras of other programs and of data sets",
+      "import", "Import the cameras of other programs and of data sets",
       "  fathom camera import colmap sparse/0 -o cameras.json\n"
       "  fathom camera import nerf transforms.json --size 800x800 -o cameras.json\n"
       "  fathom camera import tum groundtruth.txt --images depth.txt --K ros -o cameras.json\n"

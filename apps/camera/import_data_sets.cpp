@@ -45,11 +45,12 @@ void add_pixel_centre(Command& command, ImportArguments& a, const std::string& o
   command.option(
       "--pixel-centre", "0|0.5",
       into(a.pixel_centre, [](const std::string& text) { return parse_word(text, pixel_centres); }),
-      "What cx and cy count the first pixel's centre as" + otherwise);
+      "Coordinate that cx and cy give the centre of the first pixel" + otherwise);
 }
 
 void add_lens_options(Command& command, ImportArguments& a) {
-  command.option("--K", "fx,fy,cx,cy", a.K, "Other intrinsics than the data set's, in pixels");
+  command.option("--K", "fx,fy,cx,cy", a.K,
+                 "Use these intrinsics in pixels instead of the data set's");
   add_size_option(command, a);
   add_pixel_centre(command, a, " (default 0)");
 }
@@ -63,20 +64,22 @@ void declare_matrices(Command& command, ImportArguments& a) {
       .option(
           "--poses", "world-to-camera|camera-to-world",
           into(a.direction, [](const std::string& text) { return parse_word(text, directions); }),
-          "Which way the matrices lead")
+          "Direction of the matrices")
       .required();
   command
       .option("--axes", "opencv|opengl",
               into(a.axes, [](const std::string& text) { return parse_word(text, axes); }),
-              "The camera's axes: y down and z forward, or y up and z backward")
+              "Axes of the camera: y down and z forward, or y up and z backward")
       .required();
   command
       .option("--pixel-centre", "0|0.5",
               into(a.pixel_centre,
                    [](const std::string& text) { return parse_word(text, pixel_centres); }),
-              "What cx and cy count the first pixel's centre as")
+              "Coordinate that cx and cy give the centre of the first pixel")
       .required();
-  command.option("--size", "WxH", into(a.size, parse_size), "WIDTHxHEIGHT of the images in pixels")
+  command
+      .option("--size", "WxH", into(a.size, parse_size),
+              "Size of the images in pixels, WIDTHxHEIGHT")
       .required();
 }
 
@@ -94,12 +97,11 @@ Cameras read_matrices(const ImportArguments& a, Warnings&) {
 void declare_tum(Command& command, ImportArguments& a) {
   command
       .option("--K", "LENS", a.K,
-              "fx,fy,cx,cy in pixels, or ros (for depth), freiburg1, freiburg2 or freiburg3 (for "
-              "colour)")
+              "Intrinsics: fx,fy,cx,cy in pixels, or ros (for depth), freiburg1, freiburg2 or "
+              "freiburg3 (for colour)")
       .required();
   command.option("--images", "FILE", a.images,
-                 "rgb.txt or depth.txt: the cameras of its images, each with the pose nearest in "
-                 "time");
+                 "List of images, rgb.txt or depth.txt; each image gets the pose nearest in time");
   add_size_option(command, a);
   add_pixel_centre(command, a, " (default 0)");
 }
@@ -124,7 +126,7 @@ Cameras read_7scenes(const ImportArguments& a, Warnings&) {
 void declare_scannet(Command& command, ImportArguments& a) {
   command.option("--stream", "depth|colour",
                  into(a.stream, [](const std::string& text) { return parse_word(text, streams); }),
-                 "Which images (default depth)");
+                 "Images to import (default depth)");
   add_lens_options(command, a);
 }
 
@@ -141,9 +143,10 @@ Cameras read_replica(const ImportArguments& a, Warnings&) {
 }
 
 void declare_kitti(Command& command, ImportArguments& a) {
-  command.option("--poses", "FILE", a.poses, "poses/NN.txt: camera 0 to world, a line per frame");
+  command.option("--poses", "FILE", a.poses,
+                 "Poses from camera 0 to world, one line per frame: poses/NN.txt");
   command.option("--camera", "N", into(a.number, parse_count),
-                 "With poses: which camera, 0 or 1 (grey), 2 or 3 (colour)");
+                 "Camera to import with poses: 0 or 1 (grey), 2 or 3 (colour)");
   add_size_option(command, a);
   add_pixel_centre(command, a, " (default 0)");
 }
@@ -156,7 +159,7 @@ Cameras read_kitti(const ImportArguments& a, Warnings&) {
 
 std::vector<ImportSource> data_set_sources() {
   return {
-      {"matrices", "K and poses as text, .npy or .npz",
+      {"matrices", "Intrinsics and poses as text, .npy or .npz",
        "A file or folder of matrices: .txt, .npy, .npz or .npz:ARRAY",
        "  fathom camera import matrices poses.npy --K K.txt --size 640x480 --poses "
        "camera-to-world \\\n"

@@ -42,13 +42,13 @@ Cameras read_opengl(const ImportArguments& a, Warnings&) {
 
 void add_size_option(Command& command, ImportArguments& arguments) {
   command.option("--size", "WxH", into(arguments.size, parse_size),
-                 "WIDTHxHEIGHT of the images in pixels");
+                 "Size of the images in pixels, WIDTHxHEIGHT");
 }
 
 void add_distortion_option(Command& command, CameraChoice& choice) {
   command.flag(
       "--ignore-distortion", choice.ignore_distortion,
-      "Take cameras with lens distortion as if they had none; without it they are left out");
+      "Import cameras with lens distortion as pinholes; without this option they are left out");
 }
 
 std::vector<ImportSource> program_sources() {

@@ -30,16 +30,18 @@ int run_look_at(const LookAtArguments& arguments) {
 void add_look_at(Command& camera) {
   const auto arguments = std::make_shared<LookAtArguments>();
   Command& command =
-      camera.command("look-at", "The camera at a point that looks at another",
+      camera.command("look-at", "Make a camera at a point, looking at another point",
                      "  fathom camera look-at --eye 2,1,3 --target 0,0,0 -o camera.json\n"
                      "  fathom camera look-at --eye 0,0,5 --orthographic 2 --size 512x512");
-  command.option("--eye", "X,Y,Z", into(arguments->eye, parse_vector), "X,Y,Z of the camera")
+  command
+      .option("--eye", "X,Y,Z", into(arguments->eye, parse_vector), "Position of the camera, X,Y,Z")
       .required();
   command.option("--target", "X,Y,Z", into(arguments->target, parse_vector),
-                 "X,Y,Z of the point it looks at (default 0,0,0)");
+                 "Point that the camera looks at, X,Y,Z (default 0,0,0)");
   add_up_option(command, arguments->up);
   add_lens_options(command, arguments->lens);
-  add_output_option(command, "FILE", arguments->output, "Camera file (default: standard output)");
+  add_output_option(command, "FILE", arguments->output,
+                    "Write the camera file here (default: standard output)");
   command.runs([arguments](const Console&) { return run_look_at(*arguments); });
 }
 

@@ -52,7 +52,7 @@ int run_orbit(const OrbitArguments& arguments, const Console& console) {
 void add_orbit(Command& camera) {
   const auto arguments = std::make_shared<OrbitArguments>();
   Command& command = camera.command(
-      "orbit", "A camera path around a scene or a point",
+      "orbit", "Make a camera path around a scene or a point",
       "  fathom camera orbit spot.obj --views 12 -o path.json\n"
       "  fathom render spot.obj --camera path.json -o 'maps/{index:04}.exr'\n"
       "  fathom camera orbit --views 36 --centre 0,0,1 --distance 4 --view 0,30 --up z");
@@ -62,11 +62,12 @@ void add_orbit(Command& camera) {
       .required();
   add_view_options(command, arguments->first);
   command.option("--centre", "X,Y,Z", into(arguments->centre, parse_vector),
-                 "X,Y,Z of the point they look at (default 0,0,0)");
+                 "Point that the cameras look at, X,Y,Z (default 0,0,0)");
   command.option("--distance", "D", into(arguments->distance, parse_number),
-                 "Of the eye from the centre");
+                 "Distance of the eye from the centre");
   add_lens_options(command, arguments->lens);
-  add_output_option(command, "FILE", arguments->output, "Camera file (default: standard output)");
+  add_output_option(command, "FILE", arguments->output,
+                    "Write the camera file here (default: standard output)");
   command.runs([arguments](const Console& console) { return run_orbit(*arguments, console); });
 }
 

@@ -97,10 +97,11 @@ void add_bop_layout(Command& family) {
   command.option("--models", "DIR", arguments->models, "The folder with obj_000001.ply and so on")
       .required();
   command.option("--size", "WxH", into(arguments->size, parse_size),
-                 "WIDTHxHEIGHT of the images in pixels");
+                 "Size of the images in pixels, WIDTHxHEIGHT");
   arguments->render.storage.add_beyond_to(command);
-  command.flag("--areas", arguments->areas,
-               "Exact areas beside the counts of pixels: area_all, area_visib, visib_area_fract");
+  command.flag(
+      "--areas", arguments->areas,
+      "Write exact areas next to the pixel counts: area_all, area_visib, visib_area_fract");
   command.runs([arguments](const Console& console) { return run_bop(*arguments, console); });
 }
 

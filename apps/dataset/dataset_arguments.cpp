@@ -8,14 +8,12 @@ namespace fathom::app {
 
 void DatasetArguments::add_to(Command& command, const std::string& what) {
   command.argument("INPUT", input, what).required();
-  add_output_option(command, "DIR", folder,
-                    "The folder of the data set; it is made where it is missing")
+  add_output_option(command, "DIR", folder, "Folder of the data set; created if missing")
       .required();
   render.scene.add_reading_to(command);
   add_cull_option(command, render.cull);
   command.option("--shard", "I/N", into(shard, parse_shard),
-                 "Make every Nth map, beginning with the Ith: N machines make them all, without "
-                 "knowing of each other");
+                 "Render every Nth map, beginning with the Ith, so that N machines share the work");
   command.flag(
       "--overwrite", overwrites,
       "Overwrite existing files, even those not made by fathom; where a name is a symbolic "
@@ -25,7 +23,7 @@ void DatasetArguments::add_to(Command& command, const std::string& what) {
 void DatasetArguments::add_scene_to(Command& command) {
   command
       .option_with_values("--mesh", "FILE", render.scene.files,
-                          "Mesh or scene file; may be given several times")
+                          "Mesh or scene file to render; repeat the option for several")
       .required();
 }
 

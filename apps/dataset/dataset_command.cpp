@@ -6,7 +6,7 @@ namespace fathom::app {
 
 void add_dataset(Command& program) {
   Command& family = program.command(
-      "dataset", "Maps of a whole data set, in its own layout; goes on where it was interrupted",
+      "dataset", "Render all maps of a data set in its own layout; resume an interrupted run",
       "  fathom camera import colmap sparse/0 -o cameras.json\n"
       "  fathom dataset maps cameras.json --mesh room.ply --name 'depth/{stem}.npy' -o room\n"
       "\nEach map is in its place as soon as it is finished; DIR/fathom-manifest.jsonl says which "

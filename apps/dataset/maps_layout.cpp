@@ -65,18 +65,18 @@ void add_maps_layout(Command& family) {
       "  fathom dataset maps cameras.json --mesh room.ply --name 'depth/{stem}.npy' -o room\n"
       "  fathom dataset maps cameras.json --mesh room.ply --name '{index:05}.png' --png-scale "
       "1000 -o room\n");
-  arguments->add_to(command, "Camera file (JSON), such as camera import makes");
+  arguments->add_to(command, "Camera file (JSON), e.g. from 'fathom camera import'");
   arguments->add_scene_to(command);
   command.option("--name", "PATTERN", arguments->pattern,
-                 "What the maps are called below DIR; the suffix decides the format. {index:04} is "
-                 "the camera's number, {name} its name, {stem} that without folders and suffix "
-                 "(default {stem}.exr, or {index:06}.exr where cameras have no names)");
+                 "Pattern of the file names below DIR; the suffix selects the format. {index:04} "
+                 "is the camera's number, {name} its name, {stem} its name without folders and "
+                 "suffix (default {stem}.exr, or {index:06}.exr if cameras have no names)");
   command.option("--channels", "LIST", into(arguments->render.channels, parse_channels),
-                 "As render has them (default Z,A in EXR and NPZ, Z in other formats)");
+                 "Channels, as for render (default Z,A in EXR and NPZ, Z in other formats)");
   arguments->render.storage.add_to(command);
   command.option("--background", "D", into(arguments->render.storage.background, parse_background),
-                 "What depth channels hold where no surface is: inf (default), 0, nan or a number "
-                 "that no surface has (codes of a PNG: 0)");
+                 "Depth to store where there is no surface: inf (default), 0, nan or a number that "
+                 "no surface has (codes of a PNG: 0)");
   command.runs([arguments](const Console& console) { return run_maps(*arguments, console); });
 }
 

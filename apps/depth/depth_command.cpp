@@ -91,10 +91,9 @@ void add_question(Command& depth, const DepthCommand& question) {
   const auto arguments = std::make_shared<DepthArguments>();
   Command& command = depth.command(question.name, question.description, question.example);
   arguments->format.add_to(command);
-  command.flag("--clamp", arguments->clamp,
-               "Take depths outside [near, far] as the nearer of these");
+  command.flag("--clamp", arguments->clamp, "Clamp depths outside [near, far] to the nearer end");
   command.flag("--json", arguments->json,
-               "One JSON object a line, with all that is known; null is infinity");
+               "Print one JSON object per line with all details; null is infinity");
   command.arguments("VALUE", arguments->values, question.values);
   command.answers_on_standard_output();
   command.runs(
@@ -105,29 +104,29 @@ void add_question(Command& depth, const DepthCommand& question) {
 
 void add_depth(Command& program) {
   Command& family = program.command(
-      "depth", "What depth buffers store, exactly",
+      "depth", "Encode, decode and count depth-buffer values exactly",
       "  fathom depth encode --mapping reversed --storage unorm24 --near 0.1 --far 1000 5\n"
       "  fathom depth resolution --storage unorm16 --near 0.1 --far 100 1 10 50\n"
       "\n'fathom depth encode --help' lists the mappings and storages.");
   family.requires_command();
   add_question(family,
-               {"encode", "The stored value of a depth",
-                "Depths; without any, one a line is read from standard input",
+               {"encode", "Compute the stored value of a depth",
+                "Depths; if none is given, read from standard input, one per line",
                 "  fathom depth encode --mapping log --storage unorm24 --near 0.1 --far 1e6 12.5",
                 encode_answer});
   add_question(family,
-               {"decode", "The depth that a stored value stands for",
+               {"decode", "Compute the depth of a stored value",
                 "Integer codes of unorm storages, values from 0 to 1 of float storages",
                 "  fathom depth decode --storage unorm16 --near 0.1 --far 100 0 65000 65535",
                 decode_answer});
-  add_question(
-      family,
-      {"resolution",
-       "The larger of the distances to the depths of the two neighbouring codes, in scene units",
-       "Depths",
-       "  fathom depth resolution --storage unorm24 --near 0.1 --far 1000 1 10 100 --json",
-       resolution_answer});
-  add_question(family, {"codes", "How many codes a range of depths is stored as",
+  add_question(family,
+               {"resolution",
+                "Compute the larger of the distances to the depths of the two neighbouring codes, "
+                "in scene units",
+                "Depths",
+                "  fathom depth resolution --storage unorm24 --near 0.1 --far 1000 1 10 100 --json",
+                resolution_answer});
+  add_question(family, {"codes", "Count the codes that represent a range of depths",
                         "Depths D, for the range from near to D, or ranges NEAREST,FARTHEST",
                         "  fathom depth codes --storage unorm16 --near 0.1 --far 100 1 10,100",
                         codes_answer});

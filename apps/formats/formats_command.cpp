@@ -25,10 +25,10 @@ int show_formats(const Console&) {
 }  // namespace
 
 void add_formats(Command& program) {
-  Command& command =
-      program.command("formats", "Show by which libraries meshes of foreign formats are read",
-                      "  fathom formats\n"
-                      "  fathom info model.fbx");
+  Command& command = program.command(
+      "formats", "Show which libraries read foreign mesh formats (FBX, COLLADA, 3DS, 3MF, …)",
+      "  fathom formats\n"
+      "  fathom info model.fbx");
   command.runs(show_formats);
 }
 

@@ -80,8 +80,8 @@ void add_compare(Command& program) {
                       "  fathom compare spot.exr blender.exr --heatmap differences.png\n"
                       "  fathom compare truth.exr network.npy --metrics --absolute 0.001 --json -\n"
                       "  fathom compare disp0.pfm mine.pfm --disparity-metrics");
-  command.argument("TRUTH", arguments->truth, "The map that is right").required();
-  command.argument("OTHER", arguments->other, "The map to check").required();
+  command.argument("TRUTH", arguments->truth, "Map with the true values").required();
+  command.argument("OTHER", arguments->other, "Map to check").required();
   command.option("--tolerance-ulp", "N", into(options.tolerance_ulp, parse_tolerance),
                  "Accept differences of up to N units in the last place (default 0)");
   command.option("--absolute", "D", into(options.tolerance_absolute, parse_tolerance),
@@ -90,26 +90,27 @@ void add_compare(Command& program) {
                  "Accept relative differences of up to R as well");
   command.flag(
       "--metrics", arguments->metrics,
-      "Add the figures of benchmarks, over the pixels where both show a surface: AbsRel, "
-      "SqRel, RMSE, RMSE log, MAE and the shares below 1.25, 1.25^2 and 1.25^3; of a channel "
-      "'disparity' EPE, RMSE and the shares off by more than 0.5, 1 and 2 pixels");
-  command.flag("--disparity-metrics", arguments->disparity_metrics,
-               "Those of disparities, whatever the channel is called (PFM does not say)");
+      "Add the metrics of benchmarks, over the pixels where both maps show a surface: AbsRel, "
+      "SqRel, RMSE, RMSE log, MAE and the shares below 1.25, 1.25^2 and 1.25^3; for a channel "
+      "'disparity': EPE, RMSE and the shares off by more than 0.5, 1 and 2 pixels");
+  command.flag(
+      "--disparity-metrics", arguments->disparity_metrics,
+      "Add the metrics of disparities, whatever the name of the channel (a PFM has no names)");
   command.option("--json", "FILE", arguments->json,
-                 "Write the figures to this file (- is standard output, without the text)");
-  command.option("--heatmap", "PNG", into(arguments->heatmap, parse_png_name),
-                 "Draw the differences in --channel (default Z, or the first channel of depths) as "
-                 "a picture (PNG)");
+                 "Write the figures as JSON to this file (- is standard output, without the text)");
+  command.option(
+      "--heatmap", "PNG", into(arguments->heatmap, parse_png_name),
+      "Draw the differences of --channel (default Z, or the first depth channel) to this PNG");
   command.option("--heatmap-unit", "NAME", into(arguments->heatmap_measure, parse_measure),
-                 "Unit of the colours of --heatmap: scene (default: as the channel is stored), "
+                 "Unit of the colours of --heatmap: scene (default; the unit of the channel), "
                  "relative or ulp (units in the last place)");
   command.option("--channel", "NAME", options.channel, "Compare this channel only");
   command.option("--other-channel", "NAME", options.other_channel,
-                 "Its name in OTHER, where that differs");
+                 "Name of the channel in OTHER, if different");
   command.option("--truth-background", "D", into(options.truth_background, parse_number),
-                 "The depth that means background in TRUTH (default: detected)");
+                 "Depth of the background in TRUTH (default: detected)");
   command.option("--other-background", "D", into(options.other_background, parse_number),
-                 "The depth that means background in OTHER (default: detected)");
+                 "Depth of the background in OTHER (default: detected)");
   command.answers_on_standard_output();
   command.runs([arguments](const Console&) { return run_compare(*arguments); });
 }

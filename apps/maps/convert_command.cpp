@@ -210,31 +210,31 @@ void add_convert(Command& program) {
       "once.");
   command
       .argument("MAP", arguments->map,
-                "The map: EXR, PFM, PNG, NPY, NPZ or a dense map of COLMAP's (.bin)")
+                "Map to convert: EXR, PFM, PNG, NPY, NPZ or a dense map of COLMAP (.bin)")
       .required();
-  add_output_option(
-      command, "FILE", arguments->output,
-      "A map (.exr, .pfm, .png, .npy, .npz, .bin for COLMAP, .tif for GIS) or a point cloud "
-      "(.ply)")
+  add_output_option(command, "FILE", arguments->output,
+                    "Write this map (.exr, .pfm, .png, .npy, .npz, .bin for COLMAP, .tif for GIS) "
+                    "or point cloud (.ply)")
       .required();
   command.option("--channel", "NAME", arguments->channel,
-                 "The channel to convert (default Z, or the only one)");
+                 "Channel to convert (default Z, or the only channel)");
   command.option("--to", "NAME", into(arguments->to, parse_quantity),
-                 "Z (planar depth), distance (along the ray) or disparity");
+                 "Convert to Z (planar depth), distance (along the ray) or disparity");
   command.option("--from", "NAME", into(arguments->from, parse_quantity),
-                 "What the map holds: Z (default), distance or disparity");
+                 "Quantity that the map holds: Z (default), distance or disparity");
   command.option("--camera", "FILE", arguments->camera,
-                 "Camera file, where the map does not carry its camera");
+                 "Camera file, if the map does not contain its camera");
   command.option("--baseline", "B", into(arguments->baseline, parse_number),
                  "Baseline of the stereo pair, for disparity");
   command.option("--doffs", "D", into(arguments->doffs, parse_number),
                  "Difference of the principal points of the stereo pair (default 0)");
   command.option("--frame", "NAME", into(arguments->frame, parse_frame),
-                 "Of the point cloud: world (default) or camera");
+                 "Frame of the point cloud: world (default) or camera");
   arguments->storage.add_to(command);
-  command.option("--background", "D", into(arguments->storage.background, parse_background),
-                 "What depths are where no surface is: 0, nan, inf or a number that no surface has "
-                 "(default: as in MAP; of disparities 0, where inf is Middlebury's unknown)");
+  command.option(
+      "--background", "D", into(arguments->storage.background, parse_background),
+      "Depth to store where there is no surface: 0, nan, inf or a number that no surface has "
+      "(default: as in MAP; for disparities 0, because inf is Middlebury's 'unknown')");
   command.runs([arguments](const Console& console) { return run_convert(*arguments, console); });
 }
 

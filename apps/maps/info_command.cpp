@@ -58,15 +58,15 @@ int run_info(const InfoArguments& arguments, const Console& console) {
 
 void add_info(Command& program) {
   const auto arguments = std::make_shared<InfoArguments>();
-  Command& command = program.command("info", "Describe a mesh, scene, camera or map",
+  Command& command = program.command("info", "Print the contents of a mesh, scene, camera or map",
                                      "  fathom info spot.obj\n"
                                      "  fathom info spot.exr --json");
-  command.argument("FILE", arguments->file, "A mesh, scene, camera or map; - is standard input")
+  command.argument("FILE", arguments->file, "Mesh, scene, camera or map; - is standard input")
       .required();
   command.option("--mesh-format", "NAME", into(arguments->scene.mesh_format, parse_mesh_format),
-                 "Take FILE for a mesh: obj, ply, stl, off, gltf or glb");
+                 "Read FILE as a mesh of this format: obj, ply, stl, off, gltf or glb");
   arguments->scene.limits.add_to(command);
-  command.flag("--json", arguments->json, "Answer in JSON");
+  command.flag("--json", arguments->json, "Print JSON");
   command.answers_on_standard_output();
   command.runs([arguments](const Console& console) { return run_info(*arguments, console); });
 }

@@ -46,14 +46,14 @@ void add_preview(Command& program) {
       "  fathom preview spot.exr --colormap magma --range 2,5 --unit m -o spot.png");
   command
       .argument("MAP", arguments->map,
-                "The map: EXR, PFM, PNG, NPY, NPZ or a dense map of COLMAP's")
+                "Map to draw: EXR, PFM, PNG, NPY, NPZ or a dense map of COLMAP")
       .required();
   add_output_option(command, "FILE", into(arguments->output, parse_png_name),
-                    "The picture (PNG, 8 bit)")
+                    "Write the picture here (PNG, 8 bit)")
       .required();
-  command.option("--channel", "NAME", options.channel, "The channel to draw (default Z)");
+  command.option("--channel", "NAME", options.channel, "Channel to draw (default Z)");
   command.option("--colormap", "NAME", into(options.colours, parse_colour_map),
-                 "viridis (default), magma, turbo or grey");
+                 "Colours: viridis (default), magma, turbo or grey");
   command.option(
       "--range", "LOW,HIGH",
       [&options](const std::string& text) {
@@ -61,8 +61,8 @@ void add_preview(Command& program) {
         options.low = low;
         options.high = high;
       },
-      "LOW,HIGH: ends of the colour bar (default: those of the map)");
-  command.option("--unit", "NAME", options.unit, "Shown after the channel's name");
+      "Ends of the colour bar, LOW,HIGH (default: least and greatest value of the map)");
+  command.option("--unit", "NAME", options.unit, "Unit to show after the name of the channel");
   command.runs([arguments](const Console&) { return run_preview(*arguments); });
 }
 

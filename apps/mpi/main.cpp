@@ -25,7 +25,7 @@ bool work_has_begun = false;
 void add_render_together(Command& program) {
   const auto arguments = std::make_shared<MpiArguments>();
   Command& command = program.command(
-      "render", "Render an exact depth map of a scene by the ranks of an MPI run",
+      "render", "Render an exact depth map of a scene on the ranks of an MPI run",
       "  mpirun -n 8 fathom-mpi render city.stl --camera camera.json -o city.exr\n"
       "  mpirun -n 2 fathom-mpi render room.json --channels Z,A,id,N --partition rows -o room.exr\n"
       "\nThe map is that of 'fathom render', byte for byte, whatever the number of ranks.");

@@ -18,23 +18,23 @@ std::uint64_t parse_memory(const std::string& text) {
 
 void MpiArguments::add_to(Command& command) {
   render.add_to(command);
+  command.begin_group("Ranks");
   command.option("--partition", "NAME", into(partition, parse_partition),
-                 "How tiles are dealt out to the ranks: load (default: runs of neighbours of about "
-                 "the same work), rows or round-robin. The map is the same");
+                 "Distribute the tiles by load (default: neighbouring tiles with about equal "
+                 "work), rows or round-robin. The map does not depend on it");
   command.option(
       "--memory", "SIZE", into(memory, parse_memory),
-      "How much memory each rank may take beside scenes that it has to read whole: 512M, "
-      "2G; at least 128M (default: its share of three quarters of what the machine has). "
-      "What does not fit waits in files in the folder that TMPDIR names. The map is the "
-      "same");
-  command.option(
-      "--traffic", "FILE", traffic,
-      "Write what the ranks have sent to each other and how long they have drawn, a line of "
-      "JSON for each map; '-' is standard output");
+      "Maximum memory of each rank, e.g. 512M or 2G, at least 128M; scenes that a rank has to read "
+      "whole come on top (default: an equal share of three quarters of the machine's memory). Data "
+      "that does not fit is kept in files in $TMPDIR. The map does not depend on it");
+  command.option("--traffic", "FILE", traffic,
+                 "Write the bytes that ranks sent to each other and their times, one line of JSON "
+                 "per map; '-' is standard output");
 }
 
 void refuse_what_is_missing(const RenderArguments& a) {
-  if (a.engine != EngineName::fast) throw UsageError("--engine: fathom-mpi has the fast one alone");
+  if (a.engine != EngineName::fast)
+    throw UsageError("--engine: fathom-mpi supports only --engine fast");
   if (a.stream) {
     throw UsageError("--stream: fathom-mpi leaves binary STL and PLY in their files anyway");
   }

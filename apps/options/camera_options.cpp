@@ -47,10 +47,9 @@ std::optional<Camera> camera_in_map(const DepthMap& map, const std::string& file
 }
 
 void CameraOptions::add_to(Command& command) {
-  const Option camera =
-      command.option("--camera", "FILE", file_,
-                     "Camera file (JSON), or a map, which carries its camera; without it, a camera "
-                     "that frames the scene");
+  const Option camera = command.option("--camera", "FILE", file_,
+                                       "Camera file (JSON), or a map, which contains its camera "
+                                       "(default: a camera that frames the scene)");
   for (Option& framing : add_view_options(command, view_)) framing.excludes(camera);
   for (Option& part : add_lens_options(command, lens_)) part.excludes(camera);
 }

@@ -13,8 +13,9 @@ Cull parse_cull(const std::string& text) {
 }  // namespace
 
 void add_cull_option(Command& command, Cull& cull) {
-  command.option("--cull", "NAME", into(cull, parse_cull),
-                 "Triangles to leave out: back, front or none (default none)");
+  command.option(
+      "--cull", "NAME", into(cull, parse_cull),
+      "Leave out triangles that show their back or front: back, front or none (default)");
 }
 
 }  // namespace fathom::app

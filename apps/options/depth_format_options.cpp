@@ -8,14 +8,14 @@
 namespace fathom::app {
 void DepthFormatOptions::add_to(Command& command) {
   command.option("--mapping", "NAME", into(mapping, mapping_named),
-                 "standard (default), reversed, infinite, reversed-infinite, opengl, linear, w, "
-                 "log or log-ulrich");
+                 "Mapping from depth to stored value: standard (default), reversed, infinite, "
+                 "reversed-infinite, opengl, linear, w, log or log-ulrich");
   command.option("--storage", "NAME", into(storage, storage_named),
-                 "unorm16, unorm24, unorm32, float16, float32 (default) or float64");
+                 "Storage: unorm16, unorm24, unorm32, float16, float32 (default) or float64");
   command.option("--near", "D", into(near, parse_number), "Least depth").required();
   command.option("--far", "D", into(far, parse_number_or_infinity),
-                 "Greatest depth; inf, the default of infinite and reversed-infinite");
-  command.option("--c", "C", into(c, parse_number), "The constant C of log (default 1)");
+                 "Greatest depth; inf is the default of infinite and reversed-infinite");
+  command.option("--c", "C", into(c, parse_number), "Constant C of mapping log (default 1)");
 }
 
 DepthFormat DepthFormatOptions::format() const {

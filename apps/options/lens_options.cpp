@@ -28,8 +28,7 @@ Vector3 parse_up(const std::string& text) {
 
 Option add_up_option(Command& command, Vector3& up) {
   return command.option("--up", "DIRECTION", into(up, parse_up),
-                        "The direction of the world that points up: x, y (default), z, -x, -y, -z "
-                        "or X,Y,Z");
+                        "World direction that points up: x, y (default), z, -x, -y, -z or X,Y,Z");
 }
 
 std::array<Option, 2> add_view_options(Command& command, View& view) {
@@ -40,8 +39,9 @@ std::array<Option, 2> add_view_options(Command& command, View& view) {
         view.azimuth = azimuth;
         view.elevation = elevation;
       },
-      "AZIMUTH,ELEVATION of the eye in degrees (default 35,25): at azimuth 0 the image's right is "
-      "+x (+y where x or -x is up), azimuth 90 is on that side; elevation 90 is above");
+      "Direction of the eye, AZIMUTH,ELEVATION in degrees (default 35,25): at azimuth 0 the right "
+      "of the image is +x (+y if x or -x is up), azimuth 90 is on that side; elevation 90 is "
+      "above");
   return {direction, add_up_option(command, view.up)};
 }
 
@@ -53,24 +53,24 @@ std::vector<Option> add_lens_options(Command& command, Lens& lens) {
         lens.width = width;
         lens.height = height;
       },
-      "WIDTHxHEIGHT in pixels (default 1280x720)");
+      "Image size in pixels, WIDTHxHEIGHT (default 1280x720)");
   Option angle = command.option("--fov", "DEG", into(lens.vertical_fov, parse_angle),
                                 "Vertical field of view in degrees (default 40)");
   Option length = command.option("--focal", "PIXELS", into(lens.focal, parse_number),
-                                 "fx = fy in pixels, in place of --fov");
+                                 "Focal length in pixels (fx = fy), instead of --fov");
   const Option parallel = command.option(
       "--orthographic", "HEIGHT",
       [&lens](const std::string& text) {
         lens.projection = Projection::orthographic;
         lens.vertical_extent = parse_number(text);
       },
-      "Parallel projection; scene units that the height spans");
+      "Parallel projection; height of the image in scene units");
   angle.excludes(length).excludes(parallel);
   length.excludes(parallel);
   const Option near = command.option("--near", "D", into(lens.near, parse_number),
-                                     "Nearest depth that counts (default 0)");
+                                     "Nearest depth that is rendered (default 0)");
   const Option far = command.option("--far", "D", into(lens.far, parse_number_or_infinity),
-                                    "Farthest depth that counts (default inf)");
+                                    "Farthest depth that is rendered (default inf)");
   return {size, angle, length, parallel, near, far};
 }
 

@@ -12,11 +12,10 @@ namespace fathom::app {
 
 void MotionOptions::add_to(Command& command) {
   command.option("--motion", "FILE", file,
-                 "Keyframes of objects that move (JSON; pipeline.md in the documentation); the "
-                 "camera frames the "
-                 "scene without it");
+                 "Keyframes of moving objects (JSON; see pipeline.md in the documentation); the "
+                 "default camera frames the scene without motion");
   command.option("--time", "T", into(time, parse_number),
-                 "Where the objects of --motion are (default 0)");
+                 "Time at which to place the objects of --motion (default 0)");
 }
 
 MovingScene MotionOptions::moving(Scene scene) const {

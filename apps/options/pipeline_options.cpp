@@ -53,80 +53,82 @@ void PipelineArguments::add_to_trace(Command& command, const std::string& headin
 }
 
 void PipelineArguments::add_triangle_options(Command& command) {
-  declared_.push_back(command.option(
-      "--shading", "NAME", into(stages_.shading, parse_shading),
-      "none, points, wireframe (lines in the vertices' colours, white without), flat "
-      "(default), gouraud or phong"));
-  declared_.push_back(command.option(
-      "--normals", "NAME", into(stages_.normals_from, parse_normal_source),
-      "Normals, also of channel Ns: file (default; where it has none, as vertex), or sums over the "
-      "triangles at each vertex or, so that no seam shows where vertices coincide, at each place"));
-  declared_.push_back(command.option(
-      "--light", "WHERE", into(stages_.light, parse_light),
-      "Where it comes from: X,Y,Z, a direction in the world; headlight, from the camera; or "
-      "shoulder (default), from above the camera's left shoulder"));
+  declared_.push_back(
+      command.option("--shading", "NAME", into(stages_.shading, parse_shading),
+                     "Shading: none, points, wireframe (lines in the colours of the vertices, else "
+                     "white), flat (default), gouraud or phong"));
+  declared_.push_back(
+      command.option("--normals", "NAME", into(stages_.normals_from, parse_normal_source),
+                     "Normals, also of channel Ns: file (default; vertex if the file has none), "
+                     "vertex (summed over the triangles at each vertex) or place (summed where "
+                     "vertices coincide, so that no seam shows)"));
+  declared_.push_back(
+      command.option("--light", "WHERE", into(stages_.light, parse_light),
+                     "Direction of the light: X,Y,Z in the world; headlight, from the camera; or "
+                     "shoulder (default), from above the camera's left shoulder"));
   declared_.push_back(command.option(
       "--material", "A,D,S,N", into(stages_.material, parse_material),
       "Ambient, diffuse and specular reflection, and shininess (default 0.15,0.75,0.25,40)"));
   declared_.push_back(
       command.option("--specular-model", "NAME", into(highlight_, parse_specular_model),
-                     "blinn (default: the halfway vector) or phong (mirrored light)"));
+                     "Highlights: blinn (default; halfway vector) or phong (mirrored light)"));
   declared_.push_back(
-      command.option("--texture", "PNG", stages_.texture, "checker, or a PNG file"));
+      command.option("--texture", "PNG", stages_.texture, "Texture: checker, or a PNG file"));
   command.offer(declared_.back(), {"checker"});
-  declared_.push_back(
-      command.option("--filter", "NAME", into(filter_, parse_filter),
-                     "Of the texture: nearest, bilinear, trilinear (default) or anisotropic"));
+  declared_.push_back(command.option(
+      "--filter", "NAME", into(filter_, parse_filter),
+      "Filter of the texture: nearest, bilinear, trilinear (default) or anisotropic"));
   declared_.push_back(command.option("--interpolation", "NAME",
                                      into(stages_.interpolation, parse_interpolation),
-                                     "perspective (default) or affine"));
+                                     "Interpolation: perspective (default) or affine"));
   declared_.push_back(
       command.option("--subpixel-bits", "N", into(stages_.subpixel_bits, parse_bits),
-                     "Corners are snapped to 2^N positions a pixel, 0 to 16 (default 8)"));
+                     "Snap corners to 2^N positions per pixel, 0 to 16 (default 8)"));
   declared_.push_back(command.option("--precision", "NAME",
                                      into(stages_.precision, parse_precision),
-                                     "binary32 (default) or binary64"));
+                                     "Arithmetic: binary32 (default) or binary64"));
 }
 
 void PipelineArguments::add_line_option(Command& command) {
-  declared_.push_back(command.option(
-      "--line", "NAME", into(stages_.wire_line, parse_line),
-      "Of wireframes and of lines in files: explicit, dda, bresenham (default), midpoint or "
-      "diamond-exit"));
+  declared_.push_back(command.option("--line", "NAME", into(stages_.wire_line, parse_line),
+                                     "Line algorithm for wireframes and lines in files: explicit, "
+                                     "dda, bresenham (default), midpoint or diamond-exit"));
 }
 
 void PipelineArguments::add_scan_option(Command& command) {
   declared_.push_back(command.option("--scan", "NAME", into(stages_.scan, parse_scan),
-                                     "edge-function (default) or scan-line"));
+                                     "Fill algorithm: edge-function (default) or scan-line"));
 }
 
 void PipelineArguments::add_hidden_surface_option(Command& command) {
   declared_.push_back(command.option("--hidden-surface", "NAME",
                                      into(stages_.hidden_surface, parse_hidden_surface),
-                                     "z-buffer (default) or painter"));
+                                     "Visibility algorithm: z-buffer (default) or painter"));
 }
 
 void PipelineArguments::add_antialias_option(Command& command) {
-  declared_.push_back(command.option(
-      "--antialias", "NAME", into(stages_.antialias, parse_antialias),
-      "none (default), ssaa:N (N times N), msaa:N, msaa:rotated-grid, jitter:N, "
-      "area, fxaa, fxaa:THRESHOLD[,LEAST[,SUBPIXEL]], taa:N, or of a scene that moves "
-      "temporal:N or temporal-area:N"));
+  declared_.push_back(
+      command.option("--antialias", "NAME", into(stages_.antialias, parse_antialias),
+                     "Antialiasing: none (default), ssaa:N (N times N), msaa:N, msaa:rotated-grid, "
+                     "jitter:N, area, fxaa, fxaa:THRESHOLD[,LEAST[,SUBPIXEL]], taa:N; for moving "
+                     "scenes temporal:N or temporal-area:N"));
 }
 
 void PipelineArguments::add_window_options(Command& command) {
-  declared_.push_back(
-      command.option("--viewport", "X,Y,W,H", into(stages_.viewport, parse_rectangle),
-                     "X,Y,W,H in pixels, from the lower left corner (default: the image)"));
-  declared_.push_back(command.option("--depth-range", "A,B", into(stages_.depth_range, parse_pair),
-                                     "A,B: window depths of near and far (default 0,1)"));
-  declared_.push_back(command.option("--scissor", "X,Y,W,H", into(stages_.scissor, parse_rectangle),
-                                     "X,Y,W,H in pixels, from the lower left corner"));
   declared_.push_back(command.option(
-      "--front-face", "NAME", into(stages_.front_face, parse_front_face), "ccw (default) or cw"));
+      "--viewport", "X,Y,W,H", into(stages_.viewport, parse_rectangle),
+      "Viewport X,Y,W,H in pixels, from the lower left corner (default: the image)"));
+  declared_.push_back(command.option("--depth-range", "A,B", into(stages_.depth_range, parse_pair),
+                                     "Window depths A,B of near and far (default 0,1)"));
+  declared_.push_back(
+      command.option("--scissor", "X,Y,W,H", into(stages_.scissor, parse_rectangle),
+                     "Scissor rectangle X,Y,W,H in pixels, from the lower left corner"));
+  declared_.push_back(command.option("--front-face", "NAME",
+                                     into(stages_.front_face, parse_front_face),
+                                     "Winding of front faces: ccw (default) or cw"));
   declared_.push_back(command.option("--polygon-offset", "FACTOR,UNITS",
                                      into(stages_.polygon_offset, parse_offset),
-                                     "FACTOR,UNITS (default 0,0)"));
+                                     "Depth offset FACTOR,UNITS (default 0,0)"));
 }
 
 void PipelineArguments::add_merging_options(Command& command) {
@@ -137,10 +139,9 @@ void PipelineArguments::add_merging_options(Command& command) {
   declared_.push_back(command.option(
       "--blend-depth", "NAME", into(stages_.blend_depth, parse_blend_depth),
       "Depth test of --blend: off (default), on, or read-only (blended fragments write no depth)"));
-  declared_.push_back(
-      command.option("--draw-order", "NAME", into(order_, parse_draw_order),
-                     "Of triangles: file (default), front-to-back, back-to-front, random or "
-                     "random:SEED"));
+  declared_.push_back(command.option("--draw-order", "NAME", into(order_, parse_draw_order),
+                                     "Order of the triangles: file (default), front-to-back, "
+                                     "back-to-front, random or random:SEED"));
 }
 
 void PipelineArguments::add_shortcut_options(Command& command) {

@@ -21,14 +21,14 @@ std::filesystem::path parse_folder(const std::string& text) {
 }  // namespace
 
 void ReadLimits::add_to(Command& command) {
-  command.flag("--outside-files", outside_files, "A glTF asset may name files outside its folder");
-  command.option("--confine", "DIR", into(confine, parse_folder),
-                 "Open only files in this folder or below for scene files and glTF (default: any "
-                 "that they name)");
+  command.flag("--outside-files", outside_files,
+               "Allow glTF assets to name files outside their folder");
   command.option(
-      "--max-expansion", "N", into(max_expansion, parse_count),
-      "A mesh may take 64 MiB and N times the bytes of its files in memory (default 64); "
-      "glTF and scene files that show the same data many times may need more");
+      "--confine", "DIR", into(confine, parse_folder),
+      "Allow scene files and glTF to open files only below this folder (default: anywhere)");
+  command.option("--max-expansion", "N", into(max_expansion, parse_count),
+                 "Limit a mesh in memory to 64 MiB plus N times the bytes of its files (default "
+                 "64); raise it for glTF and scene files that reuse the same data many times");
 }
 
 ReadOptions ReadLimits::read_options() const {

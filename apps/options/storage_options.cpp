@@ -62,25 +62,22 @@ double parse_background(const std::string& text) {
 
 void StorageOptions::add_to(Command& command) {
   command.option("--compression", "NAME", into(compression, parse_compression),
-                 "Compression of an EXR, always lossless: zip (default), zips, rle, piz or none");
+                 "Compression of an EXR, lossless: zip (default), zips, rle, piz or none");
   command.option("--png-scale", "N", into(png_scale, parse_scale),
                  "Codes per unit of a PNG (default 1000)");
   add_beyond_to(command);
   command.flag("--png-sidecar", png_sidecar,
-               "Beside a PNG, write a JSON file of its name that says what the codes mean");
+               "Write a JSON file next to a PNG that states the meaning of its codes");
   command.option("--dtype", "NAME", into(dtype, parse_dtype),
-                 "Of an NPY or NPZ: float32 (default) or float64");
-  command.option(
-      "--channel-name", "NAME=AS", into(channel_names, parse_channel_names),
-      "Call channels otherwise in an EXR or NPZ: Z=Y for OpenCV; Z=Y,distance=D for two. "
-      "fathom reads them by their own names");
+                 "Number type of an NPY or NPZ: float32 (default) or float64");
+  command.option("--channel-name", "NAME=AS", into(channel_names, parse_channel_names),
+                 "Rename channels in an EXR or NPZ, e.g. Z=Y for OpenCV, or Z=Y,distance=D");
 }
 
 void StorageOptions::add_beyond_to(Command& command) {
-  command.option(
-      "--png-beyond", "NAME", into(png_beyond_is_none, parse_beyond),
-      "Depths of a PNG above 65535 codes: error (default), or none: they are stored as 0, "
-      "as where no surface is, and counted");
+  command.option("--png-beyond", "NAME", into(png_beyond_is_none, parse_beyond),
+                 "What to do with depths that exceed a 16-bit PNG: error (default), or none (store "
+                 "0, like background, and report how many)");
 }
 
 MapFormat StorageOptions::format_of(const std::string& target) const {

@@ -42,83 +42,95 @@ std::vector<MatteKind> parse_mattes(const std::string& list) {
   return kinds;
 }
 
-void add_outputs(Command& command, RenderArguments& arguments) {
-  add_output_option(
-      command, "FILE", arguments.output,
-      "The map; its suffix decides the format: .exr, .pfm, .png (16 bit), .npy, .npz, "
-      ".bin (COLMAP's) or .tif (GeoTIFF, of a camera that looks straight down); a folder "
-      "that is missing is made")
-      .required();
+void add_scene(Command& command, RenderArguments& arguments) {
+  command.begin_group("Scene");
+  arguments.scene.add_to(command);
+  command.flag("--stream", arguments.stream,
+               "Stream binary STL or PLY meshes from disk, so that they may exceed memory; implies "
+               "--engine fast. Channel A spills to $TMPDIR");
+  arguments.motion.add_to(command);
+}
+
+void add_camera(Command& command, RenderArguments& arguments) {
+  command.begin_group("Camera");
   arguments.camera.add_to(command);
   command.option("--save-camera", "FILE", arguments.save_camera,
                  "Write the camera to this file (JSON; - is standard output)");
 }
 
 void add_contents(Command& command, RenderArguments& arguments) {
+  command.begin_group("Channels and engine");
   command.option("--channels", "LIST", into(arguments.channels, parse_channels),
-                 "Of Z, A, Zlow, distance, id, face, object, material, group, part, label, N, P, "
-                 "bary, Nc, Ns (default Z,A in EXR and NPZ; Z in other formats and with "
-                 "--engine pipeline)");
+                 "Channels of the map, from Z, A, Zlow, distance, id, face, object, material, "
+                 "group, part, label, N, P, bary, Nc, Ns (default Z,A in EXR and NPZ; Z in other "
+                 "formats and with --engine pipeline)");
   command.flag(
       "--deep", arguments.deep,
-      "Write a deep EXR: for each pixel the visible fragments, sorted, with their depths "
-      "Z and ZBack, triangle id, exact area and alpha A; compressed by zips (default), rle or "
-      "none");
+      "Write a deep EXR with all visible fragments of each pixel, sorted: depths Z and ZBack, "
+      "triangle id, exact area and alpha A; compressed by zips (default), rle or none");
   command.flag("--cryptomatte", arguments.cryptomatte,
                "Add Cryptomatte channels by object with exact coverage to the EXR");
   command.option("--cryptomatte-by", "LIST", into(arguments.mattes_by, parse_mattes),
-                 "The same by each of object, material, group, part");
+                 "Add Cryptomatte channels by each of object, material, group, part");
   command.option("--engine", "NAME", into(arguments.engine, parse_engine),
-                 "fast (default), reference: the same map bit for bit, slowly; or pipeline: what a "
-                 "graphics pipeline computes");
+                 "Engine: fast (default), reference (identical map, slow) or pipeline (simulates a "
+                 "graphics pipeline)");
+  command.option("--samples", "PATTERN", into(arguments.samples, sample_pattern),
+                 "Add channel Asampled, the share of a pixel's samples that a surface covers. "
+                 "PATTERN is 1, 2, 4, 8, 16 (standard positions of Direct3D and Vulkan), "
+                 "rotated-grid, regular:N, jittered:N or jittered:N:SEED (N by N samples)");
   add_cull_option(command, arguments.cull);
 }
 
 void add_checks(Command& command, RenderArguments& arguments) {
-  command.option("--samples", "PATTERN", into(arguments.samples, sample_pattern),
-                 "Add coverage by samples, channel Asampled: the share of the samples of a pixel "
-                 "at which a surface counts. 1, 2, 4, 8, 16 (the standard positions of Direct3D "
-                 "and Vulkan), rotated-grid, regular:N, jittered:N or jittered:N:SEED (N by N "
-                 "samples)");
-  command.flag(
-      "--stream", arguments.stream,
-      "Leave the meshes, binary STL or PLY, in their files, which may be larger than "
-      "memory; implies --engine fast. Triangles that channel A needs and memory has no room "
-      "for wait in the folder that TMPDIR names");
-  command.option("--stats", "FILE", arguments.statistics,
-                 "Write how the decisions were made to this file (JSON; - is standard output)");
+  command.begin_group("Checks");
+  command.option(
+      "--stats", "FILE", arguments.statistics,
+      "Write counts of how decisions were made to this file (JSON; - is standard output)");
   command.option("--verify", "N|all", into(arguments.verified_pixels, parse_pixels),
-                 "Compute this many pixels, and those that were nearly undecided, again by exact "
-                 "arithmetic and compare every channel bit for bit; exit status 1 if one differs");
+                 "Recompute N random pixels, and every pixel that was hard to decide, with exact "
+                 "arithmetic, and compare all channels bit for bit; exit status 1 if one differs");
 }
 
 }  // namespace
 
 void RenderArguments::add_to(Command& command) {
-  scene.add_to(command);
-  motion.add_to(command);
-  add_outputs(command, *this);
+  command.begin_group("Output");
+  add_output(command);
+  add_scene(command, *this);
+  add_camera(command, *this);
   add_contents(command, *this);
+  command.begin_group("Depth buffer");
+  depth_buffer.add_to(command);
+  command.begin_group("File format");
   storage.add_to(command);
   add_background(command);
-  depth_buffer.add_to(command);
   add_checks(command, *this);
+  command.begin_group("");
   const std::string heading = "With --engine pipeline";
   of_pipeline_.push_back(command
                              .option("--image", "FILE", into(image, parse_png_name),
                                      "Write the colour picture to this PNG")
                              .below(heading));
-  of_pipeline_.push_back(
-      command
-          .option("--shutter", "OPEN,CLOSE", into(shutter, parse_pair),
-                  "Times of --motion over which --antialias temporal:N, temporal-area:N or taa:N "
-                  "takes its pictures; the map is that of CLOSE")
-          .below(heading));
+  of_pipeline_.push_back(command
+                             .option("--shutter", "OPEN,CLOSE", into(shutter, parse_pair),
+                                     "Interval of --motion times for --antialias temporal:N, "
+                                     "temporal-area:N or taa:N; the map shows the time CLOSE")
+                             .below(heading));
   pipeline.add_to(command, heading);
   of_pipeline_.insert(of_pipeline_.end(), pipeline.declared().begin(), pipeline.declared().end());
 }
 
-/// A single value is that of the map, a colour that of the pipeline's picture.
+void RenderArguments::add_output(Command& command) {
+  add_output_option(
+      command, "FILE", output,
+      "Write the map here; the suffix selects the format: .exr, .pfm, .png (16 bit), .npy, .npz, "
+      ".bin (COLMAP) or .tif (GeoTIFF, for cameras that look straight down). Missing folders are "
+      "created")
+      .required();
+}
+
+/// A single value is the background of the map; a colour is the background of the picture.
 void RenderArguments::add_background(Command& command) {
   command.option(
       "--background", "D|R,G,B",
@@ -132,10 +144,9 @@ void RenderArguments::add_background(Command& command) {
           pipeline.set_background(*picture_background_);
         }
       },
-      "What depth channels hold where no surface is: inf (default), 0, nan or a number that no "
-      "surface has (codes of a PNG and COLMAP's maps: 0). R,G,B, from 0 to 1, is the background of "
-      "--image (default "
-      "0,0,0)");
+      "Depth to store where there is no surface: inf (default), 0, nan or a number that no surface "
+      "has (codes of a PNG and COLMAP maps: 0). R,G,B, from 0 to 1, sets the background of --image "
+      "(default 0,0,0)");
 }
 
 void RenderArguments::refuse_pipeline_options() const {

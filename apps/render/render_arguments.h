@@ -50,6 +50,7 @@ struct RenderArguments {
   [[nodiscard]] std::vector<MatteKind> mattes() const;
 
  private:
+  void add_output(Command& command);
   void add_background(Command& command);
 
   std::vector<Option> of_pipeline_;

@@ -21,7 +21,7 @@ constexpr const char* examples =
     "\n'fathom COMMAND --help' or 'fathom help COMMAND' explains a command.";
 
 constexpr const char* companion_heading =
-    "Programs of their own; 'scripts/fathom COMMAND' in a clone of Fathom builds them";
+    "Companion programs; 'scripts/fathom COMMAND' in a clone of Fathom builds them";
 
 /// The innermost command that the arguments name.
 const CLI::App& chosen_command(const CLI::App& app) {

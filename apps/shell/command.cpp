@@ -67,7 +67,7 @@ Command::Command(CLI::App& app, Console& console, const std::string& examples)
     : app_(app), console_(console) {
   app.set_help_flag("-h,--help", "Show this help with an example");
   app.set_version_flag("--version", version_line, "Show the version");
-  app.add_flag("--quiet", console.quiet, "No warnings and no progress");
+  app.add_flag("--quiet", console.quiet, "Print no warnings and no progress");
   app.footer(examples);
 }
 
@@ -79,7 +79,7 @@ Command& Command::command(const std::string& name, const std::string& descriptio
   Command& below = *commands_.emplace_back(std::make_unique<Command>(app, console_, examples));
   below.option(
       "--max-memory", "SIZE", [](const std::string& text) { set_max_memory(parse_bytes(text)); },
-      "Memory that it may take, as 512M or 2G (default: all that there is)");
+      "Maximum memory to use, e.g. 512M or 2G (default: all available memory)");
   return below;
 }
 
@@ -91,6 +91,11 @@ Option Command::taken_by(CLI::Option& option,
                          std::function<void(const std::vector<std::string>&)> take) {
   option.check(complaint_of_nothing);
   taken_.push_back({&option, std::move(take), {}});
+  return in_group(option);
+}
+
+Option Command::in_group(CLI::Option& option) const {
+  if (!heading_.empty()) option.group(heading_);
   return Option(option);
 }
 
@@ -114,7 +119,7 @@ Option Command::option_with_values(const std::string& names, const std::string& 
 }
 
 Option Command::flag(const std::string& name, bool& value, const std::string& help) {
-  return Option(*app_.add_flag(name, value, help));
+  return in_group(*app_.add_flag(name, value, help));
 }
 
 Option Command::argument(const std::string& name, std::string& value, const std::string& help) {

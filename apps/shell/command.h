@@ -63,6 +63,8 @@ class Command {
                    const std::string& examples);
   /// For a family: one of the commands below has to be named.
   void requires_command();
+  /// The help shows the options that are declared from now on below this heading.
+  void begin_group(const std::string& heading) { heading_ = heading; }
 
   /// An option with one value, "-o,--output"; the help shows it as "-o,--output MAP".
   Option option(const std::string& names, const std::string& value_name, std::string& value,
@@ -97,6 +99,7 @@ class Command {
  private:
   [[nodiscard]] CompletedOption completed(const OptionText& option) const;
   Option taken_by(CLI::Option& option, std::function<void(const std::vector<std::string>&)> take);
+  Option in_group(CLI::Option& option) const;
 
   struct Taken {
     CLI::Option* option;
@@ -105,6 +108,7 @@ class Command {
   };
   CLI::App& app_;
   Console& console_;
+  std::string heading_;
   std::vector<Taken> taken_;
   std::vector<std::unique_ptr<Command>> commands_;
   Run run_;

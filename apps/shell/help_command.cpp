@@ -136,10 +136,12 @@ void add_help(Command& program, const CLI::App& app, const std::vector<Companion
                                      "  fathom help camera look-at\n"
                                      "  fathom help --man render | man -l -\n"
                                      "  fathom help --man -o ~/.local/share/man/man1");
-  command.arguments("COMMAND", help->names, "The command, with those above it before it");
-  command.flag("--man", help->man, "As a manual page (roff), which man -l shows");
-  add_output_option(command, "DIR", help->folder,
-                    "With --man: write the pages of all commands that are built to this folder");
+  command.arguments("COMMAND", help->names, "Name of the command, e.g. 'camera orbit'");
+  command.flag("--man", help->man,
+               "Print the manual page (roff); pipe it to 'man -l -' to read it");
+  add_output_option(
+      command, "DIR", help->folder,
+      "Write the manual pages of all commands that are built to this folder; needs --man");
   command.runs([help, &program, &app, companions](const Console&) -> int {
     if (!help->man || !help->names.empty())
       throw UsageError("--output goes with --man, and without a COMMAND");
@@ -149,11 +151,11 @@ void add_help(Command& program, const CLI::App& app, const std::vector<Companion
   });
 
   const auto script = std::make_shared<Script>(nullptr);
-  Command& completion = program.command(
-      "completion", "Print what makes a shell complete commands, options and their values",
-      "  source <(fathom completion bash)      # in ~/.bashrc\n"
-      "  source <(fathom completion zsh)       # in ~/.zshrc, after compinit\n"
-      "  fathom completion fish | source       # in ~/.config/fish/config.fish");
+  Command& completion =
+      program.command("completion", "Print a shell completion script",
+                      "  source <(fathom completion bash)      # in ~/.bashrc\n"
+                      "  source <(fathom completion zsh)       # in ~/.zshrc, after compinit\n"
+                      "  fathom completion fish | source       # in ~/.config/fish/config.fish");
   completion.argument("SHELL", into(*script, parse_shell), "bash, zsh or fish").required();
   completion.answers_on_standard_output();
   completion.runs([script, &program, companions](const Console&) {

@@ -137,21 +137,22 @@ void add_study(Command& program) {
   auto arguments = std::make_shared<StudyArguments>();
   studies::StudyOptions& options = arguments->options;
   Command& command = program.command(
-      "study", "Precision of depth buffers, and what textbooks teach, measured: figures and pages",
+      "study", "Measure depth-buffer precision and textbook algorithms; write tables and web pages",
       "  fathom study --list\n"
       "  fathom study depth-resolution --near 0.1 --far 1000 -o resolution\n"
       "  fathom study indistinguishable -o reed\n"
       "  fathom study mitigation --scene spot.obj --near 0.001 -o cures");
-  command.argument("NAME", into(arguments->name, parse_study), "Its name; --list shows them");
+  command.argument("NAME", into(arguments->name, parse_study),
+                   "Name of the study; --list shows all names");
   add_output_option(command, "DIR", arguments->out,
                     "Folder for CSV, PNG, SVG, summary.json, index.html");
-  command.option_with_values("--scene", "FILE", arguments->scene,
-                             "Meshes or scene files to study, for antialiasing, hidden-surface, "
-                             "mitigation, subpixel and z-fighting; "
-                             "without it each study uses its own scene");
+  command.option_with_values(
+      "--scene", "FILE", arguments->scene,
+      "Meshes or scene files to study, for antialiasing, hidden-surface, mitigation, subpixel and "
+      "z-fighting (default: the study's own scene)");
   arguments->limits.add_to(command);
   command.option("--camera", "FILE", arguments->camera,
-                 "Camera file (JSON) for --scene; without it, one that frames the scene");
+                 "Camera file (JSON) for --scene (default: a camera that frames the scene)");
   command.option("--near", "D", into(options.near, parse_number),
                  "Least depth (default: the study's)");
   command.option("--far", "D", into(options.far, parse_number),
@@ -160,8 +161,7 @@ void add_study(Command& program) {
                  "Number of depths (default: the study's)");
   command.option("--separation", "D", into(options.separation, parse_number),
                  "Separation of the two surfaces along the view, for z-fighting");
-  command.flag("--no-plots", arguments->no_plots,
-               "Tables, figures and pictures alone: gnuplot is not needed");
+  command.flag("--no-plots", arguments->no_plots, "Write no plots, so that gnuplot is not needed");
   command.flag("--list", arguments->list, "List the studies");
   command.runs([arguments](const Console& console) { return run_study(*arguments, console); });
 }

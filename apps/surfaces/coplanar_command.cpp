@@ -102,16 +102,16 @@ int run_coplanar(const CoplanarArguments& arguments, const Console& console) {
 void add_coplanar(Command& program) {
   const auto arguments = std::make_shared<CoplanarArguments>();
   Command& command = program.command(
-      "coplanar", "Find visible surfaces that coincide or nearly do, where z-buffers fight",
+      "coplanar", "Find visible surfaces that coincide or nearly coincide, where z-buffers fight",
       "  fathom coplanar room.json\n"
       "  fathom coplanar room.json --camera camera.json --within 0.001 --json");
   arguments->scene.add_to(command);
   arguments->camera.add_to(command);
   command.option("--within", "D", into(arguments->within, parse_distance),
-                 "The greatest distance along the view between the two surfaces of a pair (default "
-                 "0: only surfaces that coincide)");
+                 "Greatest distance along the view between the two surfaces of a pair (default 0: "
+                 "only coincident surfaces)");
   add_cull_option(command, arguments->cull);
-  command.flag("--json", arguments->json, "Answer in JSON");
+  command.flag("--json", arguments->json, "Print JSON");
   command.answers_on_standard_output();
   command.runs([arguments](const Console& console) { return run_coplanar(*arguments, console); });
 }

@@ -100,24 +100,25 @@ void add_evaluate(Command& program) {
       "  fathom evaluate mesh.ply --truth room.ply --camera cameras.json --within 0.05\n"
       "  fathom evaluate mesh.ply --truth scan.ply --within 0.01,0.02,0.05 --json");
   arguments->scene.add_to(command);
-  command.option("--truth", "SCENE", arguments->truth, "The true mesh, in the same world and unit")
+  command.option("--truth", "SCENE", arguments->truth, "True mesh, in the same world and unit")
       .required();
   command.option("--camera", "FILE", arguments->camera,
-                 "The views: only what these cameras see counts, of each mesh by itself (default: "
-                 "the whole surfaces, and no depths)");
+                 "Camera file with the views; only surfaces that these cameras see are measured "
+                 "(default: whole surfaces, and no depths)");
   command.option("--within", "D,…", into(arguments->comparison.within, parse_thresholds),
-                 "Distances: which share of the points is nearer than each");
+                 "Report the share of points nearer than each of these distances");
   command.option("--points", "N", into(arguments->comparison.points, parse_positive),
-                 "Points on each surface (default 200000)");
+                 "Number of points on each surface (default 200000)");
   add_cull_option(command, arguments->comparison.cull);
+  command.option("--accuracy-points", "PLY", arguments->accuracy_points,
+                 "Write the measured points of the reconstruction to this PLY, with their "
+                 "distances as `quality`");
   command.option(
-      "--accuracy-points", "PLY", arguments->accuracy_points,
-      "Write the points of the reconstruction that count, with their distances as `quality`");
-  command.option("--completeness-points", "PLY", arguments->completeness_points,
-                 "The same of the truth");
-  command.flag("--json", arguments->json, "Answer in JSON");
+      "--completeness-points", "PLY", arguments->completeness_points,
+      "Write the measured points of the truth to this PLY, with their distances as `quality`");
+  command.flag("--json", arguments->json, "Print JSON");
   add_output_option(command, "FILE", arguments->output,
-                    "Write the answer to this file (default -, standard output)");
+                    "Write the result to this file (default -, standard output)");
   command.runs([arguments](const Console& console) { return run_evaluate(*arguments, console); });
 }
 

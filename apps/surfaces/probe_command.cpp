@@ -54,17 +54,17 @@ int run_probe(const ProbeArguments& arguments, const Console& console) {
 void add_probe(Command& program) {
   const auto arguments = std::make_shared<ProbeArguments>();
   Command& command =
-      program.command("probe", "Show how the value of one pixel comes about",
+      program.command("probe", "Explain the value of one pixel",
                       "  fathom probe spot.obj --pixel 640,360\n"
                       "  fathom probe room.json --camera camera.json --pixel 12,34 --json");
   arguments->scene.add_to(command);
   arguments->camera.add_to(command);
   command
       .option("--pixel", "X,Y", into(arguments->pixel, parse_pixel),
-              "X,Y: column and row from the top left")
+              "Pixel X,Y: column and row from the top left")
       .required();
   add_cull_option(command, arguments->cull);
-  command.flag("--json", arguments->json, "Answer in JSON");
+  command.flag("--json", arguments->json, "Print JSON");
   command.answers_on_standard_output();
   command.runs([arguments](const Console& console) { return run_probe(*arguments, console); });
 }

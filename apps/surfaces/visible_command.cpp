@@ -155,10 +155,10 @@ void add_visible(Command& program) {
   arguments->camera.add_to(command);
   add_cull_option(command, arguments->cull);
   command.flag("--json", arguments->json,
-               "Every object and every triangle in JSON: areas in pixels, their ratio");
-  command.flag("--csv", arguments->csv, "Every object and every triangle in CSV");
+               "Print every object and triangle as JSON, with areas in pixels and their ratio");
+  command.flag("--csv", arguments->csv, "Print every object and triangle as CSV");
   add_output_option(command, "FILE", arguments->output,
-                    "Write the answer to this file (default -, standard output)");
+                    "Write the result to this file (default -, standard output)");
   command.runs([arguments](const Console& console) { return run_visible(*arguments, console); });
 }
 

@@ -55,47 +55,45 @@ std::string parse_renderer(const std::string& text) {
 
 void ValidateArguments::add_to(Command& command) {
   command.arguments("SCENE", scenes, "Meshes and scene files");
-  command.option(
-      "--against", "NAME", names_into(against, expect_renderer),
-      "Renderers that draw the scenes: vtk, opengl, embree, blender; vtk and opengl also "
-      "with a driver: opengl@softpipe, vtk@llvmpipe");
+  command.option("--against", "NAME", names_into(against, expect_renderer),
+                 "Draw the scenes with these renderers and check them: vtk, opengl, embree, "
+                 "blender; vtk and opengl also with a driver, e.g. opengl@softpipe, vtk@llvmpipe");
   command.flag("--colour", colour,
                "Compare the pipeline's flat, Gouraud and Phong pictures with VTK's");
   command.flag(
       "--faults", faults,
-      "Make the maps of the renderers wrong in every way of the catalogue, and see what is "
-      "found");
+      "Inject every fault of the catalogue into the renderers' maps and report which are found");
   command.option("--scene", "NAME", names_into(scene_names, expect_scene),
-                 "Scenes of ours instead of SCENE (default: all, see below)");
+                 "Use these built-in scenes instead of SCENE (default: all, see below)");
   command.option("--variants", "NAME", variants,
-                 "Only these variants of the renderers: unorm24, robust, … (default: all)");
+                 "Check only these variants of the renderers, e.g. unorm24, robust (default: all)");
   limits.add_to(command);
   command.option("--size", "WxH", into(size, parse_size),
                  "Image size without --camera (default 320x240)");
   command.option("--time-limit", "SECONDS", into(seconds, parse_positive),
-                 "Seconds after which a renderer is ended (default 300)");
-  command.option("--render", "NAME", into(render, parse_renderer), "Only draw, with this renderer");
+                 "Stop a renderer after this many seconds (default 300)");
+  command.option("--render", "NAME", into(render, parse_renderer),
+                 "Only draw with this renderer, and write its map");
   command.option("--map", "MAP", map,
-                 "The map of another renderer (EXR, PFM, PNG, NPY, NPZ, COLMAP's)");
-  command.option("--channel", "NAME", channel, "Its channel of depths (default: detected)");
+                 "Map of another renderer to check (EXR, PFM, PNG, NPY, NPZ or COLMAP)");
+  command.option("--channel", "NAME", channel, "Depth channel of --map (default: detected)");
   command.option("--png-scale", "N", into(png_scale, parse_scale),
-                 "Codes per unit of a map of integers that does not say it itself");
+                 "Codes per unit, if the integer map does not state them");
   command.option("--camera", "FILE", camera, "Camera file (JSON)");
   command.option(
       "--model", "NAME", into(model, parse_model),
-      "What is assumed of the renderer (default of --map: auto, what fits best). With --against, "
-      "their maps are judged as maps that someone brings, in binary32; matching: each by the model "
-      "of its variant");
+      "Model of the renderer (default with --map: auto, the best fit). With --against, judge the "
+      "maps like maps from a file, in binary32; matching: each by the model of its variant");
   add_output_option(command, "PATH", output,
-                    "Folder for report.json and report.html; with --colour, for colours.json and "
-                    "pictures; with --render, the map");
+                    "Write report.json and report.html to this folder; with --colour, colours.json "
+                    "and pictures; with --render, the map to this file");
   command.option("--baseline", "REPORT", baseline,
-                 "An earlier report.json: says what changed, exit status 1 if something got worse; "
-                 "with --output also comparison.html");
-  command.option("--junit", "FILE", junit, "Also a JUnit XML file, as CI services read it");
+                 "Compare with an earlier report.json; exit status 1 if a result became worse; "
+                 "with --output also writes comparison.html");
+  command.option("--junit", "FILE", junit, "Also write a JUnit XML file for CI services");
   command.flag("--ctest", for_ctest,
-               "Of --map: the verdict in the first line, measurements and pictures for CTest and "
-               "CDash; see fathom_add_depth_test in validation.md of the documentation");
+               "Print the verdict of --map in the first line, with measurements and pictures for "
+               "CTest and CDash; see fathom_add_depth_test in validation.md of the documentation");
 }
 
 int ValidateArguments::time_limit() const {

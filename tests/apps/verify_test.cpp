@@ -71,7 +71,7 @@ TEST_F(Verifying, EveryMapOfAPath) {
   EXPECT_THAT(outcome.err, HasSubstr("fathom: 0.pfm: 9 of 48"));
   // The surface lies on the second near plane: 16 samples ask whether they are beyond it.
   EXPECT_THAT(outcome.err, HasSubstr("fathom: 1.pfm: 21 of 48"));
-  EXPECT_THAT(outcome.err, HasSubstr("(16 of them at which a bound hardly settles something)"));
+  EXPECT_THAT(outcome.err, HasSubstr("(16 of them near the limit of an error bound)"));
   const Json second = Json::parse(folder_.read("stats.json")).at(1);
   EXPECT_EQ(second.at("verified"), 21);
   EXPECT_EQ(second.at("nearly_unsettled"), 16);

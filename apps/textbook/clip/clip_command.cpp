@@ -185,14 +185,14 @@ void add_clip(Command& program) {
                  "Compare each answer with this algorithm's, exactly, and report the first "
                  "difference; exit status 1 if there is one");
   command.option("--kernel", "NAME", into(arguments->kernel, parse_kernel),
-                 "exact (default) or double: the arithmetic to clip with");
+                 "Arithmetic: exact (default) or double");
   command.flag("--exact", arguments->form.exact, "Write numbers as \"p/q\"");
   command.flag("--trace", arguments->form.trace, "Add the steps that led to the answer");
   command.option("--draw", "SVG", into(arguments->draw, cases::parse_svg_name),
                  "Draw the steps: the segment after each split, the polygon after each edge or "
                  "plane, both lists and the walks");
   command.argument("FILE", arguments->file,
-                   "Cases, one a line; standard input where it is - or missing");
+                   "File with one case per line (default: standard input, as is -)");
   command.answers_on_standard_output();
   command.runs([arguments](const Console& console) { return run_clip(*arguments, console); });
 }

@@ -42,16 +42,16 @@ struct TraceArguments {
 void add_depth_format(Command& command, DepthFormat& format, const std::string& heading) {
   command
       .option("--depth-format", "NAME", into(format.storage, storage_named),
-              "Of the z-buffer: unorm16, unorm24, unorm32, float16, float32 (default) or float64")
+              "Storage of the z-buffer: unorm16, unorm24, unorm32, float16, float32 (default) or "
+              "float64")
       .below(heading);
   command
       .option("--mapping", "NAME", into(format.mapping, mapping_named),
-              "Of the z-buffer: standard (default), reversed, infinite, reversed-infinite, opengl, "
-              "linear, w, log or log-ulrich")
+              "Mapping of the z-buffer: standard (default), reversed, infinite, reversed-infinite, "
+              "opengl, linear, w, log or log-ulrich")
       .below(heading);
   command
-      .option("--c", "C", into(format.c, parse_number),
-              "With --mapping log: the constant C (default 1)")
+      .option("--c", "C", into(format.c, parse_number), "Constant C of --mapping log (default 1)")
       .below(heading);
 }
 
@@ -114,10 +114,10 @@ void add_trace(Command& family) {
         const auto [x, y] = parse_pixel(text);
         pixel = pipeline::Pixel{x, y};
       },
-      "Show the sample at this pixel's centre, and all that the output merger does there");
+      "Show the sample at the centre of this pixel, and every step of the output merger there");
   command.flag("--fragments", arguments->fragments,
                "List the fragments: pixel, window depth, depth, stored depth, colour");
-  command.flag("--json", arguments->json, "Answer in JSON");
+  command.flag("--json", arguments->json, "Print JSON");
   command.option("--draw", "SVG", into(arguments->draw, cases::parse_svg_name),
                  "Draw the primitive in the window, listed fragments, the output merger at the "
                  "pixel, and the painter's order with its splits");
@@ -172,7 +172,7 @@ void add_run(Command& family) {
                 "Name of the stage, in the order of the data: " + names_of_stages())
       .required();
   command.argument("FILE", arguments->file,
-                   "Records, one a line; standard input where it is - or missing");
+                   "File with one record per line (default: standard input, as is -)");
   command.option("--precision", "NAME", into(arguments->precision, parse_precision),
                  "Arithmetic of the stage: binary32 (default) or binary64");
   command.answers_on_standard_output();
@@ -188,9 +188,10 @@ void add_run(Command& family) {
 }  // namespace
 
 void add_pipeline(Command& program) {
-  Command& family = program.command("pipeline", "Look into the graphics pipeline",
-                                    "  fathom pipeline trace spot.obj --triangle 238\n"
-                                    "  fathom pipeline run viewport records.jsonl");
+  Command& family = program.command(
+      "pipeline", "Trace primitives through the graphics pipeline, or run one of its stages",
+      "  fathom pipeline trace spot.obj --triangle 238\n"
+      "  fathom pipeline run viewport records.jsonl");
   family.requires_command();
   add_trace(family);
   add_run(family);

@@ -122,18 +122,18 @@ void add_scan(Command& program) {
               "edge-values (the three edge functions over the whole image); grids: flood")
       .required();
   command.option("--arithmetic", "NAME", into(arguments->arithmetic, scan::parse_arithmetic),
-                 "exact (default), float64 or float32; bresenham, midpoint, flood and tessellate "
-                 "are exact with each of them");
+                 "Arithmetic: exact (default), float64 or float32; bresenham, midpoint, flood and "
+                 "tessellate are always exact");
   command.option("--subpixel-bits", "N",
                  into(arguments->form.subpixel_bits, scan::parse_subpixel_bits),
-                 "Snap triangles to 2^N positions a pixel, 0 to 16 (default: no snapping)");
+                 "Snap triangles to 2^N positions per pixel, 0 to 16 (default: no snapping)");
   command.option(
       "--ties", "RULE", into(arguments->form.ties, scan::parse_ties),
       "Decide which pixel a line takes half way between two: greater (default), even (as "
       "Python's round) or stay (as the textbooks' Bresenham)");
   command.option("--edges", "RULE", into(arguments->form.edges, scan::parse_edges),
-                 "Decide whose the centres on an edge are: top-left (default) or closed (every "
-                 "triangle's, as the textbooks' >= 0)");
+                 "Rule for pixel centres on an edge: top-left (default) or closed (they belong to "
+                 "every triangle, as with the textbooks' >= 0)");
   command.flag("--runs", arguments->form.runs,
                "Write runs [y, x_begin, x_end] instead of pixels, x_end exclusive");
   command.flag("--exact", arguments->form.numbers.exact, "Write numbers as \"p/q\"");
@@ -146,7 +146,7 @@ void add_scan(Command& program) {
   command.option("--values", "FILE", into(arguments->values, parse_values_name),
                  "With edge-values: write the values of one case as .csv or .npy");
   command.argument("FILE", arguments->file,
-                   "Cases, one a line; standard input where it is - or missing");
+                   "File with one case per line (default: standard input, as is -)");
   command.answers_on_standard_output();
   command.runs([arguments](const Console&) { return run_scan(*arguments); });
 }
