@@ -77,8 +77,10 @@ std::vector<std::string> commands_below(const CLI::App& command) {
 }
 
 std::string unknown_command(const std::string& name, const std::vector<std::string>& existing) {
-  return fmt::format("there is no command '{}'{}; the commands are {}", name,
-                     behind_name(nearest_names(name, existing)), joined(existing));
+  const std::string suggestion = behind_name(nearest_names(name, existing));
+  return fmt::format("there is no command '{}'{} {}", name,
+                     suggestion.empty() ? "; the commands are" : suggestion + " The commands are",
+                     joined(existing));
 }
 
 std::string unexpected_argument(const CLI::App& program) {

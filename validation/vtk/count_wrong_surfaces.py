@@ -5,11 +5,14 @@ usage: xvfb-run -a /usr/bin/python3 count_wrong_surfaces.py [--write FOLDER]
 
 Exercise 3 of the course has two oblique sheets, one 0.0001 behind the other along the view. Here the nearer one comes
 first in the file, near is 0.001 and far 1000, and the image has 96x96 pixels. VTK draws them with its own depth
-buffer, and with attachments of the types named. Cells are coloured with their numbers, without lighting, blending or multisampling, in the pass that writes the
-depth. The sheets have the same outline, so each pixel that shows a triangle of the second sheet is wrong.
+buffer, and with attachments of the types named. Cells are coloured with their numbers, without lighting, blending or
+multisampling, in the pass that writes the depth. The sheets have the same outline, so the pixels that show a triangle of
+the second sheet are counted. The corners are rounded to binary64, so at a few pixels of the outline (11 at distance 2)
+the second sheet is the right answer.
 
-The script prints a line for each distance and depth buffer: "2 own 2610". --write FOLDER writes each scene as scene-DISTANCE.obj with its
-camera.json, for `fathom validate FOLDER/scene-2.obj --camera FOLDER/camera.json --against vtk`.
+The script prints a line for each distance and depth buffer: "2 own 2610". With --write FOLDER it draws nothing and writes
+each scene as scene-DISTANCE.obj with its camera.json, for
+`fathom validate FOLDER/scene-2.obj --camera FOLDER/camera.json --against vtk`.
 
 Needs Debian's python3-vtk9 and, without a display, xvfb.
 """

@@ -175,7 +175,10 @@ void add_clip(Command& program) {
       "    fathom clip --algorithm cohen-sutherland --trace\n"
       "  echo '{\"triangle\": [[1,0,0],[0,1,0],[0,0,1]], \"eye\": [2,2,2]}' |\n"
       "    fathom clip --algorithm plane\n"
-      "  fathom clip --algorithm weiler-atherton --against cgal pairs.jsonl");
+      "  fathom clip --algorithm weiler-atherton --against cgal pairs.jsonl\n"
+      "\nCases of weiler-atherton and cgal take \"op\": \"union\" or \"difference\"; the "
+      "default is\n"
+      "\"intersection\".");
   command
       .option("--algorithm", "NAME", into(arguments->algorithm, parse_named),
               "weiler-atherton, sutherland-hodgman, cohen-sutherland, liang-barsky, homogeneous, "

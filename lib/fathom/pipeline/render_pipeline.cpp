@@ -212,7 +212,7 @@ void require_countable(const Scene& scene) {
 /// Refuses lines and points where only areas are drawn.
 void require_areas(const Scene& scene, const PipelineOptions& options) {
   if (!has_lines_or_points(scene)) return;
-  const char* why = "draws areas, and the scene has lines or points; there are others";
+  const char* why = "draws areas only, but the scene has lines or points; choose another value";
   if (options.hidden_surface == HiddenSurface::painter)
     throw UsageError(Setting{"hidden_surface"}, std::string("painter ") + why);
   if (options.antialias.method == AntialiasMethod::area)
