@@ -39,7 +39,8 @@ OtherMap read_other_map(const ValidateArguments& arguments) {
   } catch (const InputError& error) {
     const std::string& setting = error.setting();
     if (setting.empty()) {
-      throw InputError(fmt::format("{}: {}: --channel NAME", arguments.map, error.what()));
+      const char* option = arguments.channel.empty() ? ": --channel NAME" : "";
+      throw InputError(fmt::format("{}: {}{}", arguments.map, error.what(), option));
     }
     const std::string why = std::string(error.what()).substr(setting.size() + 2);
     throw InputError(fmt::format("{}: {}: --png-scale N", arguments.map, why));

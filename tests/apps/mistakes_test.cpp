@@ -110,6 +110,18 @@ TEST_F(Mistakes, NamesOfChannels) {
             "the map has no channel 'id', only N, Z\n");
 }
 
+TEST_F(Mistakes, AChannelOfSeveralPartsWhereOneIsNeeded) {
+  expect_done(
+      {"render", "square.obj", "--camera", "camera.json", "--channels", "Z,N", "-o", "map.exr"});
+  const std::string parts = "N is N.X, N.Y, N.Z; name one\n";
+  EXPECT_EQ(refusal({"compare", "map.exr", "map.exr", "--channel", "N"}, 2), parts);
+  EXPECT_EQ(refusal({"validate", "square.obj", "--camera", "camera.json", "--map", "map.exr",
+                     "--channel", "N"},
+                    3),
+            "map.exr: " + parts);
+  expect_done({"compare", "map.exr", "map.exr", "--channel", "N.X"});
+}
+
 TEST_F(Mistakes, AChannelOfSeveralPartsInAFormatOfOne) {
   expect_done(
       {"render", "square.obj", "--camera", "camera.json", "--channels", "Z,N", "-o", "map.exr"});

@@ -258,7 +258,7 @@ TEST_F(ValidateProgram, SaysWhatToGiveForMapsThatDoNotFit) {
          "rgb.pfm: of the map's channels R, G, B none is called as depths are; expected Z, or the "
          "name of the one that holds them: --channel NAME");
   expect(validate("map.exr", {"--channel", "Q"}), 3,
-         "map.exr: the map has no channel 'Q', only A, Z: --channel NAME");
+         "map.exr: the map has no channel 'Q', only A, Z");
 
   // Of foreign PNGs of 16 bits nobody knows the unit.
   ASSERT_EQ(run_fathom({"render", cube, "--camera", "camera.json", "-o", "map.png", "--png-scale",

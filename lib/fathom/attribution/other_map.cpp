@@ -14,7 +14,7 @@ namespace {
 const ImageChannel& depth_channel(const DepthMap& map, const std::string& name) {
   if (!name.empty()) {
     if (const ImageChannel* channel = map.find(name)) return *channel;
-    throw InputError("the map has no channel '" + name + "', only " + list_of_channels(map));
+    throw InputError(missing_channel(map, name).what());
   }
   if (const ImageChannel* channel = map.find("Z")) return *channel;
   for (const ImageChannel& channel : map.channels) {

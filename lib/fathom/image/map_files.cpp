@@ -24,10 +24,8 @@ const std::string one_channel = "this format holds one channel";
 
 /// The error of a channel of several parts, of which a file cannot hold more than one.
 UsageError one_part_only(const DepthMap& map, const std::string& name) {
-  std::vector<std::string> names;
-  for (const ImageChannel* part : parts_of(map, name)) names.push_back(part->name);
-  return ambiguous_channel(names, one_channel + ", and " + name + " is",
-                           "write, or write .npy or .exr");
+  return {Setting{"channel"}, one_channel + ", and " + text_of_parts(map, name) +
+                                  "; name the one to write, or write .npy or .exr"};
 }
 
 const ImageChannel& channel_to_write(const DepthMap& map, const std::string& asked) {

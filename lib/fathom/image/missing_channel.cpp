@@ -85,8 +85,15 @@ std::string list_of_channels(const DepthMap& map) {
   return joined(names_of_channels(map));
 }
 
-UnknownName missing_channel(const DepthMap& map, const std::string& name,
-                            const std::string& which) {
+std::string text_of_parts(const DepthMap& map, const std::string& name) {
+  std::vector<std::string> names;
+  for (const ImageChannel* part : image::parts_of(map, name)) names.push_back(part->name);
+  return names.empty() ? "" : name + " is " + joined(names);
+}
+
+UsageError missing_channel(const DepthMap& map, const std::string& name, const std::string& which) {
+  const std::string parts = text_of_parts(map, name);
+  if (!parts.empty()) return UsageError(parts + "; name one");
   const std::vector<std::string> names = names_of_channels(map);
   return channel_suggested(which + " has no channel '" + name + "', only " + joined(names), name,
                            names);

@@ -20,10 +20,13 @@ std::vector<std::string> names_of_channels(const DepthMap& map);
 /// "Z, N"
 std::string list_of_channels(const DepthMap& map);
 
-/// The error of a name that no channel of the map has: "the map has no channel 'z', only Z, N; did you
-/// mean 'Z'?"; `which` is the map, "the map".
-UnknownName missing_channel(const DepthMap& map, const std::string& name,
-                            const std::string& which = "the map");
+/// "N is N.X, N.Y, N.Z" where the map holds N in parts; else empty.
+std::string text_of_parts(const DepthMap& map, const std::string& name);
+
+/// The error of a name that no single channel of the map has: "the map has no channel 'z', only Z, N; did
+/// you mean 'Z'?", or "N is N.X, N.Y, N.Z; name one"; `which` is the map, "the map".
+UsageError missing_channel(const DepthMap& map, const std::string& name,
+                           const std::string& which = "the map");
 
 /// The channels of which one has to be chosen, as an error about the setting `channel`: "this format
 /// holds one channel, and the map has Z, N; name the one to write". `refusal` is its beginning.
