@@ -3,9 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 #include <sstream>
+#include <tuple>
 
 #include "run_program.h"
 #include "test_folder.h"
@@ -37,6 +41,49 @@ struct Drawn {
     return list;
   }
 };
+
+/// The places of a polygon's corners on the page.
+using Corners = std::vector<std::array<double, 2>>;
+
+/// The polygons of a class, in the picture's order.
+std::vector<Corners> polygons_of(const std::string& svg, const std::string& kind) {
+  std::vector<Corners> list;
+  const std::regex polygon("<polygon points=\"([^\"]*)\" class=\"" + kind + "\"");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), polygon), end; it != end; ++it) {
+    std::istringstream points((*it)[1].str());
+    list.emplace_back();
+    char comma = 0;
+    for (double x = 0, y = 0; points >> x >> comma >> y;) list.back().push_back({x, y});
+  }
+  return list;
+}
+
+/// How far a polygon extends on the page in x.
+double width_of(const Corners& corners) {
+  const auto [left, right] = std::minmax_element(corners.begin(), corners.end());
+  return (*right)[0] - (*left)[0];
+}
+
+/// A label of a point or a region, and where its letters are.
+struct Label {
+  std::string words;
+  double left = 0, right = 0, base = 0;
+};
+
+std::vector<Label> labels_of(const std::string& svg) {
+  std::vector<Label> list;
+  const std::regex label(
+      "<text x=\"([^\"]*)\" y=\"([^\"]*)\" class=\"label\" text-anchor=\"(\\w+)\">([^<]*)<");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), label), end; it != end; ++it) {
+    const std::string words = (*it)[4];
+    // The minus sign has three bytes.
+    const auto bytes = std::ranges::count_if(words, [](char c) { return (c & 0xC0) != 0x80; });
+    const double width = 8 * static_cast<double>(bytes), x = std::stod((*it)[1]);
+    const double left = (*it)[3] == "middle" ? x - width / 2 : x;
+    list.push_back({words, left, left + width, std::stod((*it)[2])});
+  }
+  return list;
+}
 
 std::string on_one_line(std::string object) {
   std::erase(object, '\n');
@@ -111,6 +158,22 @@ TEST(Drawing, DecisionValuesAlongALine) {
   EXPECT_EQ(exits.values("leaves"), each(exits.answer["trace"]["steps"], "leaves"));
 }
 
+// y grows down: a line to the right and down goes south-east.
+TEST(Drawing, TheMidpointsChoiceAsADirection) {
+  const std::tuple<std::string, std::string, std::string> lines[] = {
+      {"[0,0,8,3]", ">E<", ">SE<"},  {"[0,0,8,-3]", ">E<", ">NE<"},
+      {"[0,0,-8,3]", ">W<", ">SW<"}, {"[0,0,-8,-3]", ">W<", ">NW<"},
+      {"[0,0,3,8]", ">S<", ">SE<"},  {"[0,0,-3,-8]", ">N<", ">NW<"}};
+  for (const auto& [line, along, both] : lines) {
+    const std::string svg = scanned("midpoint", R"({"line": )" + line + "}").svg;
+    std::set<std::string> directions;
+    const std::regex choice("class=\"text-a\" text-anchor=\"middle\"(>[^<]*<)");
+    for (std::sregex_iterator it(svg.begin(), svg.end(), choice), end; it != end; ++it)
+      directions.insert((*it)[1]);
+    EXPECT_EQ(directions, (std::set<std::string>{along, both})) << line;
+  }
+}
+
 TEST(Drawing, CrossingsOfEachScanLine) {
   const std::string polygon = R"({"polygon": [[[1,1],[8,2],[9,9],[5,4],[2,8]]], "name": "a < b"})";
   for (const char* algorithm : {"even-odd", "non-zero"}) {
@@ -182,6 +245,25 @@ TEST(Drawing, EdgeValuesOverTheImage) {
   EXPECT_EQ(read.status, 0) << read.err;
 }
 
+TEST(Drawing, SignsOfARegionLieInTheImage) {
+  const TestFolder folder;
+  const Outcome outcome = run_fathom(
+      {"scan", "--algorithm", "edge-values", "--draw", "e.svg"},
+      {.folder = folder.path(),
+       .input = R"({"triangle": [[50,20],[200,150],[30,180]], "width": 256, "height": 256})"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string svg = folder.read("e.svg");
+  const Corners image = polygons_of(svg, "thin").back();
+  const std::vector<Label> labels = labels_of(svg);
+  EXPECT_EQ(labels.size(), 7u);
+  for (const Label& label : labels) {
+    EXPECT_GE(label.left, image[0][0]) << label.words;
+    EXPECT_LE(label.right, image[2][0]) << label.words;
+    EXPECT_GE(label.base - 10, image[0][1]) << label.words;
+    EXPECT_LE(label.base, image[2][1]) << label.words;
+  }
+}
+
 TEST(Drawing, SegmentsInAWindow) {
   const std::string segment = R"({"segment": [[0,0],[9,6]], "window": [1,1,6,3]})";
   const Drawn cohen = clipped("cohen-sutherland", segment, {"--exact"});
@@ -225,6 +307,15 @@ TEST(Drawing, BothListsAndTheWalks) {
   Json walks = Json::array();
   for (const Json& walk : trace["walks"]) walks.push_back(each(walk, "from"));
   EXPECT_EQ(picture.values("walk"), flat(walks));
+  // Numbers side by side would read as one.
+  const std::vector<Label> labels = labels_of(picture.svg);
+  EXPECT_EQ(labels.size(), 18u);
+  for (const Label& a : labels) {
+    for (const Label& b : labels) {
+      const bool is_next = a.left < b.left && std::abs(a.base - b.base) < 10;
+      EXPECT_TRUE(!is_next || b.left - a.right >= 4) << a.words << " " << b.words;
+    }
+  }
 }
 
 TEST(Drawing, ThePipelineOfAPixel) {
@@ -257,6 +348,23 @@ TEST(Drawing, ThePipelineOfAPixel) {
   EXPECT_GT(polygons.size(), 2u);
   EXPECT_EQ(painted.values("corner"), flat(each(polygons, "corners")));
   EXPECT_THAT(painted.svg, HasSubstr("split "));
+}
+
+// A few pixels of a large window are enlarged; the window is shown next to them.
+TEST(Drawing, ASmallPrimitiveEnlarged) {
+  const TestFolder folder;
+  const Outcome outcome = run_fathom({"pipeline", "trace", source_dir() / "data/meshes/spot.obj",
+                                      "--triangle", "238", "--pixel", "640,360", "--draw", "t.svg"},
+                                     {.folder = folder.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string svg = folder.read("t.svg");
+  const auto triangles = polygons_of(svg, "b");
+  ASSERT_EQ(triangles.size(), 1u);
+  EXPECT_GT(width_of(triangles[0]), 200);
+  const auto windows = polygons_of(svg, "soft");
+  ASSERT_EQ(windows.size(), 2u);
+  EXPECT_NEAR(width_of(windows[1]), 208, 1);  // with a border, 260
+  EXPECT_THAT(svg, HasSubstr("red frame: the part shown on the left"));
 }
 
 TEST(Drawing, IsRefusedInOneLine) {

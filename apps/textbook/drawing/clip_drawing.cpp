@@ -364,8 +364,12 @@ void put_polygons(Picture& picture, const View& view, const Json& trace,
         if (known == nullptr || place.contains("kind")) known = &place;
       }
   if (!with_labels) return;
-  for (const auto& [text, place] : places)
-    picture.dot(view(place_of((*place)["point"])), kind_of_dot(*place), 4);
+  constexpr double radius = 4;
+  for (const auto& [text, place] : places) {
+    const Place at = view(place_of((*place)["point"]));
+    picture.dot(at, kind_of_dot(*place), radius);
+    picture.keep_clear({at.x - radius, at.y - radius, at.x + radius, at.y + radius});
+  }
   for (const auto& [text, place] : places)
     picture.label(view(place_of((*place)["point"])), std::to_string(numbers.at(text)), view.box());
 }
@@ -422,7 +426,7 @@ Picture draw_weiler_atherton(const Json& object, const Json& answer) {
       below.y += caption_height;
       std::string words = fmt::format("from {}", numbers.at(step["from"].dump()));
       picture.text(below, words, "text");
-      const Place end = put_point(picture, {below.x + 54, below.y}, step["from"], "walk");
+      const Place end = put_point(picture, {below.x + 62, below.y}, step["from"], "walk");
       words = "along " + step["along"].get<std::string>();
       if (step.contains("crossing")) words += " from #" + step["crossing"].dump();
       picture.text({end.x + 8, below.y}, words, along_subject ? "text-b" : "text-c");

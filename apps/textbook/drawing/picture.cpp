@@ -196,7 +196,7 @@ Place Picture::values(Place at, const Json& numbers, std::string_view of) {
 }
 
 void Picture::label(Place point, std::string_view words, const Box& bounds) {
-  const double width = width_of(words), height = 14;
+  const double width = width_of(words), height = 14, gap = 4;
   constexpr double directions[][2] = {{1, -1}, {-1, -1}, {1, 1}, {-1, 1},
                                       {0, -1}, {1, 0},   {0, 1}, {-1, 0}};
   for (const double radius : {6.0, 18.0, 32.0, 48.0, 68.0, 90.0}) {
@@ -205,8 +205,10 @@ void Picture::label(Place point, std::string_view words, const Box& bounds) {
       const double y = point.y + dy * radius + (dy < 0 ? -height : dy > 0 ? 0 : -height / 2);
       const Box box{x, y, x + width, y + height};
       if (!contains(bounds, box)) continue;
+      // Side by side, two labels would read as one.
+      const Box clear{box.left - gap, box.top, box.right + gap, box.bottom};
       if (std::any_of(taken_.begin(), taken_.end(),
-                      [&](const Box& other) { return overlap(box, other); }))
+                      [&](const Box& other) { return overlap(clear, other); }))
         continue;
       if (radius > 20) line(point, {x + width / 2, y + height / 2}, "thin");
       taken_.push_back(box);

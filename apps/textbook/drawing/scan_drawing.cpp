@@ -79,16 +79,35 @@ std::string name_of(const Json& object) {
   return found != object.end() && found->is_string() ? found->get<std::string>() + ": " : "";
 }
 
+/// The directions of a line's steps on the page: along its major axis, and across it.
+struct StepDirections {
+  explicit StepDirections(const Json& line) {
+    const double dx = number_of(line[2]) - number_of(line[0]),
+                 dy = number_of(line[3]) - number_of(line[1]);
+    const bool steep = std::abs(dy) > std::abs(dx);
+    const double major = (steep ? dy : dx) < 0 ? -1 : 1, minor = (steep ? dx : dy) < 0 ? -1 : 1;
+    along = steep ? Place{0, major} : Place{major, 0};
+    across = steep ? Place{minor, 0} : Place{0, minor};
+  }
+  Place along, across;
+};
+
 /// The midpoint M between the two pixels that a step chooses from.
-void draw_midpoint(Picture& picture, const PixelGrid& grid, const Json& line, const Json& step) {
-  const double dx = number_of(line[2]) - number_of(line[0]),
-               dy = number_of(line[3]) - number_of(line[1]);
-  const bool steep = std::abs(dy) > std::abs(dx);
+void draw_midpoint(Picture& picture, const PixelGrid& grid, const StepDirections& directions,
+                   const Json& step) {
+  const auto& [along, across] = directions;
   const Place pixel = place_of(step["pixel"]);
-  const double along = (steep ? dy : dx) < 0 ? -1 : 1, across = (steep ? dx : dy) < 0 ? -0.5 : 0.5;
-  const Place m =
-      steep ? Place{pixel.x + across, pixel.y + along} : Place{pixel.x + along, pixel.y + across};
-  picture.dot(grid.centre(m.x, m.y), "dot-a", 3);
+  const Place m = grid.centre(pixel.x + along.x + across.x / 2, pixel.y + along.y + across.y / 2);
+  picture.dot(m, "dot-a", 3);
+}
+
+/// The direction of the next pixel as the page shows it, with north up: the choices "E" and "NE" of
+/// an answer are the textbook's, whose y grows up and whose lines rise to the right.
+std::string compass_direction(const StepDirections& directions, const Json& choice) {
+  const auto& [along, across] = directions;
+  const bool both = choice == "NE";
+  const double x = along.x + (both ? across.x : 0), y = along.y + (both ? across.y : 0);
+  return std::string(y < 0 ? "N" : y > 0 ? "S" : "") + (x < 0 ? "W" : x > 0 ? "E" : "");
 }
 
 Picture draw_line(const std::string& algorithm, const Json& object, const Json& answer) {
@@ -125,12 +144,14 @@ Picture draw_line(const std::string& algorithm, const Json& object, const Json& 
       y = grid.cell(p.x, p.y).bottom - 7;
     }
     if (!step.contains("choice")) continue;
-    picture.text({c.x, y}, step["choice"].get<std::string>(), "text-a", "middle");
-    draw_midpoint(picture, grid, line, step);
+    const StepDirections directions(line);
+    picture.text({c.x, y}, compass_direction(directions, step["choice"]), "text-a", "middle");
+    draw_midpoint(picture, grid, directions, step);
   }
   const char* what =
-      algorithm == "midpoint"
-          ? "in a pixel: d, and the pixel that it chooses next; red: the midpoint that d is about"
+      algorithm == "midpoint" ? "in a pixel: d, and where the next pixel is, with north up; red: "
+                                "the midpoint that d is "
+                                "about"
       : algorithm == "bresenham" ? "in a pixel: the error before the step"
       : algorithm == "diamond-exit"
           ? "in a pixel: the parameters at which the line enters and leaves its diamond"
@@ -337,6 +358,42 @@ void draw_values(Picture& picture, const View& view, const Json& answer, std::si
   }
 }
 
+/// Whether a convex polygon contains a box.
+bool contains(const std::vector<Place>& polygon, const Box& box) {
+  const Place corners[] = {
+      {box.left, box.top}, {box.right, box.top}, {box.right, box.bottom}, {box.left, box.bottom}};
+  bool some_left = false, some_right = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Place &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    for (const Place& c : corners) {
+      const double side = (q.x - p.x) * (c.y - p.y) - (q.y - p.y) * (c.x - p.x);
+      some_left = some_left || side < 0;
+      some_right = some_right || side > 0;
+    }
+  }
+  return some_left != some_right;
+}
+
+/// The signs in a region of the image: in its middle if they fit, else next to a dot there, within
+/// `image`.
+void put_signs(Picture& picture, const std::vector<Place>& region, const std::string& signs,
+               const Box& image) {
+  Place middle;
+  for (const Place& p : region) {
+    middle.x += p.x / static_cast<double>(region.size());
+    middle.y += p.y / static_cast<double>(region.size());
+  }
+  const double width = width_of(signs), height = 14;
+  const Box box{middle.x - width / 2, middle.y - height / 2, middle.x + width / 2,
+                middle.y + height / 2};
+  if (!contains(region, box)) {
+    picture.dot(middle, "dot", 2);
+    return picture.label(middle, signs, image);
+  }
+  picture.keep_clear(box);
+  picture.text({middle.x, box.bottom - 3}, signs, "label", "middle");
+}
+
 Picture draw_edge_values(const Json& object, const Json& answer) {
   Picture picture;
   picture.text({0, 15}, name_of(object) + "the three edge functions over the image", "title");
@@ -379,6 +436,8 @@ Picture draw_edge_values(const Json& object, const Json& answer) {
   }
   picture.polygon(view(image), "thin");
   picture.polygon(view(places_of(object["triangle"])), "ink");
+  const Place upper_left = view(image[0]), lower_right = view(image[2]);
+  const Box page_image{upper_left.x, upper_left.y, lower_right.x, lower_right.y};
   for (int region = 0; region < 8; ++region) {
     std::vector<Place> part = image;
     std::string signs;
@@ -389,13 +448,7 @@ Picture draw_edge_values(const Json& object, const Json& answer) {
                                side * number_of(edge["c"])});
       signs += sign_of(static_cast<int>(side));
     }
-    if (part.size() < 3) continue;
-    Place middle;
-    for (const Place& p : part) {
-      middle.x += p.x / static_cast<double>(part.size());
-      middle.y += p.y / static_cast<double>(part.size());
-    }
-    picture.label(view(middle), signs, view.box());
+    if (part.size() > 2) put_signs(picture, view(part), signs, page_image);
   }
   return picture;
 }

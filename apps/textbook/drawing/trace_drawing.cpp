@@ -30,6 +30,94 @@ void put_outline(Picture& picture, const std::vector<Place>& corners) {
   for (const Place& p : corners) picture.dot(p, "dot-b");
 }
 
+constexpr double window_size = 520, inset_size = 260;
+
+/// The smallest box about some places, of which there is one at least.
+Box box_about(const std::vector<Place>& places) {
+  Box box{places[0].x, places[0].y, places[0].x, places[0].y};
+  for (const Place& p : places)
+    box = {std::min(box.left, p.x), std::min(box.top, p.y), std::max(box.right, p.x),
+           std::max(box.bottom, p.y)};
+  return box;
+}
+
+std::vector<Place> corners_of(const Box& box) {
+  return {
+      {box.left, box.top}, {box.right, box.top}, {box.right, box.bottom}, {box.left, box.bottom}};
+}
+
+Box common_part(const Box& a, const Box& b) {
+  return {std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right),
+          std::min(a.bottom, b.bottom)};
+}
+
+/// What the large panel shows: the whole window, or the surroundings of a primitive that would be
+/// small in it.
+Box shown_part(const std::vector<Place>& corners, const Box& window) {
+  if (corners.empty()) return window;
+  constexpr double least_across = 4;
+  Box part = box_about(corners);
+  const Box inside = common_part(part, window);
+  if (inside.left > inside.right || inside.top > inside.bottom) return window;
+  if (2 * (part.right - part.left) > window.right || 2 * (part.bottom - part.top) > window.bottom)
+    return window;
+  const double x = (part.left + part.right) / 2, y = (part.top + part.bottom) / 2;
+  return {std::min(part.left, x - least_across / 2), std::min(part.top, y - least_across / 2),
+          std::max(part.right, x + least_across / 2), std::max(part.bottom, y + least_across / 2)};
+}
+
+/// The part of the window that a view shows.
+Box visible_part(const View& view, const Box& window) {
+  return common_part(window,
+                     {view.least().x, view.least().y, view.greatest().x, view.greatest().y});
+}
+
+/// Lines between pixels and the pixels' numbers, where pixels are large enough to be told apart.
+void put_pixel_grid(Picture& picture, const View& view, const Box& part) {
+  constexpr double least_cell = 6, least_gap = 44;
+  if (view.scale() < least_cell) return;
+  const double step = std::ceil(least_gap / view.scale());
+  const Place corner = view({part.left, part.top});
+  for (double x = std::ceil(part.left); x <= part.right; ++x) {
+    picture.line(view({x, part.top}), view({x, part.bottom}), "cell");
+    if (std::fmod(x, step) == 0 && x + 1 <= part.right)
+      picture.text({view({x + 0.5, 0}).x, corner.y - 6}, fmt::format("{:g}", x), "note", "middle");
+  }
+  for (double y = std::ceil(part.top); y <= part.bottom; ++y) {
+    picture.line(view({part.left, y}), view({part.right, y}), "cell");
+    if (std::fmod(y, step) == 0 && y + 1 <= part.bottom)
+      picture.text({corner.x - 6, view({0, y + 0.5}).y + 4}, fmt::format("{:g}", y), "note", "end");
+  }
+}
+
+/// The traced pixel's centre, as a cross.
+void put_pixel(Picture& picture, const View& view, const Json& trace) {
+  const Json merger = trace.value("output_merger", Json::array());
+  if (merger.empty()) return;
+  const Place centre =
+      view({number_of(merger[0]["pixel"][0]) + 0.5, number_of(merger[0]["pixel"][1]) + 0.5});
+  const Box& box = view.box();
+  if (centre.x < box.left || centre.x > box.right || centre.y < box.top || centre.y > box.bottom)
+    return;
+  picture.line({centre.x - 8, centre.y}, {centre.x + 8, centre.y}, "a");
+  picture.line({centre.x, centre.y - 8}, {centre.x, centre.y + 8}, "a");
+}
+
+/// The whole window, small, with a frame about the part that the large panel shows.
+void put_inset(Picture& picture, const Json& trace, const Box& window, const Box& part, Place at) {
+  picture.text(at, "red frame: the part shown on the left", "note");
+  const View view(corners_of(window), {at.x, at.y + 8}, inset_size,
+                  inset_size * std::min(1.0, window.bottom / window.right), true);
+  picture.polygon(view(corners_of(window)), "soft");
+  put_pixel(picture, view, trace);
+  constexpr double least_frame = 10;
+  Box frame = box_about(view(corners_of(part)));
+  const double x = (frame.left + frame.right) / 2, y = (frame.top + frame.bottom) / 2;
+  frame = {std::min(frame.left, x - least_frame / 2), std::min(frame.top, y - least_frame / 2),
+           std::max(frame.right, x + least_frame / 2), std::max(frame.bottom, y + least_frame / 2)};
+  picture.rect(frame, "a");
+}
+
 /// What clipping has left, in the image.
 Picture draw_window(const Json& trace, double width, double height) {
   Picture picture;
@@ -38,21 +126,23 @@ Picture draw_window(const Json& trace, double width, double height) {
       fmt::format("{} {} in the window of {:g} x {:g} pixels",
                   trace["primitive"].get<std::string>(), trace["number"].dump(), width, height),
       "title");
-  const View view({{0, 0}, {width, height}}, {0, 24}, 520, 520 * std::min(1.0, height / width),
-                  true);
-  const std::vector<Place> image{{0, 0}, {width, 0}, {width, height}, {0, height}};
-  picture.polygon(view(image), "soft");
+  const Box window{0, 0, width, height};
   const std::vector<Place> corners = window_corners(trace);
+  const Box part = shown_part(corners, window);
+  const bool is_whole = part.right - part.left == width;
+  // A part has the numbers of its pixels above and on the left.
+  const View view = is_whole ? View(corners_of(window), {0, 24}, window_size,
+                                    window_size * std::min(1.0, height / width), true)
+                             : View(corners_of(part), {44, 44}, window_size, window_size, true);
+  const Box visible = visible_part(view, window);
+  picture.polygon(view(corners_of(visible)), "soft");
+  if (!is_whole) put_pixel_grid(picture, view, visible);
   put_outline(picture, view(corners));
   for (std::size_t i = 0; i < corners.size(); ++i)
     picture.label(view(corners[i]), std::to_string(i + 1), view.box());
-  const Json merger = trace.value("output_merger", Json::array());
-  if (!merger.empty()) {
-    const Place pixel =
-        view({number_of(merger[0]["pixel"][0]) + 0.5, number_of(merger[0]["pixel"][1]) + 0.5});
-    picture.line({pixel.x - 8, pixel.y}, {pixel.x + 8, pixel.y}, "a");
-    picture.line({pixel.x, pixel.y - 8}, {pixel.x, pixel.y + 8}, "a");
-  }
+  put_pixel(picture, view, trace);
+  if (!is_whole)
+    put_inset(picture, trace, window, visible, {view.box().right + 30, view.box().top + 12});
   double y = view.box().bottom + row_height;
   if (corners.empty()) picture.text({0, y}, "clipping leaves nothing of it", "text");
   for (std::size_t i = 0; i < corners.size(); ++i, y += row_height) {
