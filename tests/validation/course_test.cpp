@@ -77,6 +77,19 @@ TEST(Course, EdgeFunctionsArePositiveWhereThePipelineDraws) {
   EXPECT_NEAR(static_cast<double>(inside), 26600 / 2.0, 100);
 }
 
+TEST(Course, EdgeFunctionsAreTheTextbooksWithTheOtherSign) {
+  const auto values = edge_function_values();
+  const double corners[3][2] = {{50, 20}, {200, 150}, {30, 180}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    ASSERT_EQ(values[k].size(), 65536u);
+    const double *a = corners[(k + 1) % 3], *b = corners[(k + 2) % 3];
+    for (std::size_t i = 0; i < values[k].size(); ++i) {
+      const double x = static_cast<double>(i % 256) + 0.5, y = static_cast<double>(i / 256) + 0.5;
+      EXPECT_EQ(values[k][i], -((x - a[0]) * (b[1] - a[1]) - (y - a[1]) * (b[0] - a[0])));
+    }
+  }
+}
+
 TEST(Course, TablesAreThoseOfTheSource) {
   const Tables t = z_buffer_tables();
   const std::vector<std::string> depths{"1 1 1 1 1 0.5 1 1 1 1 1 1",

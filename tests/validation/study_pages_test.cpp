@@ -61,7 +61,7 @@ TEST(StudyPages, Blending) {
   EXPECT_EQ(pictures_of("blending"), 16U);
 }
 TEST(StudyPages, Course) {
-  EXPECT_EQ(pictures_of("course"), 70U);
+  EXPECT_EQ(pictures_of("course"), 73U);
 }
 TEST(StudyPages, HiddenSurface) {
   EXPECT_EQ(pictures_of("hidden-surface"), 11U);

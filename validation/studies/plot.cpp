@@ -103,20 +103,49 @@ std::string script_of(const BarChart& chart) {
   return script;
 }
 
+std::string cell_line(const HeatMap& map, std::size_t row, std::size_t column) {
+  return fmt::format("{:.10g} {:.10g} {:.6g}\n", map.x[column], map.y[row],
+                     map.values[row * map.x.size() + column]);
+}
+
+/// The block of data $numbers: the cells whose values are written.
+std::string numbers_of(const HeatMap& map) {
+  const std::size_t apart = map.cells_per_number;
+  std::string block = "$numbers << END\n";
+  for (std::size_t row = apart / 2; row < map.y.size(); row += apart)
+    for (std::size_t column = apart / 2; column < map.x.size(); column += apart)
+      block += cell_line(map, row, column);
+  return block + "END\n";
+}
+
+std::string colours_of(const HeatMap& map) {
+  if (!map.by_sign) return "set palette gray negative\nset cbrange [0:*]\n";
+  double greatest = 0;
+  for (const double value : map.values) greatest = std::max(greatest, std::abs(value));
+  return fmt::format(
+      "set palette defined (-1 \"#1565c0\", 0 \"#ffffff\", 1 \"#c62828\")\n"
+      "set cbrange [{:.6g}:{:.6g}]\n",
+      -greatest, greatest);
+}
+
 std::string script_of(const HeatMap& map) {
   std::string script = "$cells << END\n";
-  for (std::size_t row = 0; row < map.y.size(); ++row) {
-    for (std::size_t column = 0; column < map.x.size(); ++column) {
-      script += fmt::format("{:.10g} {:.10g} {:.6g}\n", map.x[column], map.y[row],
-                            map.values[row * map.x.size() + column]);
-    }
-  }
-  script += "END\n" + axes(map.title, map.y_label);
-  script += fmt::format(
-      "unset key\nset xlabel {} noenhanced\nset cblabel {} noenhanced\nset palette gray negative\n"
-      "set cbrange [0:*]\nset autoscale fix\nplot $cells with image\n",
-      quoted(map.x_label), quoted(map.value_label));
-  return script;
+  for (std::size_t row = 0; row < map.y.size(); ++row)
+    for (std::size_t column = 0; column < map.x.size(); ++column)
+      script += cell_line(map, row, column);
+  script += "END\n";
+  if (map.cells_per_number > 0) script += numbers_of(map);
+  script += axes(map.title, map.y_label);
+  script += fmt::format("unset key\nset xlabel {} noenhanced\nset cblabel {} noenhanced offset 2\n",
+                        quoted(map.x_label), quoted(map.value_label));
+  script += colours_of(map) + "set autoscale fix\n";
+  if (map.as_image) script += "set size ratio -1\nset yrange [] reverse\n";
+  script += "plot $cells with image";
+  if (map.cells_per_number > 0)
+    script +=
+        ", \\\n  $numbers using 1:2:(sprintf(\"%g\", $3)) with labels point pt 7 ps 0.4 offset "
+        "0,0.7";
+  return script + "\n";
 }
 
 }  // namespace

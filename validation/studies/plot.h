@@ -51,12 +51,19 @@ struct BarChart {
   std::vector<Bars> series;
 };
 
-/// A value for each cell of a grid, dark where it is great, with a colour bar.
+/// A value for each cell of a grid, with a colour bar.
 struct HeatMap {
   std::string name;
   std::string title, x_label, y_label, value_label;
   std::vector<double> x, y;    ///< centres of columns and rows, evenly spaced
   std::vector<double> values;  ///< rows × columns, row by row
+  /// Red where it is positive, blue where it is negative; otherwise dark where it is great, from 0.
+  bool by_sign = false;
+  /// Of an image: its first row is on top, and its cells are squares.
+  bool as_image = false;
+  /// Cells whose values are written into the plot: a row and a column of so many, from the middle of
+  /// the first so many; 0: none.
+  std::size_t cells_per_number = 0;
 };
 
 /// Whether a bar has a height.

@@ -29,10 +29,31 @@ void add(Results& results, const SceneFiles& files) {
   for (const StudyFile& file : files.files) results.file(file);
 }
 
+/// An edge function of exercise 2, with numbers at 4 × 4 pixels.
+HeatMap edge_values_plot(const std::string& edge, const std::vector<double>& values) {
+  HeatMap map{.name = "exercise-2-" + edge,
+              .title = "e_" + edge + " at the centres of the pixels",
+              .x_label = "x (pixels)",
+              .y_label = "y (pixels)",
+              .value_label = "e_" + edge + ", positive inside",
+              .x = {},
+              .y = {},
+              .values = values,
+              .by_sign = true,
+              .as_image = true,
+              .cells_per_number = 64};
+  for (int i = 0; i < 256; ++i) map.x.push_back(i);
+  map.y = map.x;
+  return map;
+}
+
 void exercises_1_and_2(Results& results) {
   add(results, eight_lines_files());
   show(results, "exercise-1", eight_lines(pipeline::WireLine::bresenham), 6);
   show(results, "exercise-2", edge_function_signs(), 2);
+  constexpr const char* edges[] = {"BC", "CA", "AB"};
+  const auto values = edge_function_values();
+  for (std::size_t k = 0; k < 3; ++k) results.plot(edge_values_plot(edges[k], values[k]));
 }
 
 void quadrangles(Results& results) {

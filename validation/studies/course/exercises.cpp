@@ -90,16 +90,25 @@ RgbImage eight_lines(pipeline::WireLine algorithm) {
 }
 
 // In binary64, where these are exact: halves of whole numbers below 2^18.
+std::array<std::vector<double>, 3> edge_function_values() {
+  std::array<std::vector<double>, 3> values;
+  const auto triangle = pipeline::edge_functions<double>({{{50, 20}, {200, 150}, {30, 180}}});
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::int64_t y = 0; y < 256; ++y)
+      for (std::int64_t x = 0; x < 256; ++x)
+        values[k].push_back(
+            triangle->edges[k].at(pipeline::centre_of<double>(x), pipeline::centre_of<double>(y)));
+  return values;
+}
+
 RgbImage edge_function_signs() {
   RgbImage image(256, 256);
-  const auto triangle = pipeline::edge_functions<double>({{{50, 20}, {200, 150}, {30, 180}}});
-  for (std::uint32_t y = 0; y < 256; ++y)
-    for (std::uint32_t x = 0; x < 256; ++x)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double e =
-            triangle->edges[k].at(pipeline::centre_of<double>(x), pipeline::centre_of<double>(y));
-        image.at(x, y)[k] = e > 0 ? 230 : e < 0 ? 50 : 255;
-      }
+  const auto values = edge_function_values();
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+      const double e = values[k][i];
+      image.pixels[i][k] = e > 0 ? 230 : e < 0 ? 50 : 255;
+    }
   return image;
 }
 

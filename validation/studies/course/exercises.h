@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "fathom/depth_format/depth_format.h"
 #include "validation/studies/scene_files.h"
@@ -13,8 +14,10 @@ namespace fathom::studies {
 SceneFiles eight_lines_files();
 RgbImage eight_lines(pipeline::WireLine algorithm);
 
-/// Exercise 2: the signs of the three edge functions of (50,20), (200,150), (30,180), 256 × 256:
-/// red, green and blue where that opposite the first, second and third corner is positive.
+/// Exercise 2: the three edge functions of (50,20), (200,150), (30,180) at the centres of 256 × 256
+/// pixels, row by row: those of the edges opposite the first, second and third corner. Exact.
+std::array<std::vector<double>, 3> edge_function_values();
+/// Their signs: red, green and blue where the first, second and third is positive.
 RgbImage edge_function_signs();
 
 /// Exercise 3: two tilted surfaces 0.0001 apart along the view at a distance; white where the
