@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -11,11 +10,9 @@
 
 #include "fathom/attribution/cause.h"
 #include "fathom/attribution/model/named_models.h"
-#include "fathom/attribution/model/window_depth.h"
 #include "fathom/attribution/other_scene.h"
 #include "fathom/attribution/pixels/foreign_values.h"
-#include "fathom/camera/camera_making.h"
-#include "validation/bench/shapes.h"
+#include "tests/attribution/sphere_maps.h"
 
 /// What is said of maps whose renderer was called by a wrong name.
 namespace fathom::attribution {
@@ -23,41 +20,9 @@ namespace {
 
 using testing::HasSubstr;
 using testing::StartsWith;
+using namespace fathom::test;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Camera sphere_camera(double near, double far) {
-  Camera camera = look_from({.azimuth = 35, .elevation = 25}, {0, 0, 0}, 3,
-                            {.width = 160, .height = 120, .vertical_fov = 45});
-  camera.near = near;
-  camera.far = far;
-  return camera;
-}
-
-std::shared_ptr<const Truth> sphere_seen_by(const Camera& camera) {
-  return std::make_shared<Truth>(make_truth(bench::as_scene({bench::sphere(128)}, "s"), camera));
-}
-
-/// The exact depths, stored as window depths of so many bits between near and far, read in binary32.
-OtherMap in_codes(const Truth& truth, int bits, double near, double far) {
-  const WindowDepth window = window_depth(Projection::perspective, Mapping::opengl, near, far);
-  const double greatest = std::exp2(bits) - 1;
-  OtherMap map{.width = truth.camera.width, .height = truth.camera.height, .depths = truth.depths};
-  for (double& depth : map.depths) {
-    if (!(depth < infinity)) continue;
-    const double code = std::nearbyint(window.of_depth(depth) * greatest);
-    depth = double{static_cast<float>(window.to_depth(code / greatest))};
-  }
-  map.values = map.depths;
-  return map;
-}
-
-OtherMap in_binary32(const Truth& truth) {
-  OtherMap map{.width = truth.camera.width, .height = truth.camera.height, .depths = truth.depths};
-  for (double& depth : map.depths) depth = double{static_cast<float>(depth)};
-  map.values = map.depths;
-  return map;
-}
 
 Judgement judged(const std::shared_ptr<const Truth>& truth, const OtherMap& map,
                  const std::string& model) {

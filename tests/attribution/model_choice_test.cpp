@@ -3,13 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 
 #include "fathom/attribution/model/named_models.h"
-#include "fathom/attribution/model/window_depth.h"
-#include "fathom/camera/camera_making.h"
-#include "validation/bench/shapes.h"
+#include "tests/attribution/sphere_maps.h"
 
 namespace fathom::attribution {
 namespace {
@@ -17,25 +14,11 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Truth sphere(double near, double far) {
-  Camera camera = look_from({.azimuth = 35, .elevation = 25}, {0, 0, 0}, 3,
-                            {.width = 160, .height = 120, .vertical_fov = 45});
-  camera.near = near;
-  camera.far = far;
-  return make_truth(bench::as_scene({bench::sphere(128)}, "sphere"), camera);
+  return *test::sphere_seen_by(test::sphere_camera(near, far));
 }
 
-/// The exact depths, stored as window depths of so many bits and read in binary32.
 OtherMap in_codes(const Truth& truth, int bits) {
-  const WindowDepth window =
-      window_depth(Projection::perspective, Mapping::opengl, truth.camera.near, truth.camera.far);
-  const double greatest = std::exp2(bits) - 1;
-  OtherMap map{.width = truth.camera.width, .height = truth.camera.height, .depths = truth.depths};
-  for (double& depth : map.depths) {
-    if (!(depth < infinity)) continue;
-    const double code = std::nearbyint(window.of_depth(depth) * greatest);
-    depth = double{static_cast<float>(window.to_depth(code / greatest))};
-  }
-  return map;
+  return test::in_codes(truth, bits, truth.camera.near, truth.camera.far);
 }
 
 // Pixels are so small that a thousandth of one, by which Cycles may be off, is less than a code.
@@ -63,9 +46,7 @@ TEST(ModelChoice, TheNarrowest) {
 
 TEST(ModelChoice, WithoutFarOnlyRays) {
   const Truth truth = sphere(0, infinity);
-  OtherMap map{.width = 160, .height = 120, .depths = truth.depths};
-  for (double& depth : map.depths) depth = double{static_cast<float>(depth)};
-  const ModelChoice choice = chosen_model(truth, map);
+  const ModelChoice choice = chosen_model(truth, test::in_binary32(truth));
   EXPECT_EQ(choice.chosen.model.name, "float32-ray");
   EXPECT_EQ(choice.evidence.size(), 2U);
 }

@@ -82,6 +82,9 @@ class Candidates {
 
  private:
   std::optional<ModelTrial> explaining(bool of_vtk);
+  /// The last trial of the survey's model on the whole map.
+  [[nodiscard]] const ModelTrial* trial_of(const ModelSurvey& survey) const;
+  [[nodiscard]] double left_by(const ModelSurvey& survey) const;
   [[nodiscard]] std::vector<ModelSurvey> by_what_they_leave() const;
   [[nodiscard]] ModelTrial diagnosed(const RendererModel& model, std::optional<Hypothesis>& fault);
   [[nodiscard]] std::vector<RendererModel> narrowest_after(const Hypothesis& fault) const;
@@ -125,13 +128,26 @@ std::optional<ModelTrial> Candidates::explaining() {
   return std::nullopt;
 }
 
+const ModelTrial* Candidates::trial_of(const ModelSurvey& survey) const {
+  const auto trial = std::find_if(trials_.rbegin(), trials_.rend(), [&](const ModelTrial& t) {
+    return t.model.name == survey.model.name;
+  });
+  return trial == trials_.rend() ? nullptr : &*trial;
+}
+
+/// Unexplained pixels of the whole map: counted after a trial, else estimated.
+double Candidates::left_by(const ModelSurvey& survey) const {
+  const ModelTrial* const trial = trial_of(survey);
+  return trial == nullptr ? survey.estimated_unexplained()
+                          : static_cast<double>(unexplained(trial->attribution));
+}
+
 /// Fewest pixels first; of those that leave as many, the one with the widest bounds, which sees a gross
 /// fault alone.
 std::vector<ModelSurvey> Candidates::by_what_they_leave() const {
   std::vector<ModelSurvey> sorted = surveys_;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const ModelSurvey& a, const ModelSurvey& b) {
-    return std::tuple(a.foreign, a.unexplained, -a.width) <
-           std::tuple(b.foreign, b.unexplained, -b.width);
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const ModelSurvey& a, const ModelSurvey& b) {
+    return std::pair(left_by(a), -a.width) < std::pair(left_by(b), -b.width);
   });
   return sorted;
 }
@@ -187,10 +203,8 @@ std::optional<ModelTrial> Candidates::at_fault() {
 std::vector<std::string> Candidates::evidence() const {
   std::vector<std::string> lines;
   for (const ModelSurvey& survey : surveys_) {
-    const auto trial = std::find_if(trials_.rbegin(), trials_.rend(), [&](const ModelTrial& t) {
-      return t.model.name == survey.model.name;
-    });
-    lines.push_back(trial == trials_.rend() ? attribution::text_of(survey) : text_of(*trial));
+    const ModelTrial* const trial = trial_of(survey);
+    lines.push_back(trial == nullptr ? attribution::text_of(survey) : text_of(*trial));
   }
   return lines;
 }

@@ -32,13 +32,19 @@ std::vector<std::uint32_t> bands_with_surfaces(const Truth& truth, const OtherMa
   return bands;
 }
 
-std::vector<std::uint32_t> sample_of(const Truth& truth, const OtherMap& other) {
+struct Sample {
+  std::vector<std::uint32_t> bands;
+  double share = 1;  ///< of the bands with surfaces
+};
+
+Sample sample_of(const Truth& truth, const OtherMap& other) {
   const std::vector<std::uint32_t> all = bands_with_surfaces(truth, other);
   const std::size_t count = std::min(all.size(), std::max(all.size() / most_between, least_bands));
-  std::vector<std::uint32_t> sample;
+  Sample sample;
   for (std::size_t k = 0; k < count; ++k) {
-    sample.push_back(all[(2 * k + 1) * all.size() / (2 * count)]);
+    sample.bands.push_back(all[(2 * k + 1) * all.size() / (2 * count)]);
   }
+  if (count > 0) sample.share = static_cast<double>(count) / static_cast<double>(all.size());
   return sample;
 }
 
@@ -46,10 +52,12 @@ std::vector<std::uint32_t> sample_of(const Truth& truth, const OtherMap& other) 
 
 ModelSurvey surveyed(const Truth& truth, const OtherMap& other, const RendererModel& model) {
   const RendererModel known = as_recorded(model, other);
-  const Attribution found = attribute_bands(truth, other, known, sample_of(truth, other));
+  const Sample sample = sample_of(truth, other);
+  const Attribution found = attribute_bands(truth, other, known, sample.bands);
   return {.model = model,
           .unexplained = found.count(PixelClass::unexplained),
           .foreign = foreign_values(truth.camera, other, known),
+          .share = sample.share,
           .width = found.median_relative_width};
 }
 
