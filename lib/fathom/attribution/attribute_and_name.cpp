@@ -16,6 +16,7 @@
 #include "fathom/attribution/faults/hypotheses.h"
 #include "fathom/attribution/faults/pixels_at_fault.h"
 #include "fathom/attribution/faults/storage.h"
+#include "fathom/attribution/faults/stored_planes.h"
 #include "fathom/attribution/faults/triangles_at_fault.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
@@ -91,6 +92,7 @@ class Search {
   /// Takes a coarse storage for known from here on: that it is coarse is in the values themselves.
   void name_storage();
   /// Each of these names what it finds and says whether it found something.
+  bool by_stored_planes();
   bool by_triangles();
   bool by_hypotheses();
   bool by_relations(bool gross);
@@ -163,6 +165,29 @@ void Search::name_storage() {
         before - left},
        explained_by(searched_));
   put_right_ = Hypothesis{"storage", found_.findings.back().text, model_, other_};
+}
+
+/// Before other faults, since the values themselves show it.
+bool Search::by_stored_planes() {
+  const std::optional<ClipPlanes> planes = stored_planes(truth_.camera, other_, model_);
+  if (!planes) return false;
+  Camera camera = truth_.camera;
+  camera.near = planes->near;
+  camera.far = planes->far;
+  BestTrial best(truth_, unexplained());
+  best.add(
+      {.kind = "clip-planes",
+       .text = fmt::format("near and far of the map are {:.9g} and {:.9g}, those of the camera "
+                           "are {:.9g} and {:.9g}",
+                           camera.near, camera.far, truth_.camera.near, truth_.camera.far),
+       .model = model_,
+       .map = other_,
+       .truth = seen_by(truth_, camera),
+       .estimates = {{.name = "near", .value = camera.near, .unit = "scene units"},
+                     {.name = "far", .value = camera.far, .unit = "scene units"}}});
+  if (!best.has_one()) return false;
+  name(best);
+  return true;
 }
 
 bool Search::by_triangles() {
@@ -250,7 +275,7 @@ void Search::run() {
   }
   name_storage();
   if (unexplained() == 0) return;
-  by_triangles() || by_hypotheses() || by_relations(true) || by_deviation() ||
+  by_stored_planes() || by_triangles() || by_hypotheses() || by_relations(true) || by_deviation() ||
       by_relations(false) || by_pixels();
 }
 

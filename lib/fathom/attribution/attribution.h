@@ -53,7 +53,7 @@ struct Attribution {
   std::uint64_t wrong_ties = 0;
   /// What is wrong.
   std::vector<Finding> findings;
-  /// Conventions that were recognised, in which nothing is wrong: `background`, `model`.
+  /// Conventions that were recognised (`background`, `model`), and a possible cause: `clip-planes`.
   std::vector<Finding> notes;
 
   [[nodiscard]] std::uint64_t count(PixelClass c) const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "fathom/attribution/attribute_and_name.h"
 #include "fathom/attribution/background.h"
@@ -60,6 +61,22 @@ void note_untried_models(Judgement& judgement) {
        .text =
            "no model of a rasterizer was tried: the camera has not both near and far; give those "
            "of the renderer, if it has a depth buffer",
+       .pixels = unexplained(judgement)});
+}
+
+/// The bounds of a rasterizer's model follow from near and far. Where pixels stay unexplained and no cause was
+/// found, wrong ones are a possible cause.
+void note_clip_planes(Judgement& judgement) {
+  const Camera& camera = judgement.truth->camera;
+  const bool is_raster = std::holds_alternative<RasterModel>(judgement.model.kind);
+  const bool is_open = unexplained(judgement) > 0 && judgement.attribution.findings.empty();
+  if (!is_raster || !is_open || !has_clip_planes(camera)) return;
+  judgement.attribution.notes.push_back(
+      {.kind = "clip-planes",
+       .text =
+           fmt::format("the model {} depends on near and far, which are {:.9g} and {:.9g} in the "
+                       "camera: check that the renderer had the same",
+                       judgement.model.name, camera.near, camera.far),
        .pixels = unexplained(judgement)});
 }
 
@@ -147,6 +164,7 @@ Judgement judge(std::shared_ptr<const Truth> truth, const OtherMap& other,
   }
   if (known.note) judgement.attribution.notes.push_back(std::move(*known.note));
   note_untried_models(judgement);
+  note_clip_planes(judgement);
   return judgement;
 }
 
