@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <vector>
 
 #include "fathom/numeric/errors.h"
 #include "fathom/pipeline/render_pipeline.h"
@@ -215,4 +216,27 @@ TEST(Trace, ThePaintersOrderShowsItsSplits) {
 }
 
 }  // namespace
+
+/// Each of 500 triangles that share their depths is compared with all that follow it.
+TEST(Trace, APaintersOrderOfTooManyStepsIsRefused) {
+  Scene scene;
+  scene.meshes.resize(1);
+  Mesh& mesh = scene.meshes[0];
+  std::vector<MeshPoint> vertices;
+  for (std::uint32_t t = 0; t < 500; ++t) {
+    const double x = (t - 250.0) / 250;
+    vertices.insert(vertices.end(), {{x, -1, 2}, {x + 0.003, -1, 3}, {x, 1, 3}});
+    mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    mesh.face_of_triangle.push_back(t);
+  }
+  mesh.vertices = std::move(vertices);
+  mesh.face_count = 500;
+  scene.objects.resize(1);
+  PipelineOptions options = unlit();
+  options.hidden_surface = HiddenSurface::painter;
+  const Camera camera = camera_of_layers();
+  EXPECT_EQ(render_frame(scene, camera, options, false).painter.splits, 0u);
+  EXPECT_THROW(trace_primitive(scene, camera, options, 0, {.painter = true}), InputError);
+}
+
 }  // namespace fathom::pipeline

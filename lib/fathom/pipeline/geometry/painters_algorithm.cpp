@@ -89,7 +89,19 @@ class Painter {
   }
 
   void note(PainterStep::Kind kind, const Polygon<Real>& P, const Polygon<Real>& Q, int test = 0) {
-    if (trace_ != nullptr) trace_->steps.push_back({kind, P.traced, Q.traced, test});
+    note({kind, P.traced, Q.traced, test});
+  }
+
+  /// A trace is read by people. The steps of a mesh of thousands of triangles would fill the memory.
+  void note(const PainterStep& step) {
+    constexpr std::size_t most_steps = 100'000;
+    if (trace_ == nullptr) return;
+    if (trace_->steps.size() == most_steps) {
+      throw InputError(
+          "the painter's algorithm takes more than 100000 steps here, too many to list; trace a "
+          "scene with fewer triangles");
+    }
+    trace_->steps.push_back(step);
   }
 
   static bool is_farther(const Polygon<Real>& a, const Polygon<Real>& b) {
@@ -259,9 +271,8 @@ class Painter {
     const std::size_t whole = place->traced;
     todo_.erase(place);
     note(behind, whole), note(before, whole);
-    if (trace_ != nullptr)
-      trace_->steps.push_back({PainterStep::Kind::split, compared_[0], compared_[1], 0, whole,
-                               behind.traced, before.traced});
+    note({PainterStep::Kind::split, compared_[0], compared_[1], 0, whole, behind.traced,
+          before.traced});
     for (Polygon<Real>* part : {&behind, &before}) {
       part->moved = false;
       part->serial = ++serials_;
