@@ -34,8 +34,7 @@ std::string agreement(const MapVerification& v, std::size_t pixels) {
   const std::string nearly =
       v.nearly_unsettled == 0
           ? ""
-          : fmt::format(" ({} of them near the limit of an error bound)",
-                        v.nearly_unsettled);
+          : fmt::format(" ({} of them near the limit of an error bound)", v.nearly_unsettled);
   return fmt::format("{} of {} verified by exact arithmetic{}, all agree", v.verified,
                      text::counted(pixels, "pixel"), nearly);
 }
