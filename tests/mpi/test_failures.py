@@ -36,7 +36,7 @@ def expect_failure(outcome, status, text, folder):
     ([spot, "--partition", "row"], 2, "did you mean 'rows'?"),
     ([spot, "--deep", "--channels", "Z"], 2, "--deep has channels of its own"),
     ([spot, "--stream"], 2, "leaves binary STL and PLY in their files anyway"),
-    ([spot, "--engine", "reference"], 2, "the fast one alone"),
+    ([spot, "--engine", "reference"], 2, "supports only --engine fast"),
     (["-"], 2, "standard input, reaches one rank only"),
     ([spot, "--memory", "100M"], 2, "--memory: expected at least 128M"),
     ([spot, "--size", "100000x100000", "--max-memory", "1G", "--compression", "piz"], 3, "an image of 100000x100000 pixels"),
