@@ -9,7 +9,7 @@ import re
 import subprocess
 
 text_column = 26
-COMMANDS = re.compile(r"Commands:|Programs of their own.*:")
+COMMANDS = re.compile(r"Commands:|Companion programs.*:")
 
 
 @dataclasses.dataclass
@@ -132,7 +132,7 @@ def page(command, children):
     for section in command.sections:
         if COMMANDS.match(section.title):
             names = {item.name for item in section.items}
-            title = "Commands" if section.title == "Commands:" else "Programs of their own"
+            title = "Commands" if section.title == "Commands:" else "Companion programs"
             parts += [f"## {title}\n"] + [f"- [{' '.join(child.words)}]({child.page}.md): {escaped(child.summary)}"
                                           for child in children if child.words[-1] in names] + [""]
         else:

@@ -292,8 +292,9 @@ Picture draw_painter(const Json& painter) {
   constexpr const char* fills[] = {"fill-b", "fill-c", "fill-d", "fill-a"};
   for (std::size_t s = 0; s < steps.size(); ++s) {
     const Json& step = steps[s];
+    const std::size_t row = s / across;
     const Place corner{static_cast<double>(s % across) * pitch,
-                       30 + static_cast<double>(s / across) * (size + caption + gap)};
+                       30 + static_cast<double>(row) * (size + caption + gap)};
     const View view(all, corner, size, size, true);
     if (step["step"] == "split") {
       shown_polygons.erase(step["cut"].get<std::size_t>());

@@ -1,5 +1,7 @@
 #include "fathom/triangle/image_rows.h"
 
+#include "fathom/numeric/certified.h"
+
 namespace fathom::triangle {
 
 // An affine function is known from its values at four points.
