@@ -1,6 +1,6 @@
 // Several threads of one program use the library at the same time, each with parallel work of its
 // own, and share what they only read: all get what one gets alone. Under the thread sanitizer
-// (scripts/check-threads) this is where a race shows.
+// (scripts/dev/check-threads) this is where a race shows.
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -46,7 +46,7 @@ constexpr const char* names[] = {"memory", "map",  "open", "read",   "write", "s
                                  "close",  "sync", "name", "thread", "stat"};
 constexpr int classes = sizeof names / sizeof *names;
 
-/// What the file of counts holds; scripts/check-faults reads it.
+/// What the file of counts holds; scripts/dev/check-faults reads it.
 struct Counts {
   std::atomic<std::uint64_t> calls[classes];
   std::atomic<std::uint64_t> failed;

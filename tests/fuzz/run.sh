@@ -30,7 +30,7 @@ for name in "${names[@]}"; do
   if [[ $limit == -runs=* && $slow == *" $name "* ]]; then runs=-runs=$((${limit#-runs=} / 40 + 1)); fi
   arguments=("$runs" "${options[@]}" "-artifact_prefix=$build/finding-fuzz_$name-")
   if [[ -e $dictionary ]]; then arguments+=("-dict=$dictionary"); fi
-  # What a run finds new goes to the scratch folder, not into the repository; scripts/grow-corpus keeps it.
+  # What a run finds new goes to the scratch folder, not into the repository; scripts/dev/grow-corpus keeps it.
   arguments+=("$scratch")
   if [[ -d $corpus ]]; then arguments+=("$corpus"); fi
   echo "== fuzz_$name"

@@ -1,4 +1,4 @@
-/// What `scripts/mutate` puts in place of operators and numbers (tests/mutation/instrument.py): each does what stood
+/// What `scripts/dev/mutate` puts in place of operators and numbers (tests/mutation/instrument.py): each does what stood
 /// there, unless its mutant is the chosen one. All mutants are compiled in; FATHOM_MUTANT chooses one at run time.
 ///
 /// A mutant exists where code is made for it: constant expressions stay as they are, and where the types have no such

@@ -1,4 +1,4 @@
-"""scripts/compare-outputs itself, with a stand-in for fathom: changes and features without a case are found."""
+"""scripts/dev/compare-outputs itself, with a stand-in for fathom: changes and features without a case are found."""
 
 import importlib.machinery
 import importlib.util
@@ -31,7 +31,7 @@ draw -o {a.png|a.svg} --colour red
 @pytest.fixture
 def script(tmp_path, monkeypatch):
     """The script as a module, with cases of its own and a program in tmp_path/bin."""
-    loader = importlib.machinery.SourceFileLoader("compare_outputs", str(SOURCE / "scripts/compare-outputs"))
+    loader = importlib.machinery.SourceFileLoader("compare_outputs", str(SOURCE / "scripts/dev/compare-outputs"))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader("compare_outputs", loader))
     monkeypatch.setitem(sys.modules, "compare_outputs", module)
     monkeypatch.setattr(sys, "dont_write_bytecode", True)

@@ -204,7 +204,7 @@ def test_memory_does_not_grow_with_calls(triangle, K):
     before = resident()
     work(3000)
     # An arena of TBB's takes 7 KB: 22 MB where each call loses one. Python's and the system's allocators may keep a
-    # few MB more or less. scripts/measure-calls measures 100,000 calls.
+    # few MB more or less. scripts/dev/measure-calls measures 100,000 calls.
     assert resident() - before < 7_000_000
 
 
