@@ -7,7 +7,7 @@
 #include "apps/dataset/dataset_command.h"
 #include "apps/depth/depth_command.h"
 #include "apps/maps/map_commands.h"
-#include "apps/render/render_command.h"
+#include "apps/render/render_arguments.h"
 #include "apps/render/render_maps.h"
 #include "apps/shell/program.h"
 #include "apps/surfaces/surface_commands.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "apps/options/channel_list.h"
-#include "apps/render/render_memory.h"
+#include "apps/render/render_limits.h"
 #include "apps/shell/about_output.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/render.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "apps/dataset/codes_beyond.h"
-#include "apps/render/camera_warnings.h"
 #include "apps/render/render_plan.h"
+#include "apps/render/render_report.h"
 #include "fathom/fast/render_memory.h"
 #include "fathom/scene/scene.h"
 

@@ -1,7 +1,7 @@
 #include "apps/dataset/views.h"
 
 #include "apps/dataset/view_maker.h"
-#include "apps/render/thread_limit.h"
+#include "apps/render/render_limits.h"
 #include "fathom/camera/camera_files.h"
 
 namespace fathom::app {

@@ -17,7 +17,7 @@
 #include "apps/mpi/waiting_chunks.h"
 #include "apps/options/channel_list.h"
 #include "apps/render/map_additions.h"
-#include "apps/render/map_warnings.h"
+#include "apps/render/render_report.h"
 #include "apps/shell/about_output.h"
 #include "apps/shell/stopwatch.h"
 #include "fathom/fast/some_tiles.h"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "apps/mpi/together.h"
-#include "apps/render/map_warnings.h"
+#include "apps/render/render_report.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/numeric/errors.h"
 

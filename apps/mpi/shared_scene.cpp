@@ -9,7 +9,7 @@
 
 #include "apps/mpi/picked_triangles.h"
 #include "apps/mpi/together.h"
-#include "apps/render/render_memory.h"
+#include "apps/render/render_limits.h"
 #include "apps/shell/known_files.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/render.h"

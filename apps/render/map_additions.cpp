@@ -1,11 +1,106 @@
 #include "apps/render/map_additions.h"
 
-#include "apps/render/depth_buffer_channels.h"
-#include "apps/render/map_verification.h"
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "apps/render/render_outputs.h"
+#include "apps/shell/progress.h"
 #include "apps/shell/stopwatch.h"
 #include "fathom/area/sampled_coverage.h"
+#include "fathom/reference/verify.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::app {
+namespace {
+
+/// Adds the channels of the plan to a map that was rendered with these options, and a text that
+/// describes the format.
+DepthBufferReport add_depth_buffer_channels(DepthMap& map, const DepthBufferPlan& plan,
+                                            const TriangleSource& triangles, const Camera& camera,
+                                            const RenderOptions& options) {
+  DepthBufferReport report{format_for(plan, camera), plan.against_exact, {}};
+  report.seen =
+      add_depth_buffer(map, triangles, camera, {report.format, plan.against_exact, options});
+  map.texts["fathom.depth_format"] = json_of(report.format).dump();
+  return report;
+}
+
+/// Takes away what the map has for the depth buffer alone.
+void drop_helpers(DepthMap& map, const DepthBufferPlan& plan) {
+  if (plan.drops_id) std::erase_if(map.channels, [](const auto& c) { return c.name == "id"; });
+}
+
+/// What a map was rendered from, and how many random pixels to compute again.
+struct VerificationRequest {
+  TriangleSource triangles;
+  const Camera& camera;
+  const RenderOptions& options;
+  std::uint64_t pixels;
+  /// Renders the same map with other options.
+  std::function<void(const RenderOptions&)> render;
+};
+
+/// Adds them to the choice; how many of them there are.
+std::uint64_t choose_nearly_unsettled(const VerificationRequest& request, PixelChoice& chosen) {
+  if (request.options.engine != Engine::fast) return 0;
+  std::vector<std::uint64_t> doubtful;
+  RenderOptions options = request.options;
+  options.statistics = nullptr;
+  options.progress = {};
+  options.fast.widening = 16;
+  options.fast.doubtful = &doubtful;
+  request.render(options);
+  PixelChoice near(chosen.size(), false);
+  std::uint64_t count = 0;
+  for (const std::uint64_t pixel : doubtful) {
+    count += near[pixel] ? 0 : 1;
+    near[pixel] = chosen[pixel] = true;
+  }
+  return count;
+}
+
+std::string agreement(const MapVerification& v, std::size_t pixels) {
+  const std::string nearly =
+      v.nearly_unsettled == 0
+          ? ""
+          : fmt::format(" ({} of them near the limit of an error bound)", v.nearly_unsettled);
+  return fmt::format("{} of {} verified by exact arithmetic{}, all agree", v.verified,
+                     text::counted(pixels, "pixel"), nearly);
+}
+
+std::string disagreement(const MapVerification& v, const Disagreement& first) {
+  return fmt::format("pixel ({}, {}): {} is {}, exact arithmetic gives {}; {} of {} {}", first.x,
+                     first.y, first.channel, first.found, first.expected, v.differing,
+                     text::counted(v.verified, "verified pixel"),
+                     v.differing == 1 ? "differs" : "differ");
+}
+
+/// `render --verify`: computes pixels of the map again by exact arithmetic, chosen at random and,
+/// of the fast engine's map, all at which one of its bounds nearly failed to settle a decision: it
+/// would have, had it been 16 times as wide. Says how the map, called `name`, fares.
+MapVerification verify_map(const DepthMap& map, const std::string& name,
+                           const VerificationRequest& request, const Console& console) {
+  const Camera& camera = request.camera;
+  PixelChoice chosen = choose_pixels(camera.width, camera.height, request.pixels);
+  MapVerification result;
+  result.nearly_unsettled = choose_nearly_unsettled(request, chosen);
+  Progress progress(console, "verifying");
+  RenderOptions options = request.options;
+  options.progress = progress.reporter();
+  const Verification seen = verify(map, request.triangles, camera, options, chosen);
+  result.verified = seen.verified;
+  result.differing = seen.differing;
+  if (seen.first) {
+    Console::error(name + ": " + disagreement(result, *seen.first));
+  } else {
+    console.note(name + ": " + agreement(result, chosen.size()));
+  }
+  return result;
+}
+
+}  // namespace
 
 bool has_additions(const MapPlan& plan) {
   return !plan.mattes.empty() || plan.samples || plan.depth_buffer || plan.verified_pixels;

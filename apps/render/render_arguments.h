@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +12,8 @@
 #include "apps/options/pipeline_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/options/storage_options.h"
-#include "apps/render/depth_buffer_options.h"
+#include "apps/shell/command.h"
+#include "fathom/depth_format/depth_format.h"
 #include "fathom/image/sample_pattern.h"
 
 namespace fathom::app {
@@ -20,6 +22,17 @@ enum class EngineName { fast, reference, pipeline };
 
 /// What Cryptomatte goes by: objects, or segments.
 using MatteKind = std::optional<Segmentation>;
+
+/// `--depth-format --mapping --c --against-exact` of `render`: the channels of a depth buffer, or
+/// the z-buffer of the pipeline.
+struct DepthBufferArguments {
+  std::optional<Storage> storage;
+  std::optional<Mapping> mapping;
+  std::optional<double> c;
+  bool against_exact = false;
+
+  void add_to(Command& command);
+};
 
 /// The arguments of `fathom render`, each by itself as it was given: what they mean together is
 /// decided where a plan is made of them.
@@ -56,5 +69,10 @@ struct RenderArguments {
   std::vector<Option> of_pipeline_;
   std::optional<pipeline::Colour> picture_background_;
 };
+
+using Render = std::function<int(const RenderArguments&, const Console&)>;
+
+/// `fathom render`. Each program that has it brings what renders with the engines.
+void add_render(Command& program, const Render& by_exact_engine, const Render& by_pipeline);
 
 }  // namespace fathom::app

@@ -2,27 +2,101 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
-#include "apps/render/camera_warnings.h"
+#include "apps/options/motion_options.h"
+#include "apps/options/scene_options.h"
 #include "apps/render/map_additions.h"
-#include "apps/render/map_warnings.h"
-#include "apps/render/render_input.h"
-#include "apps/render/render_memory.h"
+#include "apps/render/render_limits.h"
 #include "apps/render/render_outputs.h"
 #include "apps/render/render_plan.h"
 #include "apps/render/render_report.h"
-#include "apps/render/thread_limit.h"
 #include "apps/shell/about_output.h"
 #include "apps/shell/exit_status.h"
+#include "apps/shell/known_files.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/stopwatch.h"
+#include "fathom/camera/camera.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/image/deep_map.h"
+#include "fathom/image/depth_map.h"
 #include "fathom/image/png_sidecar.h"
+#include "fathom/numeric/errors.h"
 #include "fathom/render.h"
+#include "fathom/scene/triangle_source.h"
+#include "fathom/triangle/options.h"
 
 namespace fathom::app {
 namespace {
+
+/// What is rendered: a scene in memory, or one that stays in its files.
+class RenderInput {
+ public:
+  enum class Place { memory, files };
+
+  /// What channels need of the files beside positions.
+  struct Kept {
+    /// Materials, groups, parts and labels.
+    bool segments = false;
+    bool normals = false;
+  };
+
+  RenderInput(const SceneOptions& options, Place place, const Kept& kept, const Console& console);
+
+  /// The scene; of one that stays in its files its bounds, objects and sources: what cameras are
+  /// made from.
+  [[nodiscard]] const Scene& outline() const { return scene_; }
+  /// Places the objects that move.
+  /// Fails    UsageError where the scene stays in its files; as MotionOptions::placed.
+  void place(const MotionOptions& motion);
+  [[nodiscard]] TriangleSource triangles() const;
+  [[nodiscard]] DepthMap render(const Camera& camera, const RenderOptions& options) const;
+
+ private:
+  Scene scene_;
+  std::optional<StreamedScene> streamed_;
+};
+
+StreamedScene stream(const SceneOptions& options, bool segments, const Console& console) {
+  const std::vector<std::string>& files = options.files;
+  if (std::count(files.begin(), files.end(), "-") > 0) {
+    throw UsageError("--stream: '-', standard input, cannot be read in parts; expected files");
+  }
+  Warnings warnings;
+  ReadOptions reading = options.read_options();
+  reading.segments = segments;
+  StreamedScene scene = stream_scene({files.begin(), files.end()}, reading, warnings);
+  console.warn(warnings);
+  for (const std::string& file : files) note_input(file);
+  return scene;
+}
+
+RenderInput::RenderInput(const SceneOptions& options, Place place, const Kept& kept,
+                         const Console& console) {
+  if (place == Place::files) {
+    streamed_ = stream(options, kept.segments, console);
+    scene_ = outline_of(*streamed_);
+  } else {
+    scene_ = options.read(console,
+                          {.hash = true, .attributes = kept.normals, .segments = kept.segments});
+  }
+}
+
+void RenderInput::place(const MotionOptions& motion) {
+  if (streamed_ && motion.is_given()) {
+    throw UsageError("--motion needs the scene in memory, without --stream");
+  }
+  scene_ = motion.placed(std::move(scene_));
+}
+
+TriangleSource RenderInput::triangles() const {
+  return streamed_ ? TriangleSource(*streamed_) : TriangleSource(scene_);
+}
+
+DepthMap RenderInput::render(const Camera& camera, const RenderOptions& options) const {
+  return streamed_ ? fathom::render(*streamed_, camera, options, stream_limits(camera, options))
+                   : fathom::render(scene_, camera, options);
+}
 
 /// Makes the map of a camera, checks it where that is asked for, and writes it.
 MapReport make_map(const MapPlan& plan, const RenderInput& scene, const MotionOptions& motion,

@@ -1,13 +1,18 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "apps/render/render_arguments.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/text_output.h"
+#include "fathom/depth_format/depth_format.h"
 
 namespace fathom::app {
+
+/// What a map says of its depth format in `fathom.depth_format`, and `render --stats` of it.
+nlohmann::ordered_json json_of(const DepthFormat& format);
 
 /// The outputs of `render`: for each camera a map and, where they are asked for, a picture and
 /// what codes mean; the cameras; the statistics. All are opened before the work and put in their places together, when

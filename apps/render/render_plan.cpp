@@ -7,6 +7,7 @@
 #include "apps/options/channel_list.h"
 #include "apps/options/depth_format_options.h"
 #include "apps/shell/about_option.h"
+#include "fathom/depth_buffer/depth_buffer.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/triangle/segment_channels.h"
@@ -115,6 +116,10 @@ void check_deep(const RenderArguments& a) {
 }
 
 }  // namespace
+
+DepthFormat format_for(const DepthBufferPlan& plan, const Camera& camera) {
+  return depth_format_of(camera, plan.mapping, plan.storage, plan.c);
+}
 
 bool MapPlan::needs_normals() const {
   return rendering.normals == NormalSource::file && contains(rendering.channels, Channel::Ns);

@@ -21,6 +21,9 @@ struct DepthBufferPlan {
   [[nodiscard]] std::size_t most_channels() const { return against_exact ? 6 : 3; }
 };
 
+/// The depth format with the camera's near and far. Fails with UsageError where they do not fit it.
+DepthFormat format_for(const DepthBufferPlan& plan, const Camera& camera);
+
 /// How an exact engine makes maps: what the arguments mean together.
 struct MapPlan {
   MapFormat format = MapFormat::exr;

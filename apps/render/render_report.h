@@ -1,14 +1,61 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/render/depth_buffer_channels.h"
-#include "apps/render/map_verification.h"
+#include "apps/shell/console.h"
+#include "fathom/depth_buffer/depth_buffer.h"
+#include "fathom/image/channel_table.h"
+#include "fathom/image/deep_map.h"
+#include "fathom/scene/triangle_source.h"
+#include "fathom/scene/view_warnings.h"
 #include "fathom/triangle/options.h"
 
 namespace fathom::app {
+
+/// Of scenes that show nothing or less than one would think.
+void warn_of(const RenderStatistics& statistics, const Console& console);
+
+/// Of channels that will show nothing but that there is none.
+void warn_of_missing_segments(const TriangleSource& triangles, const std::vector<Channel>& channels,
+                              const Console& console);
+
+/// What is probably not meant about the cameras of a path, each kind of it told once.
+class CameraWarnings {
+ public:
+  /// Of a camera whose map shows the scene in so many pixels.
+  void note(const Scene& scene, const Camera& camera, std::uint64_t shown_pixels) {
+    of_cameras_.push_back(view_warnings(scene, camera, shown_pixels));
+  }
+  void note(const Scene& scene, const Camera& camera, const DeepMap& map) {
+    const auto shown = std::ranges::count_if(map.counts, [](std::uint32_t n) { return n > 0; });
+    note(scene, camera, static_cast<std::uint64_t>(shown));
+  }
+  void tell(const Console& console) const { console.warn(told_once(of_cameras_)); }
+
+ private:
+  std::vector<std::vector<ViewWarning>> of_cameras_;
+};
+
+struct MapVerification {
+  /// Pixels that were computed again, and how many of them differ.
+  std::uint64_t verified = 0, differing = 0;
+  /// Of the verified ones, those at which a bound of the fast engine nearly failed to settle a
+  /// decision.
+  std::uint64_t nearly_unsettled = 0;
+
+  [[nodiscard]] bool agrees() const { return differing == 0; }
+};
+
+/// What was stored in a map as a depth buffer would store it.
+struct DepthBufferReport {
+  DepthFormat format;
+  bool against_exact = false;
+  DepthBufferStatistics seen;
+};
 
 /// What `render --stats` says of a map.
 struct MapReport {

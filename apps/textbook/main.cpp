@@ -1,6 +1,6 @@
 // fathom-textbook: what `fathom` needs for clip, scan, pipeline and render --engine pipeline.
 
-#include "apps/render/render_command.h"
+#include "apps/render/render_arguments.h"
 #include "apps/shell/program.h"
 #include "apps/textbook/pipeline/pipeline_render.h"
 #include "apps/textbook/textbook_commands.h"

@@ -7,7 +7,6 @@
 #include <utility>
 #include <variant>
 
-#include "apps/render/depth_format_json.h"
 #include "apps/render/render_outputs.h"
 #include "apps/shell/exit_status.h"
 #include "apps/shell/known_files.h"

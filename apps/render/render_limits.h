@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,5 +24,19 @@ void check_cameras(const std::vector<Camera>& cameras, const DeepMapPlan& plan,
 /// Of the memory that the map leaves over of what is allowed, a quarter for tiles, an eighth for the
 /// triangles that channel A needs, a sixteenth for those that are read at a time.
 StreamLimits stream_limits(const Camera& camera, const RenderOptions& options);
+
+/// While it is there, TBB uses no more threads than this (0: no limit). Where more threads are
+/// asked for than there are processors, its pool would keep to these and say so on standard error.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+  ~ThreadLimit();
+
+ private:
+  struct Control;
+  std::unique_ptr<Control> control_;
+};
 
 }  // namespace fathom::app

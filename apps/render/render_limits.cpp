@@ -1,11 +1,12 @@
-#include "apps/render/render_memory.h"
+#include "apps/render/render_limits.h"
 
 #include <fmt/core.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
+#include <exception>
 
 #include "apps/options/channel_list.h"
-#include "apps/render/depth_buffer_channels.h"
 #include "apps/shell/max_memory.h"
 #include "fathom/camera/world_from_image.h"
 
@@ -68,6 +69,22 @@ StreamLimits stream_limits(const Camera& camera, const RenderOptions& options) {
   limits.triangles_at_once = static_cast<std::uint32_t>(
       std::min<double>(limits.triangles_at_once, left / 16 / StreamLimits::bytes_per_triangle));
   return limits;
+}
+
+struct ThreadLimit::Control {
+  tbb::global_control control;
+};
+
+ThreadLimit::ThreadLimit(int threads) {
+  if (threads == 0) return;
+  control_.reset(new Control{
+      {tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)}});
+}
+
+ThreadLimit::~ThreadLimit() {
+  // A failure ends the program, and where TBB had no memory to set itself up, lifting the limit would
+  // wait for ever.
+  if (std::uncaught_exceptions() > 0) (void)control_.release();
 }
 
 }  // namespace fathom::app
