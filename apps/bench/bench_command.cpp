@@ -10,7 +10,7 @@
 #include "apps/bench/json_report.h"
 #include "apps/bench/machine_line.h"
 #include "apps/bench/parts_command.h"
-#include "apps/shell/exit_status.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/program.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"

@@ -7,21 +7,21 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/bench/mpi_bench_arguments.h"
+#include "apps/mpi/last_word.h"
 #include "apps/mpi/ranks.h"
 #include "apps/mpi/render_together.h"
 #include "apps/mpi/together.h"
-#include "apps/shell/exit_status.h"
-#include "apps/shell/json_answer.h"
-#include "apps/shell/last_resort.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/program.h"
+#include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
-#include "apps/shell/stopwatch.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/parse_json.h"
 
@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
   using namespace fathom::app;
   const MpiSession session(argc, argv);
   const Ranks ranks;
-  speak(ranks.is_first() ? Speaks::of_all : Speaks::of_nothing);
+  report_only(ranks.is_first() ? Reports::everything : Reports::nothing);
   const int status = companion_main(argc, argv, "measure", add_measuring);
   if (work_has_begun && status != done && !failed_together()) ranks.abort(status);
   return status;

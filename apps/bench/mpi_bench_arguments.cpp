@@ -2,7 +2,7 @@
 
 #include "apps/options/channel_list.h"
 #include "apps/options/scene_options.h"
-#include "apps/shell/output_option.h"
+#include "apps/shell/command.h"
 
 namespace fathom::app {
 namespace {

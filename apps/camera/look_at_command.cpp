@@ -4,9 +4,9 @@
 
 #include "apps/camera/camera_command.h"
 #include "apps/options/lens_options.h"
-#include "apps/shell/exit_status.h"
-#include "apps/shell/output_option.h"
-#include "apps/shell/text_output.h"
+#include "apps/shell/command.h"
+#include "apps/shell/failures.h"
+#include "apps/shell/output_file.h"
 #include "apps/shell/values.h"
 #include "fathom/camera/camera_files.h"
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "apps/dataset/counted_mask.h"
-#include "apps/shell/about_output.h"
+#include "apps/shell/failures.h"
 #include "fathom/area/visible_areas.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/mask_picture.h"

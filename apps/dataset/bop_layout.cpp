@@ -8,7 +8,7 @@
 #include "apps/dataset/bop_image.h"
 #include "apps/dataset/layouts.h"
 #include "apps/render/render_limits.h"
-#include "apps/shell/exit_status.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/values.h"
 #include "fathom/camera/camera_files.h"

@@ -6,7 +6,7 @@
 #include "apps/dataset/layouts.h"
 #include "apps/dataset/views.h"
 #include "apps/options/output_names.h"
-#include "apps/shell/exit_status.h"
+#include "apps/shell/failures.h"
 
 namespace fathom::app {
 namespace {

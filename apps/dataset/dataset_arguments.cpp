@@ -1,7 +1,7 @@
 #include "apps/dataset/dataset_arguments.h"
 
 #include "apps/options/cull_option.h"
-#include "apps/shell/output_option.h"
+#include "apps/shell/command.h"
 #include "apps/shell/values.h"
 
 namespace fathom::app {

@@ -10,7 +10,7 @@
 #include "apps/dataset/nerf_list.h"
 #include "apps/dataset/views.h"
 #include "apps/options/output_names.h"
-#include "apps/shell/exit_status.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
 #include "fathom/numeric/errors.h"
 

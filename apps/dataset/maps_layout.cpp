@@ -8,7 +8,7 @@
 #include "apps/options/camera_options.h"
 #include "apps/options/channel_list.h"
 #include "apps/options/output_names.h"
-#include "apps/shell/exit_status.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/values.h"
 #include "fathom/image/png_sidecar.h"
 

@@ -7,7 +7,7 @@
 
 #include "apps/options/channel_list.h"
 #include "apps/render/render_limits.h"
-#include "apps/shell/about_output.h"
+#include "apps/shell/failures.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/render.h"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "apps/shell/about_option.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/values.h"
 #include "fathom/depth_format/resolution.h"
 #include "fathom/numeric/errors.h"

@@ -9,7 +9,7 @@
 
 #include "apps/depth/depth_answers.h"
 #include "apps/options/depth_format_options.h"
-#include "apps/shell/exit_status.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/numeric/errors.h"
 

@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "apps/formats/tasks.h"
-#include "apps/shell/exit_status.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/mesh_files/foreign_formats.h"
 

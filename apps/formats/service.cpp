@@ -14,7 +14,7 @@
 #include <string>
 
 #include "apps/formats/tasks.h"
-#include "apps/shell/exit_status.h"
+#include "apps/shell/failures.h"
 
 namespace fathom::app {
 namespace {

@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/shell/output_file.h"
-#include "apps/shell/write_all.h"
+#include "apps/shell/standard_streams.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/input_file.h"
 #include "fathom/text/parse_json.h"

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/maps/comparison_report.h"
-#include "apps/shell/json_answer.h"
+#include "apps/shell/standard_streams.h"
 
 namespace fathom::app {
 namespace {

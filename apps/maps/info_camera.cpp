@@ -6,7 +6,7 @@
 
 #include "apps/maps/info.h"
 #include "apps/maps/map_view.h"
-#include "apps/shell/json_answer.h"
+#include "apps/shell/standard_streams.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/text/parse_json.h"
 #include "fathom/text/printable.h"

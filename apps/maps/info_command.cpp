@@ -6,7 +6,7 @@
 #include "apps/maps/map_commands.h"
 #include "apps/options/map_argument.h"
 #include "apps/options/scene_options.h"
-#include "apps/shell/exit_status.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/camera/camera_files.h"

@@ -7,7 +7,7 @@
 
 #include "apps/maps/info.h"
 #include "apps/maps/name_lists.h"
-#include "apps/shell/json_answer.h"
+#include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
 #include "fathom/image/surface.h"
 #include "fathom/text/parse_json.h"

@@ -9,7 +9,7 @@
 
 #include "apps/maps/info.h"
 #include "apps/maps/name_lists.h"
-#include "apps/shell/json_answer.h"
+#include "apps/shell/standard_streams.h"
 #include "fathom/scene/bounds.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/text/counted.h"

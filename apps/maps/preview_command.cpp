@@ -4,9 +4,9 @@
 
 #include "apps/maps/map_commands.h"
 #include "apps/options/map_argument.h"
-#include "apps/shell/exit_status.h"
+#include "apps/shell/command.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
-#include "apps/shell/output_option.h"
 #include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
 #include "fathom/image/preview.h"

@@ -7,7 +7,7 @@
 #include <exception>
 #include <optional>
 
-#include "apps/shell/write_all.h"
+#include "apps/shell/standard_streams.h"
 #include "fathom/text/byte_order.h"
 #include "fathom/text/descriptor.h"
 

@@ -6,11 +6,12 @@
 
 #include <memory>
 
+#include "apps/mpi/last_word.h"
 #include "apps/mpi/mpi_arguments.h"
 #include "apps/mpi/ranks.h"
 #include "apps/mpi/render_together.h"
 #include "apps/mpi/together.h"
-#include "apps/shell/exit_status.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/last_resort.h"
 #include "apps/shell/program.h"
 #include "apps/shell/signals.h"
@@ -34,7 +35,7 @@ void add_render_together(Command& program) {
     const Ranks ranks;
     work_has_begun = true;
     together(ranks, [] {});
-    speak(Speaks::of_all);
+    report_only(Reports::everything);
     return render_together(*arguments, console);
   });
 }
@@ -62,7 +63,7 @@ void leave_before_work(const Ranks& ranks, int status) {
       if (status != done) throw UsageError("a rank cannot use these arguments");
     });
   } catch (const UsageError& error) {
-    if (!ranks.is_first() && may_speak()) Console::error(error.what());
+    if (!ranks.is_first() && may_report()) Console::error(error.what());
   }
 }
 
@@ -70,7 +71,7 @@ int run(int argc, char** argv) {
   const Ranks ranks;
   if (ranks.count() == 1) say_when_interrupted("");
   // All would say the same of arguments.
-  speak(ranks.is_first() ? Speaks::of_all : Speaks::of_interruptions);
+  report_only(ranks.is_first() ? Reports::everything : Reports::interruptions);
   if (!ranks.is_first()) close_standard_output();
   const int status = program_main(argc, argv, commands);
   if (!work_has_begun) {

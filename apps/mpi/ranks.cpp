@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "apps/shell/last_resort.h"
+#include "apps/mpi/last_word.h"
 
 namespace fathom::app {
 using namespace text;

@@ -12,10 +12,9 @@
 #include "apps/render/render_limits.h"
 #include "apps/render/render_plan.h"
 #include "apps/render/render_report.h"
-#include "apps/shell/exit_status.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/signals.h"
-#include "apps/shell/stopwatch.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {

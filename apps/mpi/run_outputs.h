@@ -5,7 +5,7 @@
 #include "apps/mpi/mpi_arguments.h"
 #include "apps/mpi/traffic.h"
 #include "apps/render/render_outputs.h"
-#include "apps/shell/text_output.h"
+#include "apps/shell/output_file.h"
 #include "fathom/camera/camera.h"
 
 namespace fathom::app {

@@ -8,7 +8,7 @@
 #include <new>
 #include <system_error>
 
-#include "apps/shell/last_resort.h"
+#include "apps/mpi/last_word.h"
 #include "fathom/numeric/errors.h"
 #include "fathom/text/sha256.h"
 #include "fathom/threads/threads.h"
@@ -79,7 +79,7 @@ void together(const Ranks& ranks, const std::function<void()>& work) {
   fault = {static_cast<Kind>(said.front()), said.substr(1)};
   if (!all_failed && speaker != 0)
     fault.message += fmt::format(" (rank {} of {})", speaker, ranks.count());
-  speak(ranks.self() == speaker ? Speaks::of_all : Speaks::of_nothing);
+  report_only(ranks.self() == speaker ? Reports::everything : Reports::nothing);
   all_fail = true;
   fail_as(fault);
 }
@@ -94,7 +94,7 @@ int first_that_differs(const Ranks& ranks, const std::string& text) {
   const auto first = static_cast<int>(
       ranks.least(static_cast<std::uint64_t>(differs ? ranks.self() : ranks.count())));
   if (first < ranks.count()) {
-    speak(ranks.is_first() ? Speaks::of_all : Speaks::of_nothing);
+    report_only(ranks.is_first() ? Reports::everything : Reports::nothing);
     all_fail = true;
   }
   return first;

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/shell/json_answer.h"
+#include "apps/shell/standard_streams.h"
 
 namespace fathom::app {
 namespace {

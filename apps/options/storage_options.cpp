@@ -5,8 +5,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "apps/shell/about_option.h"
-#include "apps/shell/about_output.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
 #include "fathom/image/background.h"

@@ -7,7 +7,6 @@
 
 #include "apps/render/render_outputs.h"
 #include "apps/shell/progress.h"
-#include "apps/shell/stopwatch.h"
 #include "fathom/area/sampled_coverage.h"
 #include "fathom/reference/verify.h"
 #include "fathom/text/counted.h"

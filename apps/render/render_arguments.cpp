@@ -7,7 +7,7 @@
 #include "apps/options/channel_list.h"
 #include "apps/options/cull_option.h"
 #include "apps/options/pipeline_words.h"
-#include "apps/shell/output_option.h"
+#include "apps/shell/command.h"
 #include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
 #include "fathom/numeric/errors.h"

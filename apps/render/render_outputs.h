@@ -6,7 +6,6 @@
 
 #include "apps/render/render_arguments.h"
 #include "apps/shell/output_file.h"
-#include "apps/shell/text_output.h"
 #include "fathom/depth_format/depth_format.h"
 
 namespace fathom::app {

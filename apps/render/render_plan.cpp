@@ -6,7 +6,7 @@
 
 #include "apps/options/channel_list.h"
 #include "apps/options/depth_format_options.h"
-#include "apps/shell/about_option.h"
+#include "apps/shell/failures.h"
 #include "fathom/depth_buffer/depth_buffer.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/numeric/errors.h"

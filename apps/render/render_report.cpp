@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/render/render_outputs.h"
-#include "apps/shell/json_answer.h"
+#include "apps/shell/standard_streams.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/text/counted.h"

@@ -3,9 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <optional>
-#include <utility>
 
-#include "apps/shell/about_option.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/max_memory.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/shell/command_text.h"
@@ -114,5 +115,14 @@ class Command {
   Run run_;
   bool answers_on_standard_output_ = false;
 };
+
+/// The option that says where a command writes: "-o,--output", and other_name_of_output. `target` is a
+/// std::string or a TakeText.
+template <class Target>
+Option add_output_option(Command& command, const std::string& value_name, Target&& target,
+                         const std::string& help) {
+  return command.option(std::string("-o,--output,") + other_name_of_output, value_name,
+                        std::forward<Target>(target), help);
+}
 
 }  // namespace fathom::app

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace fathom::app {
 
 /// What commands stand below in lists of them, unless they are programs of their own.
 inline constexpr const char* command_heading = "Commands";
+
+/// The spelling that every "-o,--output" also takes. Help and completion show one name only.
+inline constexpr const char* other_name_of_output = "--out";
 
 /// What users are told of an option. Help, man pages and completion are all made of this.
 struct OptionText {
@@ -54,5 +58,14 @@ const std::string& name_of(const OptionText& option);
 
 /// What is said of it: its help, and how it goes together with other options.
 std::string meaning_of(const OptionText& option);
+
+/// Columns of a UTF-8 text whose characters take one each.
+std::size_t columns(const std::string& text);
+
+/// The parts of a text between empty lines.
+std::vector<std::string> paragraphs_of(const std::string& text);
+
+/// The words of a text in lines of at most `width` columns, where words are not longer than that.
+std::vector<std::string> wrapped(const std::string& text, std::size_t width);
 
 }  // namespace fathom::app

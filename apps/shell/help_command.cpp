@@ -5,16 +5,15 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/shell/command.h"
 #include "apps/shell/command_text.h"
 #include "apps/shell/completion_scripts.h"
-#include "apps/shell/exit_status.h"
-#include "apps/shell/folder.h"
-#include "apps/shell/help_page.h"
-#include "apps/shell/man_page.h"
+#include "apps/shell/failures.h"
+#include "apps/shell/help_pages.h"
 #include "apps/shell/misspelling.h"
-#include "apps/shell/output_option.h"
+#include "apps/shell/output_file.h"
+#include "apps/shell/output_place.h"
 #include "apps/shell/standard_streams.h"
-#include "apps/shell/text_output.h"
 #include "apps/shell/values.h"
 #include "fathom/numeric/unknown_name.h"
 

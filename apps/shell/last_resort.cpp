@@ -1,31 +1,26 @@
 #include "apps/shell/last_resort.h"
 
-#include <fcntl.h>
 #include <gmp.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <new>
-#include <optional>
 
-#include "apps/shell/pending_files.h"
+#include "apps/shell/part_files.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::app {
 namespace {
 
-std::atomic<pid_t> speaker{0};
+std::atomic<pid_t> reporter{0};
 std::atomic<int> outcome{-1};  ///< the exit status, once it is known
-std::atomic<Speaks> speaks_now{Speaks::of_all};
-/// The file that is made by the process that speaks; "" if there is none.
-std::array<char, 512> last_word_path{};
-std::atomic<std::atomic<int>*> said_by_any{nullptr};
+std::atomic<bool> has_reported{false};
+std::atomic<bool (*)(Ending) noexcept> decides{nullptr};
 
 /// A line on standard error, without stdio, which might need memory or hold a lock.
 void say(const char* text) noexcept {
@@ -38,19 +33,8 @@ void say(const char* text) noexcept {
   }
 }
 
-/// Whether this process is the first to make the file; nullopt where none can be made.
-std::optional<bool> makes_last_word_file() noexcept {
-  if (last_word_path[0] == '\0') return std::nullopt;
-  const int file = ::open(last_word_path.data(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
-  if (file >= 0) {
-    ::close(file);
-    return true;
-  }
-  return errno == EEXIST ? std::optional(false) : std::nullopt;
-}
-
 ExitStatus report_unexpected(const char* what) noexcept {
-  if (!may_speak()) return internal_error;
+  if (!may_report()) return internal_error;
   say("fathom: error: unexpected: ");
   say(what);
   say("\n");
@@ -101,36 +85,23 @@ void deallocate(void* block, std::size_t) {
 void have_the_last_word() noexcept {
   const pid_t self = ::gettid();
   pid_t none = 0;
-  if (speaker.compare_exchange_strong(none, self) || none == self) return;
+  if (reporter.compare_exchange_strong(none, self) || none == self) return;
   ::sleep(2);  // its end may wait for this thread's
   ::_exit(unusable_input);
 }
 
-void speak(Speaks speaks) noexcept {
-  speaks_now = speaks;
+bool may_report(Ending ending) noexcept {
+  const auto decide = decides.load();
+  return decide == nullptr ? !has_reported.exchange(true) : decide(ending);
 }
 
-void share_last_word(const std::string& path) {
-  if (path.size() < last_word_path.size()) path.copy(last_word_path.data(), path.size());
-}
-
-void share_last_word(std::atomic<int>* said) noexcept {
-  said_by_any = said;
-}
-
-bool may_speak(Speaks of) noexcept {
-  Speaks now = speaks_now;
-  do {
-    if (now < of) return false;
-  } while (!speaks_now.compare_exchange_weak(now, Speaks::of_nothing));
-  if (const std::optional<bool> first = makes_last_word_file()) return *first;
-  std::atomic<int>* const said = said_by_any;
-  return said == nullptr || said->exchange(1) == 0;
+void let_decide(bool (*decide)(Ending) noexcept) noexcept {
+  decides = decide;
 }
 
 ExitStatus report_out_of_memory() noexcept {
   have_the_last_word();
-  if (!may_speak()) return unusable_input;
+  if (!may_report()) return unusable_input;
   say("fathom: error: out of memory: the input or the image is too large");
   say(memory_limit.data());
   say("\n");
@@ -148,7 +119,7 @@ int outcome_is(int status) noexcept {
 
 ExitStatus report_lack_of_threads() noexcept {
   have_the_last_word();
-  if (!may_speak()) return unusable_input;
+  if (!may_report()) return unusable_input;
   say("fathom: error: the system starts no more threads; --threads N asks for fewer\n");
   return unusable_input;
 }

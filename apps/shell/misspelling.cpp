@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "apps/shell/output_option.h"
+#include "apps/shell/command_text.h"
 #include "apps/shell/values.h"
 #include "fathom/numeric/unknown_name.h"
 

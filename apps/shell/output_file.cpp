@@ -10,11 +10,9 @@
 #include <system_error>
 #include <utility>
 
-#include "apps/shell/folder.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/output_place.h"
 #include "apps/shell/standard_streams.h"
-#include "apps/shell/write_all.h"
 #include "fathom/numeric/errors.h"
 
 namespace fathom::app {
@@ -235,6 +233,29 @@ void OutputFile::commit_together(const std::vector<OutputFile*>& outputs) {
   take_places(to_place);
   new_folders.keep();
   for (const fs::path& folder : folders) sync_folder(folder);
+}
+
+TextOutput::TextOutput(const std::string& name) : printed_(name == "-") {
+  if (printed_) {
+    expect_standard_output();
+  } else if (!name.empty()) {
+    file_.emplace(name);
+  }
+}
+
+void TextOutput::write(const std::string& text) {
+  if (file_) file_->write(text);
+  if (printed_) text_ = text;
+}
+
+void TextOutput::print() const {
+  if (printed_) app::print(text_);
+}
+
+void TextOutput::finish(const std::string& text) {
+  write(text);
+  if (file_) file_->commit();
+  print();
 }
 
 }  // namespace fathom::app

@@ -9,9 +9,9 @@
 #include <cstring>
 #include <utility>
 
-#include "apps/shell/exit_status.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/last_resort.h"
-#include "apps/shell/pending_files.h"
+#include "apps/shell/part_files.h"
 #include "fathom/text/mapped_file.h"
 
 // Handlers call only what is safe in them.
@@ -44,7 +44,7 @@ void say_at_once(const char* text) {
 extern "C" FATHOM_NOT_ADDRESS_SANITIZED void remove_and_exit(int) {
   remove_all_pending();
   const char* const text = last_words.texts[last_words.current.load()].data();
-  if (*text != '\0' && may_speak(Speaks::of_interruptions)) say_at_once(text);
+  if (*text != '\0' && may_report(Ending::interruption)) say_at_once(text);
   ::_exit(interrupted);
 }
 
@@ -59,7 +59,7 @@ extern "C" FATHOM_NOT_ADDRESS_SANITIZED void report_or_end(int signal, siginfo_t
   const char* const file = info->si_code > 0 ? text::mapped_file_at(info->si_addr) : nullptr;
   if (file == nullptr) return remove_and_end(signal);
   remove_all_pending();
-  if (may_speak()) {
+  if (may_report()) {
     say_at_once("fathom: error: ");
     say_at_once(file);
     say_at_once(": has been cut short while it was read\n");

@@ -15,9 +15,7 @@
 #include <utility>
 
 #include "apps/shell/output_place.h"
-#include "apps/shell/part_names.h"
-#include "apps/shell/pending_files.h"
-#include "apps/shell/stale_parts.h"
+#include "apps/shell/part_files.h"
 
 namespace fathom::app {
 namespace {

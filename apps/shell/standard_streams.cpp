@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <nlohmann/json.hpp>
+#include <system_error>
 
-#include "apps/shell/write_all.h"
+#include "fathom/numeric/errors.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::app {
@@ -46,6 +48,29 @@ void expect_standard_output() {
 void print(const std::string& text) {
   const std::string shown = text::printable_lines(text);
   write_all(STDOUT_FILENO, shown.data(), shown.size(), standard_output);
+}
+
+std::string json_answer(const nlohmann::ordered_json& answer, int indentation) {
+  return text::escaped_json(answer.dump(indentation, ' ', false,
+                                        nlohmann::ordered_json::error_handler_t::replace)) +
+         "\n";
+}
+
+void write_all(int descriptor, const char* data, std::size_t size,
+               const std::filesystem::path& target) {
+  while (size > 0) {
+    const ssize_t written = ::write(descriptor, data, size);
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      fail_with_errno(target, errno);
+    }
+    data += written;
+    size -= static_cast<std::size_t>(written);
+  }
+}
+
+void fail_with_errno(const std::filesystem::path& target, int error) {
+  throw OutputError(target.string() + ": " + std::generic_category().message(error));
 }
 
 }  // namespace fathom::app

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace fathom::app {
@@ -20,5 +23,18 @@ void expect_standard_output();
 /// (fathom/text/printable.h): names of files and objects are not ours.
 /// Fails    OutputError where standard output is closed or full.
 void print(const std::string& text);
+
+/// The text that is printed for an answer in JSON; it ends with a line feed. An indentation of -1 puts
+/// all on one line. Bytes that are not UTF-8, as in names of files, become U+FFFD, and characters
+/// that a terminal would act on are escaped.
+std::string json_answer(const nlohmann::ordered_json& answer, int indentation = 2);
+
+/// Writes all of the bytes to an open file that the user calls `target`.
+/// Fails    OutputError: "TARGET: why".
+void write_all(int descriptor, const char* data, std::size_t size,
+               const std::filesystem::path& target);
+
+/// Fails    OutputError: "TARGET: " and what the system says about this errno.
+[[noreturn]] void fail_with_errno(const std::filesystem::path& target, int error);
 
 }  // namespace fathom::app

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/shell/json_answer.h"
+#include "apps/shell/standard_streams.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::app {

@@ -7,7 +7,7 @@
 #include "apps/options/camera_options.h"
 #include "apps/options/cull_option.h"
 #include "apps/options/scene_options.h"
-#include "apps/shell/exit_status.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"

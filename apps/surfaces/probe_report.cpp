@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/shell/json_answer.h"
+#include "apps/shell/standard_streams.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/text/printable.h"

@@ -7,8 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "apps/shell/exit_status.h"
-#include "apps/shell/json_answer.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/image/rgb_image.h"

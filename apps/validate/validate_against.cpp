@@ -6,9 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "apps/shell/about_option.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/progress.h"
-#include "apps/shell/stopwatch.h"
 #include "apps/validate/scenes_to_draw.h"
 #include "apps/validate/validate_report.h"
 #include "fathom/attribution/attribute_and_name.h"

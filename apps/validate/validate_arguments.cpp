@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "apps/shell/output_option.h"
+#include "apps/shell/command.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/numeric/unknown_name.h"
 #include "validation/scenes/validation_scenes.h"

@@ -9,10 +9,9 @@
 #include <variant>
 #include <vector>
 
-#include "apps/shell/about_option.h"
-#include "apps/shell/exit_status.h"
-#include "apps/shell/folder.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
+#include "apps/shell/output_place.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/validate/scenes_to_draw.h"

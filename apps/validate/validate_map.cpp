@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apps/options/map_argument.h"
-#include "apps/shell/stopwatch.h"
+#include "apps/shell/progress.h"
 #include "apps/validate/validate_input.h"
 #include "apps/validate/validate_report.h"
 #include "fathom/attribution/judgement.h"

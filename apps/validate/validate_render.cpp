@@ -3,8 +3,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "apps/shell/about_option.h"
-#include "apps/shell/exit_status.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
 #include "apps/validate/scenes_to_draw.h"
 #include "fathom/attribution/other_map.h"

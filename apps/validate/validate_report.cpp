@@ -8,9 +8,9 @@
 #include <cstring>
 #include <filesystem>
 
-#include "apps/shell/exit_status.h"
-#include "apps/shell/folder.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
+#include "apps/shell/output_place.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/validate/validate_lines.h"
 #include "fathom/image/rgb_image.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/shell/text_output.h"
+#include "apps/shell/output_file.h"
 #include "apps/validate/validate_arguments.h"
 #include "validation/report/comparison.h"
 #include "validation/report/validation_case.h"

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
-#include "apps/shell/exit_status.h"
-#include "apps/shell/json_answer.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/numeric/errors.h"

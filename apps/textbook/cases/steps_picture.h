@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/shell/text_output.h"
+#include "apps/shell/output_file.h"
 #include "apps/textbook/drawing/picture.h"
 
 namespace fathom::app::cases {

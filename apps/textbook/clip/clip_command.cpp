@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "apps/shell/exit_status.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/values.h"
 #include "apps/textbook/cases/json_lines.h"
 #include "apps/textbook/cases/steps_picture.h"

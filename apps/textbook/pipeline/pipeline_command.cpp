@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "apps/options/camera_options.h"
 #include "apps/options/cull_option.h"
 #include "apps/options/pipeline_options.h"
 #include "apps/options/pipeline_words.h"
 #include "apps/options/scene_options.h"
-#include "apps/shell/exit_status.h"
-#include "apps/shell/json_answer.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"

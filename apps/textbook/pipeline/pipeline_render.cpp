@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "apps/render/render_outputs.h"
-#include "apps/shell/exit_status.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/progress.h"
 #include "apps/textbook/pipeline/pipeline_plan.h"

@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "apps/shell/output_file.h"
 #include "apps/shell/output_place.h"
-#include "apps/shell/text_output.h"
 #include "apps/shell/values.h"
 #include "apps/textbook/cases/json_lines.h"
 #include "apps/textbook/cases/steps_picture.h"

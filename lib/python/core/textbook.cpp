@@ -12,7 +12,7 @@
 #include "apps/options/cull_option.h"
 #include "apps/options/pipeline_options.h"
 #include "apps/options/pipeline_words.h"
-#include "apps/shell/arguments.h"
+#include "apps/shell/program.h"
 #include "apps/shell/values.h"
 #include "apps/textbook/drawing/clip_drawing.h"
 #include "apps/textbook/drawing/scan_drawing.h"

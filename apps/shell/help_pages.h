@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "apps/shell/command_text.h"
 
@@ -13,5 +14,12 @@ std::string help_page(const CommandText& command, std::size_t width);
 /// The columns that help on standard output may take: those of the terminal from 60 to 100, and 80
 /// where there is none.
 std::size_t help_width();
+
+/// "fathom-camera-orbit", under which `man` finds the page of a command.
+std::string man_name(const std::vector<std::string>& path);
+
+/// The page of a command in section 1, in roff. It is dated by SOURCE_DATE_EPOCH (seconds since
+/// 1970) where that is set, as packages that are built twice want it, and by today elsewhere.
+std::string man_page(const CommandText& command, const std::string& version);
 
 }  // namespace fathom::app

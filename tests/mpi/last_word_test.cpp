@@ -1,4 +1,6 @@
 // Of processes that end together, one says why.
+#include "apps/mpi/last_word.h"
+
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -6,7 +8,6 @@
 #include <atomic>
 #include <functional>
 
-#include "apps/shell/last_resort.h"
 #include "tests/apps/test_folder.h"
 
 namespace fathom::app {
@@ -23,23 +24,23 @@ bool answer_of_process(const std::function<bool()>& ask) {
 }
 
 TEST(LastWord, IsSaidOnceByAProcess) {
-  EXPECT_TRUE(answer_of_process([] { return may_speak(); }));
-  EXPECT_TRUE(answer_of_process([] { return may_speak() && !may_speak(); }));
+  EXPECT_TRUE(answer_of_process([] { return may_report(); }));
+  EXPECT_TRUE(answer_of_process([] { return may_report() && !may_report(); }));
 }
 
 TEST(LastWord, IsOfWhatTheProcessSpeaksOf) {
   EXPECT_TRUE(answer_of_process([] {
-    speak(Speaks::of_interruptions);
-    return !may_speak() && may_speak(Speaks::of_interruptions);
+    report_only(Reports::interruptions);
+    return !may_report() && may_report(Ending::interruption);
   }));
   EXPECT_FALSE(answer_of_process([] {
-    speak(Speaks::of_nothing);
-    return may_speak(Speaks::of_interruptions);
+    report_only(Reports::nothing);
+    return may_report(Ending::interruption);
   }));
   EXPECT_TRUE(answer_of_process([] {
-    speak(Speaks::of_nothing);
-    speak(Speaks::of_all);
-    return may_speak(Speaks::of_interruptions);
+    report_only(Reports::nothing);
+    report_only(Reports::everything);
+    return may_report(Ending::interruption);
   }));
 }
 
@@ -47,7 +48,7 @@ TEST(LastWord, IsSaidByTheFirstOfThoseThatShareAFile) {
   const test::TestFolder folder;
   const auto ask = [&] {
     share_last_word(folder / "said");
-    return may_speak();
+    return may_report();
   };
   EXPECT_TRUE(answer_of_process(ask));
   EXPECT_FALSE(answer_of_process(ask));
@@ -60,7 +61,7 @@ TEST(LastWord, IsSaidByTheFirstOfThoseThatShareANumber) {
       std::atomic<int> number{said};
       share_last_word("/nowhere/at/all/said");
       share_last_word(&number);
-      return may_speak() && number == 1;
+      return may_report() && number == 1;
     });
   };
   EXPECT_TRUE(ask(0));
