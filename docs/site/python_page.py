@@ -8,7 +8,7 @@ package = pathlib.Path(__file__).resolve().parent.parent.parent / "lib/python/fa
 GROUPS = {
     "Rendering": ["render"],
     "Scenes": ["Scene", "scene.Object", "scene.Origin"],
-    "Cameras": ["Camera", "read_cameras", "write_cameras", "ViewWarning"],
+    "Cameras": ["Camera", "Lens", "read_cameras", "write_cameras", "ViewWarning"],
     "Maps": ["Map", "read_map", "compare", "NO_SURFACE"],
     "Questions": ["probe", "questions.CoveringTriangle", "visible", "questions.VisibleAreas", "questions.Areas",
                   "render_deep", "DeepMap", "verify", "questions.Verification", "questions.Disagreement"],
@@ -38,8 +38,7 @@ def directive(name):
         return f".. autofunction:: fathom.{name}\n"
     if word.endswith(("Error", "Warning")):
         return f".. autoexception:: fathom.{name}\n   :show-inheritance:\n"
-    inherited = "   :inherited-members:\n" if word == "Camera" else ""
-    return f".. autoclass:: fathom.{name}\n   :members:\n{inherited}   :undoc-members:\n"
+    return f".. autoclass:: fathom.{name}\n   :members:\n   :undoc-members:\n"
 
 
 def text():

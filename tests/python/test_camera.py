@@ -2,6 +2,8 @@
 
 import copy
 import decimal
+import functools
+import inspect
 import json
 import math
 import pickle
@@ -165,6 +167,21 @@ def test_distorted_cameras_are_left_out_with_a_warning(tmp_path):
     assert list(fathom.Camera.from_colmap(tmp_path, ignore_distortion=True)) == ["a", "b"]
 
 
+def test_importers_are_class_methods():
+    importers = [name for name in vars(fathom.Camera) if name.startswith("from_")]
+    assert len(importers) == 15
+    for name in importers:
+        assert isinstance(inspect.getattr_static(fathom.Camera, name), classmethod), name
+        assert "cls" not in inspect.signature(getattr(fathom.Camera, name)).parameters, name
+
+    class Own(fathom.Camera):
+        pass
+
+    (made,) = Own.from_matrices(K, [turned], (640, 480), direction="camera-to-world",
+                                axes="opencv", pixel_centre=0).values()
+    assert type(made) is type(Own.look_at((0, 0, 3))) is Own
+
+
 # The eye at (2, 3, 4), a quarter turn about y: camera x is world −z, and z is x.
 turned = np.array([(0, 0, 1, 2), (0, 1, 0, 3), (-1, 0, 0, 4), (0, 0, 0, 1)], float)
 K = np.array([(500, 0, 320), (0, 510, 240), (0, 0, 1)], float)
@@ -311,6 +328,40 @@ def test_a_camera_does_not_change():
     assert camera.world_to_camera[0, 0] == 1
 
 
+def makers(spot):
+    """The functions that make cameras with a lens."""
+    return (functools.partial(fathom.Camera.look_at, (0, 0, 3)),
+            functools.partial(fathom.Camera.orbit, 2, distance=3),
+            functools.partial(fathom.Camera.frame, spot),
+            functools.partial(fathom.Camera.orbit_scene, spot, 2))
+
+
+@pytest.mark.parametrize("numbers", [
+    {}, {"size": (64, 48), "fov": 60}, {"focal": 77, "near": 0.1, "far": 9},
+    {"projection": "orthographic", "extent": 2},
+])
+def test_cameras_share_a_lens(spot, numbers):
+    lens = fathom.Lens(**numbers)
+    for make_one in makers(spot):
+        assert make_one(lens=lens) == make_one(**numbers)
+    assert eval(repr(lens), {"Lens": fathom.Lens, "inf": math.inf}) == lens
+    assert pickle.loads(pickle.dumps(lens)) == lens and hash(copy.copy(lens)) == hash(lens)
+    assert lens != fathom.Lens(size=(8, 6)) and lens.size == numbers.get("size", (1280, 720))
+
+
+def test_a_lens_does_not_change_and_stands_alone(spot):
+    lens = fathom.Lens(fov=60)
+    with pytest.raises(AttributeError, match="a Lens does not change"):
+        lens.fov = 3
+    for make_one in makers(spot):
+        with pytest.raises(TypeError, match="near: a lens is given, too: make a Lens with it"):
+            make_one(lens=lens, near=1)
+        with pytest.raises(TypeError, match="lens: expected a Lens, found 60"):
+            make_one(lens=60)
+        with pytest.raises(TypeError, match="unexpected keyword argument 'focus'"):
+            make_one(focus=1)
+
+
 @pytest.mark.parametrize("lens, words", [
     ({"fov": 40, "focal": 3}, "fov, focal: give one of them"),
     ({"extent": 3}, "extent: it is for orthographic cameras"),
@@ -318,12 +369,9 @@ def test_a_camera_does_not_change():
     ({"projection": "orthographic", "extent": 3, "focal": 40}, "fov, focal: they are for perspective cameras"),
 ])
 def test_lenses_that_say_two_things_are_refused(spot, lens, words):
-    for make_one in (lambda: fathom.Camera.look_at((0, 0, 3), **lens),
-                     lambda: fathom.Camera.orbit(2, distance=3, **lens),
-                     lambda: fathom.Camera.frame(spot, **lens),
-                     lambda: fathom.Camera.orbit_scene(spot, 2, **lens)):
+    for make_one in (*makers(spot), fathom.Lens):
         with pytest.raises(ValueError, match=words):
-            make_one()
+            make_one(**lens)
 
 
 @pytest.mark.parametrize("change, size, words", [

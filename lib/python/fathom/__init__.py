@@ -18,6 +18,7 @@ from .clipping import clip
 from .deep import DeepMap, render_deep
 from .depth_formats import DepthFormat
 from .evaluation import evaluate
+from .lens import Lens
 from .maps import NO_SEGMENT, NO_SURFACE, Map, compare, read_map
 from .questions import probe, verify, visible
 from .scanning import scan
@@ -32,6 +33,7 @@ __all__ = [
     "DepthFormat",
     "Error",
     "InputError",
+    "Lens",
     "Map",
     "OutputError",
     "Scene",

@@ -6,7 +6,7 @@ import functools
 import operator
 import os
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, Callable, TypeVar, Union, cast
+from typing import TYPE_CHECKING, Any, Callable, Protocol, TypeVar, Union, cast
 
 import numpy as np
 
@@ -124,6 +124,13 @@ def one_of(name: str, value: object, allowed: Iterable[str]) -> str:
     if not isinstance(value, str) or value not in names:
         raise ValueError(f"{name}: expected {', '.join(map(repr, names))}, found {value!r}")
     return value
+
+
+class HasScene(Protocol):
+    """A fathom.Scene, for the modules on which that builds."""
+
+    @property
+    def _handle(self) -> _core.Scene: ...
 
 
 def scene_handle(scene: object) -> _core.Scene:

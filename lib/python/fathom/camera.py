@@ -6,11 +6,11 @@ import math
 import os
 import warnings
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, Literal, Union
+from typing import TYPE_CHECKING, Any, Callable, Literal, Union, cast
 
 import numpy as np
 
-from . import _core
+from . import _core, _importing
 from ._core import InputError, OutputError
 from ._arguments import (
     Rows,
@@ -27,29 +27,39 @@ from ._arguments import (
     takes_pixel_centre,
 )
 from ._files import Path, make_folder_of, path_of
-from ._importing import ImportedCameras, ViewWarning, intrinsics_of
+from ._importing import ViewWarning, intrinsics_of
+from .lens import Lens, LensKeywords, Projection, lens_handle, projections
 
 if TYPE_CHECKING:
     import numpy.typing as npt
+    from typing_extensions import Concatenate, ParamSpec, Unpack
 
-    from .scene import Scene
+    from ._arguments import HasScene as Scene
 
-Projection = Literal["perspective", "orthographic"]
+    Arguments = ParamSpec("Arguments")
+
 Up = Union[Literal["x", "y", "z", "-x", "-y", "-z"], "npt.ArrayLike"]
 
-projections = ("perspective", "orthographic")
+
+def _importer(
+    function: Callable[Concatenate[type[Camera], Arguments], dict[str, Camera]]
+) -> Callable[Arguments, dict[str, Camera]]:
+    """A function as a class method of Camera; type checkers know its arguments."""
+    return cast("Callable[Arguments, dict[str, Camera]]", classmethod(function))
 
 
-class Camera(ImportedCameras):
-    """A pinhole or orthographic camera. Every number is taken as the real number that it denotes; a camera does not
-    change.
+class Camera:
+    """A pinhole or orthographic camera. Every number is taken as the real number that it denotes; a
+    camera does not change.
 
     width, height    of the image in pixels
     fx, fy, skew     pixels (perspective) or pixels per scene unit (orthographic)
     cx, cy           pixels
-    pixel_centre     the image coordinate of the top left pixel's centre, as cx and cy count: 0.5 (COLMAP, OpenGL,
-                     NeRF) or 0 (OpenCV, BOP). It has no default, since half a pixel is what goes wrong most often.
-    world_to_camera  4×4 or 3×4, [R | t]; x right, y down, z forward (OpenCV's axes). R need not be a rotation.
+    pixel_centre     the image coordinate of the top left pixel's centre, as cx and cy count: 0.5
+                     (COLMAP, OpenGL, NeRF) or 0 (OpenCV, BOP). It has no default, since half a
+                     pixel is the most common error.
+    world_to_camera  4×4 or 3×4, [R | t]; x right, y down, z forward (OpenCV's axes). R need not be
+                     a rotation.
     near, far        the range of planar depth that counts, in scene units
     name             what its image is called; it says nothing about what is seen
 
@@ -87,10 +97,20 @@ class Camera(ImportedCameras):
         intrinsics = [as_number(name, value) for name, value in
                       (("fx", fx), ("fy", fy), ("cx", cx), ("cy", cy), ("skew", skew))]
         pose = _identity if world_to_camera is None else pose_of("world_to_camera", world_to_camera)
-        self._set(size, projection, intrinsics, pixel_centre, pose, near, far, as_text("name", name))
+        called = as_text("name", name)
+        self._set(size, projection, intrinsics, pixel_centre, pose, near, far, called)
 
-    def _set(self, size: tuple[int, int], projection: object, intrinsics: list[float], pixel_centre: object,
-             pose: Rows, near: object, far: object, name: str = "") -> None:
+    def _set(
+        self,
+        size: tuple[int, int],
+        projection: object,
+        intrinsics: list[float],
+        pixel_centre: object,
+        pose: Rows,
+        near: object,
+        far: object,
+        name: str = "",
+    ) -> None:
         made = _core.Camera(
             *size,
             one_of("projection", projection, projections) == "orthographic",
@@ -129,19 +149,23 @@ class Camera(ImportedCameras):
         T     4×4 or 3×4, world to camera, x right, y down, z forward
         size  (width, height) in pixels
 
-        A K of cv2.calibrateCamera() has its first pixel's centre at 0; one that COLMAP has exported, at 0.5.
+        A K of cv2.calibrateCamera() has its first pixel's centre at 0; one that COLMAP has
+        exported, at 0.5.
 
-        >>> Camera.from_opencv([[500, 0, 320], [0, 500, 240], [0, 0, 1]], np.eye(4), (640, 480), pixel_centre=0)
+        >>> K = [[500, 0, 320], [0, 500, 240], [0, 0, 1]]
+        >>> Camera.from_opencv(K, np.eye(4), (640, 480), pixel_centre=0)
         Camera(640×480, perspective, fx=500, fy=500, cx=320, cy=240, pixel_centre=0)
         """
         camera = cls.__new__(cls)
-        camera._set(as_size(size), "perspective", intrinsics_of(K), pixel_centre, pose_of("T", T), near, far)
+        width_and_height, intrinsics, pose = as_size(size), intrinsics_of(K), pose_of("T", T)
+        camera._set(width_and_height, "perspective", intrinsics, pixel_centre, pose, near, far)
         return camera
 
     @classmethod
     def from_opengl(cls, projection: npt.ArrayLike, modelview: npt.ArrayLike, size: Size) -> Camera:
-        """The camera of OpenGL's matrices, each 4×4 for column vectors (transpose what glGetFloatv gives), for a
-        viewport of `size` and clip depths from −1 to 1. Near and far are those of the projection.
+        """The camera of OpenGL's matrices, each 4×4 for column vectors (transpose what glGetFloatv
+        gives), for a viewport of `size` and clip depths from −1 to 1. Near and far are those of the
+        projection.
 
         Exact: entries that follow from a formula are computed exactly and rounded once.
         """
@@ -160,27 +184,20 @@ class Camera(ImportedCameras):
         target: npt.ArrayLike = (0, 0, 0),
         up: Up = "y",
         *,
-        size: Size = (1280, 720),
-        fov: float | None = None,
-        focal: float | None = None,
-        extent: float | None = None,
-        projection: Projection = "perspective",
-        near: float = 0,
-        far: float = math.inf,
+        lens: Lens | None = None,
+        **keywords: Unpack[LensKeywords],
     ) -> Camera:
-        """The camera at `eye` that looks at `target` with `up` upwards in the image. World, scene units.
+        """The camera at `eye` that looks at `target` with `up` upwards in the image. World, scene
+        units.
 
-        fov     the angle in degrees that the image's height spans: 40 where neither it nor `focal` is given
-        focal   fx = fy in pixels, in its place
-        extent  orthographic cameras: the scene units that the image's height spans
-
-        Raises ValueError for two of them, or one that is not for the projection.
+        lens        a Lens, which several cameras can share
+        **keywords  its arguments instead: size, fov, focal, extent, projection, near, far
 
         >>> Camera.look_at((0, 0, 3)).world_to_camera[2]
         array([ 0.,  0., -1.,  3.])
         """
-        lens = _lens(size, fov, focal, extent, projection, near, far)
-        return cls._of(_core.look_at(_point("eye", eye), _point("target", target), _up(up), lens))
+        chosen = lens_handle(lens, keywords)
+        return cls._of(_core.look_at(_point("eye", eye), _point("target", target), _up(up), chosen))
 
     @classmethod
     def orbit(
@@ -192,25 +209,21 @@ class Camera(ImportedCameras):
         azimuth: float = 35,
         elevation: float = 25,
         up: Up = "y",
-        size: Size = (1280, 720),
-        fov: float | None = None,
-        focal: float | None = None,
-        extent: float | None = None,
-        projection: Projection = "perspective",
-        near: float = 0,
-        far: float = math.inf,
+        lens: Lens | None = None,
+        **keywords: Unpack[LensKeywords],
     ) -> list[Camera]:
-        """`count` cameras around `centre` at `distance`, in steps of 360°/count from `azimuth` on, all of them at
-        `elevation` degrees above the horizon. `up` is what points up in the world: "x", "y", "z", "-x", "-y", "-z" or a
-        vector of any length; at azimuth 0 the image's right is +x without its part along `up` (+y where up is along x).
+        """`count` cameras around `centre` at `distance`, in steps of 360°/count from `azimuth` on,
+        all of them at `elevation` degrees above the horizon. `up` is what points up in the world:
+        "x", "y", "z", "-x", "-y", "-z" or a vector of any length; at azimuth 0 the image's right is
+        +x without its part along `up` (+y where up is along x). The lens is as for look_at().
 
         >>> len(Camera.orbit(12, distance=3))
         12
         """
         view = _view(azimuth, elevation, up)
-        lens = _lens(size, fov, focal, extent, projection, near, far)
+        chosen = lens_handle(lens, keywords)
         made = _core.orbit(view, as_count("count", count, 1, 1_000_000), _point("centre", centre),
-                           as_number("distance", distance), lens)
+                           as_number("distance", distance), chosen)
         return [cls._of(each) for each in made]
 
     @classmethod
@@ -221,18 +234,14 @@ class Camera(ImportedCameras):
         azimuth: float = 35,
         elevation: float = 25,
         up: Up = "y",
-        size: Size = (1280, 720),
-        fov: float | None = None,
-        focal: float | None = None,
-        extent: float | None = None,
-        projection: Projection = "perspective",
-        near: float = 0,
-        far: float = math.inf,
+        lens: Lens | None = None,
+        **keywords: Unpack[LensKeywords],
     ) -> Camera:
-        """The camera that sees the whole of a scene, with a margin, from a direction in degrees."""
+        """The camera that sees the whole of a scene, with a margin, from a direction in degrees.
+        The lens is as for look_at()."""
         view = _view(azimuth, elevation, up)
-        lens = _lens(size, fov, focal, extent, projection, near, far)
-        return cls._of(_core.frame_scene(scene_handle(scene), view, lens))
+        chosen = lens_handle(lens, keywords)
+        return cls._of(_core.frame_scene(scene_handle(scene), view, chosen))
 
     @classmethod
     def orbit_scene(
@@ -243,19 +252,30 @@ class Camera(ImportedCameras):
         azimuth: float = 35,
         elevation: float = 25,
         up: Up = "y",
-        size: Size = (1280, 720),
-        fov: float | None = None,
-        focal: float | None = None,
-        extent: float | None = None,
-        projection: Projection = "perspective",
-        near: float = 0,
-        far: float = math.inf,
+        lens: Lens | None = None,
+        **keywords: Unpack[LensKeywords],
     ) -> list[Camera]:
         """As orbit(), around a scene, at the distance from which each camera sees all of it."""
         view = _view(azimuth, elevation, up)
-        lens = _lens(size, fov, focal, extent, projection, near, far)
-        made = _core.orbit_scene(scene_handle(scene), view, as_count("count", count, 1, 1_000_000), lens)
+        chosen = lens_handle(lens, keywords)
+        steps = as_count("count", count, 1, 1_000_000)
+        made = _core.orbit_scene(scene_handle(scene), view, steps, chosen)
         return [cls._of(each) for each in made]
+
+    # Imported: conventions are in docs/data-sets.md and docs/conventions.md
+
+    from_colmap = _importer(_importing.from_colmap)
+    from_nerf = _importer(_importing.from_nerf)
+    from_bop = _importer(_importing.from_bop)
+    from_sfm_data = _importer(_importing.from_sfm_data)
+    from_gltf = _importer(_importing.from_gltf)
+    from_matrices = _importer(_importing.from_matrices)
+    from_tum = _importer(_importing.from_tum)
+    from_7scenes = _importer(_importing.from_7scenes)
+    from_scannet = _importer(_importing.from_scannet)
+    from_scannetpp = _importer(_importing.from_scannetpp)
+    from_replica = _importer(_importing.from_replica)
+    from_kitti = _importer(_importing.from_kitti)
 
     # Read and written
 
@@ -336,7 +356,8 @@ class Camera(ImportedCameras):
     @property
     def K(self) -> npt.NDArray[np.float64]:
         """3×3: fx skew cx / 0 fy cy / 0 0 1."""
-        return np.array([[self.fx, self.skew, self.cx], [0, self.fy, self.cy], [0, 0, 1]], np.float64)
+        rows = [[self.fx, self.skew, self.cx], [0, self.fy, self.cy], [0, 0, 1]]
+        return np.array(rows, np.float64)
 
     @property
     def world_to_camera(self) -> npt.NDArray[np.float64]:
@@ -349,9 +370,10 @@ class Camera(ImportedCameras):
         return np.array([*self._handle.camera_to_world, (0, 0, 0, 1)], np.float64)
 
     def with_size(self, width: int, height: int) -> Camera:
-        """The same camera with another image size; the principal point stays where it is, in pixels."""
-        return Camera(width, height, self.fx, self.fy, self.cx, self.cy, pixel_centre=self.pixel_centre,
-                      skew=self.skew, world_to_camera=self.world_to_camera, projection=self.projection,
+        """The same camera with another image size; the principal point stays, in pixels."""
+        return Camera(width, height, self.fx, self.fy, self.cx, self.cy,
+                      pixel_centre=self.pixel_centre, skew=self.skew,
+                      world_to_camera=self.world_to_camera, projection=self.projection,
                       near=self.near, far=self.far, name=self.name)
 
     def __setattr__(self, name: str, value: object) -> None:
@@ -367,7 +389,8 @@ class Camera(ImportedCameras):
         return _from_json, (self.to_json(),)
 
     def __repr__(self) -> str:
-        numbers = " ".join(f"{name}={getattr(self, name):.10g}," for name in ("fx", "fy", "cx", "cy"))
+        names = ("fx", "fy", "cx", "cy")
+        numbers = " ".join(f"{each}={getattr(self, each):.10g}," for each in names)
         skew = f" skew={self.skew:.10g}," if self.skew else ""
         name = f", name={self.name!r}" if self.name else ""
         return (f"Camera({self.width}×{self.height}, {self.projection}, {numbers}{skew} "
@@ -383,28 +406,6 @@ def _from_json(text: str) -> Camera:
 
 def _point(name: str, value: npt.ArrayLike) -> list[float]:
     return [float(each) for each in as_finite(name, value, (3,))]
-
-
-def _lens(size: Size, fov: float | None, focal: float | None, extent: float | None, projection: str, near: float,
-          far: float) -> _core.Lens:
-    def or_none(name: str, value: float | None) -> float | None:
-        return None if value is None else as_number(name, value)
-
-    if projection == "perspective" and extent is not None:
-        raise ValueError("extent: it is for orthographic cameras: give fov or focal")
-    if projection == "orthographic" and (fov is not None or focal is not None):
-        raise ValueError("fov, focal: they are for perspective cameras: give extent")
-    if fov is not None and focal is not None:
-        raise ValueError("fov, focal: give one of them")
-    return _core.Lens(
-        *as_size(size),
-        one_of("projection", projection, projections) == "orthographic",
-        or_none("fov", fov),
-        or_none("focal", focal),
-        or_none("extent", extent),
-        as_number("near", near),
-        as_number("far", far),
-    )
 
 
 def _view(azimuth: float, elevation: float, up: Up) -> _core.View:
@@ -431,7 +432,8 @@ def cameras_from_json(text: str, name: str = "camera") -> list[Camera]:
     try:
         text.encode()
     except UnicodeEncodeError:
-        raise ValueError("text: expected a camera file's text, found one with lone surrogates") from None
+        message = "text: expected a camera file's text, found one with lone surrogates"
+        raise ValueError(message) from None
     # A file's name may stand for any bytes.
     cameras, notes = _core.cameras_from_json(text, os.fsencode(path_of("name", name)))
     for note in notes:
@@ -440,7 +442,8 @@ def cameras_from_json(text: str, name: str = "camera") -> list[Camera]:
 
 
 def read_cameras(file: Path) -> list[Camera]:
-    """The cameras of a camera file: one, or a list (a camera path). Raises InputError, which names the file."""
+    """The cameras of a camera file: one, or a list (a camera path). Raises InputError, which names
+    the file."""
     name = os.fsdecode(path_of("file", file))
     try:
         with open(file, encoding="utf-8") as stream:
@@ -453,8 +456,8 @@ def read_cameras(file: Path) -> list[Camera]:
 
 
 def write_cameras(file: Path, cameras: Iterable[Camera]) -> None:
-    """Writes a camera file. A single camera is an object, several are a list. A folder that is missing is made.
-    Raises OutputError where it cannot be written."""
+    """Writes a camera file. A single camera is an object, several are a list. A folder that is
+    missing is made. Raises OutputError where it cannot be written."""
     path_of("file", file)
     text = _core.cameras_to_json([camera_handle(camera) for camera in cameras])
     make_folder_of(file)
