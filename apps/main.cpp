@@ -11,7 +11,7 @@
 #include "apps/render/render_maps.h"
 #include "apps/shell/program.h"
 #include "apps/surfaces/surface_commands.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "apps/options/channel_list.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/numeric/unknown_name.h"
+#include "fathom/failures/errors.h"
+#include "fathom/failures/unknown_name.h"
 #include "validation/bench/parts/ideas.h"
 
 namespace fathom::app {

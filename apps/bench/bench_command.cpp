@@ -14,7 +14,7 @@
 #include "apps/shell/program.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/bench/renderers.h"
 #include "validation/bench/report.h"
 

@@ -22,7 +22,7 @@
 #include "apps/shell/program.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/text/parse_json.h"
 
 namespace fathom::app {

@@ -4,7 +4,7 @@
 
 #include "apps/camera/import_sources.h"
 #include "apps/camera/number_arrays.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

@@ -1,7 +1,7 @@
 // fathom camera import colmap | nerf | bop | sfmdata | gltf | opengl
 
 #include "apps/camera/import_sources.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

@@ -5,8 +5,8 @@
 #include <type_traits>
 #include <variant>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/map_files.h"
-#include "fathom/numeric/errors.h"
 
 namespace fathom::app {
 namespace {

@@ -11,7 +11,7 @@
 #include "apps/shell/output_file.h"
 #include "apps/shell/values.h"
 #include "fathom/camera/camera_files.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/framing.h"
 
 namespace fathom::app {

@@ -12,9 +12,9 @@
 #include "apps/dataset/counted_mask.h"
 #include "apps/shell/failures.h"
 #include "fathom/area/visible_areas.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/mask_picture.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/render.h"
 
 namespace fathom::app {
@@ -52,7 +52,7 @@ std::size_t count_with_depth(const Mask& mask, const Samples<std::uint16_t>& cod
   return count;
 }
 
-std::function<text::Bytes()> as_png(Mask mask, const BopImage& image, const std::string& name) {
+std::function<files::Bytes()> as_png(Mask mask, const BopImage& image, const std::string& name) {
   return [mask = std::move(mask), width = image.camera.width, height = image.camera.height, name] {
     return encode_mask(mask, width, height, name);
   };

@@ -12,7 +12,7 @@
 #include "apps/options/output_names.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {
@@ -85,8 +85,8 @@ const std::vector<DepthImages>& all_depth_images() {
 }
 
 /// The depth image of a map, with codes as the layout has them.
-text::Bytes encoded(const DepthImages& layout, const DepthMap& map, const MapPlan& plan,
-                    const std::string& name) {
+files::Bytes encoded(const DepthImages& layout, const DepthMap& map, const MapPlan& plan,
+                     const std::string& name) {
   if (layout.none == 0) return encode_map(map, name, MapFormat::png, plan.writing);
   DepthMap changed = map;
   Samples<std::uint16_t>* codes = changed.values<std::uint16_t>("Z");

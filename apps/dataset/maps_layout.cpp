@@ -25,9 +25,9 @@ std::string default_pattern(const std::vector<Camera>& cameras) {
   return named ? "{stem}.exr" : "{index:06}.exr";
 }
 
-text::Bytes encoded_sidecar(const DepthMap& map, const MapPlan&, const std::string&) {
-  text::Bytes bytes;
-  text::append(bytes, png_sidecar(map));
+files::Bytes encoded_sidecar(const DepthMap& map, const MapPlan&, const std::string&) {
+  files::Bytes bytes;
+  files::append(bytes, png_sidecar(map));
   return bytes;
 }
 

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
-#include "fathom/numeric/errors.h"
-#include "fathom/text/input_file.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/text/parse_json.h"
 
 namespace fathom::app {
@@ -17,7 +17,7 @@ std::string transforms_with_depths(const std::string& file, const std::vector<Ca
   for (std::size_t i = 0; i < cameras.size(); ++i) depth_of[cameras[i].name] = depths[i];
   Json json;
   try {
-    json = text::parse_json<Json>(text::InputFile(file).text());
+    json = text::parse_json<Json>(files::InputFile(file).text());
     Json frames = Json::array();
     std::size_t number = 0;
     for (Json& frame : json.at("frames")) {

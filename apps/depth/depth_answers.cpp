@@ -10,7 +10,7 @@
 #include "apps/shell/failures.h"
 #include "apps/shell/values.h"
 #include "fathom/depth_format/resolution.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

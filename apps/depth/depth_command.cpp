@@ -11,7 +11,7 @@
 #include "apps/options/depth_format_options.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/standard_streams.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

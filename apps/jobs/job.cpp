@@ -14,11 +14,11 @@
 #include "apps/shell/output_place.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
+#include "fathom/files/sha256.h"
 #include "fathom/text/counted.h"
-#include "fathom/text/input_file.h"
 #include "fathom/text/printable.h"
-#include "fathom/text/sha256.h"
 
 namespace fathom::app {
 namespace {
@@ -33,7 +33,7 @@ bool is_intact(const fs::path& folder, const PublishedFile& file) {
     return false;
   }
   try {
-    const text::InputFile input(path, text::InputFile::Reading::copied);
+    const files::InputFile input(path, files::InputFile::Reading::copied);
     return crc32_of(input.bytes()) == file.crc32;
   } catch (const InputError&) {
     return false;
@@ -192,7 +192,7 @@ Shard parse_shard(const std::string& text) {
 }
 
 std::string key_of(const std::string& inputs) {
-  return text::sha256(std::as_bytes(std::span(inputs)));
+  return files::sha256(std::as_bytes(std::span(inputs)));
 }
 
 void run_job(const Job& job, const Console& console) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/shell/console.h"
-#include "fathom/text/file_bytes.h"
+#include "fathom/files/file_bytes.h"
 
 /// Work of many files that survives being interrupted. Each task's files are published as soon as they are
 /// on the disk; a manifest beside them says which are finished, so that the same command, given again,
@@ -41,7 +41,7 @@ std::string key_of(const std::string& inputs);
 /// What a task has computed.
 struct Result {
   /// The bytes of each of its files. Called from another thread, while the next task is computed.
-  std::vector<std::function<text::Bytes()>> files;
+  std::vector<std::function<files::Bytes()>> files;
   /// What a list needs to know of the task: JSON. Not null.
   std::string facts = "{}";
   /// About as many bytes of memory does the result hold.

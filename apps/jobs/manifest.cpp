@@ -13,8 +13,8 @@
 
 #include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/input_file.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/text/parse_json.h"
 #include "fathom/text/utf8.h"
 
@@ -122,7 +122,7 @@ void cut_torn_line(int file, const fs::path& path) {
 
 }  // namespace
 
-std::uint32_t crc32_of(text::ByteView bytes) {
+std::uint32_t crc32_of(files::ByteView bytes) {
   return libdeflate_crc32(0, bytes.data(), bytes.size());
 }
 
@@ -184,14 +184,14 @@ Manifest::Manifest(fs::path folder, const Shard& shard)
   struct stat status {};
   if (::fstat(file_.get(), &status) != 0) fail_with_errno(path_, errno);
   if (status.st_size == 0) append(first_line());
-  const text::Descriptor in(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const files::Descriptor in(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (in.is_open()) ::fsync(in.get());
 }
 
 /// The lock ends with this process. Whoever had it before may have put another file in its place.
 void Manifest::open() {
   do {
-    file_ = text::Descriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+    file_ = files::Descriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
     if (!file_.is_open()) fail_with_errno(path_, errno);
     if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       throw OutputError(path_.string() +
@@ -203,7 +203,7 @@ void Manifest::open() {
 ManifestContent Manifest::read(Warnings& warnings) const {
   ManifestContent content;
   for (const fs::path& path : manifests_in(folder_)) {
-    const text::InputFile file(path, text::InputFile::Reading::copied);
+    const files::InputFile file(path, files::InputFile::Reading::copied);
     content.add(std::string(file.text()), path.string(), warnings);
   }
   return content;
@@ -241,7 +241,7 @@ void Manifest::replace(const std::vector<Record>& records, std::unordered_set<st
   for (const fs::path& other : manifests_in(folder_)) {
     if (other == path_) continue;
     // NFS grants such a lock on files that are open for writing alone.
-    const text::Descriptor file(::open(other.c_str(), O_RDWR | O_CLOEXEC));
+    const files::Descriptor file(::open(other.c_str(), O_RDWR | O_CLOEXEC));
     const bool is_free = file.is_open() && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0;
     if (is_free) ::unlink(other.c_str());
   }

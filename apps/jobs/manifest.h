@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "apps/jobs/job.h"
-#include "fathom/text/descriptor.h"
-#include "fathom/text/warnings.h"
+#include "fathom/failures/warnings.h"
+#include "fathom/files/descriptor.h"
 
 namespace fathom::app {
 
@@ -23,7 +23,7 @@ struct PublishedFile {
 };
 
 /// As PublishedFile has it.
-std::uint32_t crc32_of(text::ByteView bytes);
+std::uint32_t crc32_of(files::ByteView bytes);
 
 /// A finished task.
 struct Record {
@@ -78,7 +78,7 @@ class Manifest {
   void append(const std::string& lines);
 
   std::filesystem::path folder_, path_;
-  text::Descriptor file_;
+  files::Descriptor file_;
 };
 
 }  // namespace fathom::app

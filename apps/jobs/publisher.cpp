@@ -94,7 +94,7 @@ void Publisher::publish(std::vector<Waiting> batch) {
     for (std::size_t k = 0; k < one.task.files.size(); ++k) {
       const std::string& path = one.task.files[k];
       OutputFile& output = outputs.emplace_back(folder_ / path);
-      const text::Bytes bytes = one.result.files[k]();
+      const files::Bytes bytes = one.result.files[k]();
       output.write(bytes);
       record.files.push_back({path, bytes.size(), crc32_of(bytes)});
     }

@@ -13,8 +13,8 @@
 #include "apps/shell/output_place.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/compare.h"
-#include "fathom/numeric/errors.h"
 
 namespace fathom::app {
 namespace {

@@ -13,12 +13,12 @@
 #include "apps/shell/output_file.h"
 #include "apps/shell/values.h"
 #include "fathom/camera/world_from_image.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/png_sidecar.h"
 #include "fathom/image/point_cloud.h"
 #include "fathom/image/surface.h"
-#include "fathom/numeric/errors.h"
 
 namespace fathom::app {
 namespace {

@@ -10,8 +10,8 @@
 #include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/camera/camera_files.h"
+#include "fathom/files/input_file.h"
 #include "fathom/scene/read_scene.h"
-#include "fathom/text/input_file.h"
 
 namespace fathom::app {
 namespace {
@@ -23,7 +23,7 @@ struct InfoArguments {
   bool json = false;
 };
 
-std::string info_of_meshes(const InfoArguments& arguments, const text::InputFile& input,
+std::string info_of_meshes(const InfoArguments& arguments, const files::InputFile& input,
                            FileKind kind, AnswerForm form, const Console& console) {
   ReadOptions options = arguments.scene.read_options();
   options.hash = true;
@@ -38,7 +38,7 @@ std::string info_of_meshes(const InfoArguments& arguments, const text::InputFile
 /// The file is read once, so that it can be a pipe.
 int run_info(const InfoArguments& arguments, const Console& console) {
   const std::string& file = arguments.file;
-  const text::InputFile input(file, text::InputFile::Reading::mapped_where_large);
+  const files::InputFile input(file, files::InputFile::Reading::mapped_where_large);
   const FileKind kind = arguments.scene.mesh_format ? FileKind::mesh : kind_of(input.text());
   const AnswerForm form = arguments.json ? AnswerForm::json : AnswerForm::text;
   if (kind == FileKind::camera) {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "apps/options/camera_options.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

@@ -9,8 +9,8 @@
 #include "apps/shell/output_file.h"
 #include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/preview.h"
-#include "fathom/numeric/errors.h"
 
 namespace fathom::app {
 namespace {

@@ -8,11 +8,11 @@
 #include <optional>
 
 #include "apps/shell/standard_streams.h"
-#include "fathom/text/byte_order.h"
-#include "fathom/text/descriptor.h"
+#include "fathom/files/byte_order.h"
+#include "fathom/files/descriptor.h"
 
 namespace fathom::app {
-using namespace text;
+using namespace files;
 
 namespace {
 

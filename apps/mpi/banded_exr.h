@@ -6,9 +6,9 @@
 
 #include "apps/mpi/ranks.h"
 #include "apps/mpi/waiting_chunks.h"
+#include "fathom/files/file_bytes.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/image/map_files.h"
-#include "fathom/text/file_bytes.h"
 
 namespace fathom::app {
 
@@ -19,7 +19,7 @@ namespace fathom::app {
 /// `of_chunks`  the rank of each chunk
 /// Fails    after all has been sent: in the first rank OutputError; InputError where own chunks cannot be taken.
 void write_banded_exr(const Ranks& ranks, const std::filesystem::path& path,
-                      const text::Bytes& beginning, std::span<const int> of_chunks,
+                      const files::Bytes& beginning, std::span<const int> of_chunks,
                       std::uint32_t rows_of_chunk, WaitingChunks& own_chunks);
 
 }  // namespace fathom::app

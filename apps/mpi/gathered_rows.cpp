@@ -1,7 +1,7 @@
 #include "apps/mpi/gathered_rows.h"
 
 namespace fathom::app {
-using namespace text;
+using namespace files;
 
 RowShare share_of(const Ranks& ranks) {
   return {static_cast<std::uint32_t>(ranks.self()), static_cast<std::uint32_t>(ranks.count())};

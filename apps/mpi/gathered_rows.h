@@ -11,8 +11,8 @@
 
 #include "apps/mpi/ranks.h"
 #include "apps/mpi/traffic.h"
+#include "fathom/files/file_bytes.h"
 #include "fathom/image/row_share.h"
-#include "fathom/text/file_bytes.h"
 
 namespace fathom::app {
 
@@ -32,13 +32,13 @@ class RowsOfOthers {
 
  private:
   struct List {
-    text::Bytes bytes;
+    files::Bytes bytes;
     std::size_t taken = 0;
   };
   template <class T>
   static void take(List& from, std::span<T> to) {
     const auto bytes = std::as_writable_bytes(to);
-    std::ranges::copy(text::ByteView(from.bytes).subspan(from.taken, bytes.size()), bytes.begin());
+    std::ranges::copy(files::ByteView(from.bytes).subspan(from.taken, bytes.size()), bytes.begin());
     from.taken += bytes.size();
   }
   std::vector<List> counts_, items_;
@@ -46,7 +46,7 @@ class RowsOfOthers {
 
 /// Sends the first rank what this one has found in its share of the rows, where RowsOfOthers takes it.
 void send_rows(const Ranks& ranks, std::uint32_t width, std::span<const std::uint32_t> counts,
-               text::ByteView items, Traffic& traffic);
+               files::ByteView items, Traffic& traffic);
 
 /// Puts together in the first rank what each has found in its share of the rows of an image: how many
 /// items each pixel has, and all of them, pixel by pixel; other rows of it have none. Called by all

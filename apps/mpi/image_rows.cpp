@@ -6,7 +6,7 @@
 #include <variant>
 
 namespace fathom::app {
-using namespace text;
+using namespace files;
 
 namespace {
 

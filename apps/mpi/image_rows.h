@@ -42,13 +42,13 @@ using RowsDrawn = std::function<DepthMap(const TileRows&)>;
 /// Of the rows that each rank is to get, what this rank has drawn of them goes to the others:
 /// messages, one for each.
 /// Fails    as `drawn` does.
-std::vector<text::Bytes> pixels_for_others(const Ranks& ranks, const DrawnTiles& where,
-                                           std::span<const TileRows> of_ranks,
-                                           const RowsDrawn& drawn);
+std::vector<files::Bytes> pixels_for_others(const Ranks& ranks, const DrawnTiles& where,
+                                            std::span<const TileRows> of_ranks,
+                                            const RowsDrawn& drawn);
 /// The map of the rows that this rank gets, from what it has drawn of them and what has come from the
 /// others.
 DepthMap rows_from_all(const Ranks& ranks, const DrawnTiles& where, const TileRows& own,
-                       const RowsDrawn& drawn, const std::vector<text::Bytes>& from_others);
+                       const RowsDrawn& drawn, const std::vector<files::Bytes>& from_others);
 
 /// A map that is put together from rows, one after another.
 class WholeMap {

@@ -15,7 +15,7 @@
 #include "apps/shell/last_resort.h"
 #include "apps/shell/program.h"
 #include "apps/shell/signals.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

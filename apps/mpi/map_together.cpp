@@ -152,7 +152,7 @@ class MapTogether {
       const RowsDrawn drawn = [&](const TileRows& some) {
         return about_output(traffic_.map, [&] { return drawing_.rows(some); });
       };
-      std::vector<text::Bytes> messages;
+      std::vector<files::Bytes> messages;
       together(ranks_, [&] { messages = pixels_for_others(ranks_, where, rows, drawn); });
       traffic_.of_pixels.add(messages, ranks_.self());
       messages = ranks_.exchange(std::move(messages), job_.memory.message_bytes);
@@ -198,7 +198,7 @@ class MapTogether {
     rows = dressed(std::move(rows));
     if (ranks_.is_first() && beginning_.empty())
       beginning_ = exr_beginning(rows, camera_.height, writing.compression, traffic_.map);
-    for (text::Bytes& chunk : exr_chunks(rows, writing.compression, writing.threads, traffic_.map))
+    for (files::Bytes& chunk : exr_chunks(rows, writing.compression, writing.threads, traffic_.map))
       chunks_.add(std::move(chunk));
   }
 
@@ -229,7 +229,7 @@ class MapTogether {
   /// Of an EXR that is written in bands.
   std::optional<std::uint32_t> rows_of_chunk_;
   std::vector<TileRows> bands_;
-  text::Bytes beginning_;
+  files::Bytes beginning_;
   WaitingChunks chunks_;
   /// Where it is put together in one rank, in that one.
   DepthMap map_;

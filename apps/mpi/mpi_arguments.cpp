@@ -2,7 +2,7 @@
 
 #include "apps/mpi/rank_memory.h"
 #include "apps/shell/values.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 

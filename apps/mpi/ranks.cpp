@@ -10,7 +10,7 @@
 #include "apps/mpi/last_word.h"
 
 namespace fathom::app {
-using namespace text;
+using namespace files;
 
 namespace {
 

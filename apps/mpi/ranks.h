@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/text/file_bytes.h"
+#include "fathom/files/file_bytes.h"
 
 /// The processes of a run, numbered from 0. All that is said to MPI is said in ranks.cpp and
 /// sparse_exchange.cpp.
@@ -51,14 +51,14 @@ class Ranks {
   [[nodiscard]] std::string broadcast(const std::string& text, int from) const;
   /// Sends messages[r] to rank r and returns what rank r has sent. The messages are taken away as
   /// they are sent, in rounds in which a rank sends so many bytes at most, or one to each.
-  [[nodiscard]] std::vector<text::Bytes> exchange(std::vector<text::Bytes> messages,
-                                                  std::size_t most_at_once = std::size_t{1}
-                                                                             << 26) const;
+  [[nodiscard]] std::vector<files::Bytes> exchange(std::vector<files::Bytes> messages,
+                                                   std::size_t most_at_once = std::size_t{1}
+                                                                              << 26) const;
 
   /// What rank 0 does with bytes of the others: they come in the order of the ranks, in pieces.
   /// Only rank 0 calls receive(), the others send(); each number of calls must match.
-  void send_to_first(text::ByteView bytes) const;
-  [[nodiscard]] text::Bytes receive_from(int rank) const;
+  void send_to_first(files::ByteView bytes) const;
+  [[nodiscard]] files::Bytes receive_from(int rank) const;
 
   /// Ends all processes with this status, now, where no agreement with them is possible any more.
   [[noreturn]] void abort(int status) const;

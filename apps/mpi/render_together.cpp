@@ -15,7 +15,7 @@
 #include "apps/shell/failures.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/signals.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

@@ -6,7 +6,7 @@
 #include "apps/mpi/together.h"
 #include "apps/render/render_report.h"
 #include "fathom/camera/camera_files.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 

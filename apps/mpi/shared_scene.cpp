@@ -11,7 +11,7 @@
 #include "apps/mpi/together.h"
 #include "apps/render/render_limits.h"
 #include "apps/shell/known_files.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/render.h"
 
 namespace fathom::app {

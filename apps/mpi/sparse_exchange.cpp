@@ -13,7 +13,7 @@
 // when the other rank has begun to receive it. A rank enters the barrier when all its sends have
 // completed, so when all have entered, whatever was sent is among what ranks have begun to receive.
 namespace fathom::app {
-using namespace text;
+using namespace files;
 
 namespace {
 

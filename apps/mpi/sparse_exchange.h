@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "apps/mpi/ranks.h"
-#include "fathom/text/file_bytes.h"
+#include "fathom/files/file_bytes.h"
 
 namespace fathom::app {
 
@@ -15,7 +15,7 @@ namespace fathom::app {
 /// same time; what comes before the next is a collective call of all, such as together().
 class SparseExchange {
  public:
-  using Take = std::function<void(int from, text::Bytes message)>;
+  using Take = std::function<void(int from, files::Bytes message)>;
 
   /// `most_on_the_way`  bytes that this rank may have sent and others not received yet, and that it
   ///                    may be receiving; a message that is longer goes alone
@@ -29,7 +29,7 @@ class SparseExchange {
 
   /// Sends less than 2³¹ bytes to another rank. Takes what comes meanwhile.
   /// Fails    as take().
-  void send(int to, text::Bytes message);
+  void send(int to, files::Bytes message);
   /// Takes what has come, and does not wait for more.
   /// Fails    as take().
   void receive();

@@ -9,7 +9,7 @@
 #include "apps/mpi/traffic.h"
 #include "apps/mpi/triangle_mail.h"
 #include "fathom/fast/some_tiles.h"
-#include "fathom/text/file_bytes.h"
+#include "fathom/files/file_bytes.h"
 
 namespace fathom::app {
 

@@ -9,8 +9,8 @@
 #include <system_error>
 
 #include "apps/mpi/last_word.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/sha256.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/sha256.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::app {
@@ -89,7 +89,7 @@ bool failed_together() noexcept {
 }
 
 int first_that_differs(const Ranks& ranks, const std::string& text) {
-  const std::string own = text::sha256(std::as_bytes(std::span(text)));
+  const std::string own = files::sha256(std::as_bytes(std::span(text)));
   const bool differs = ranks.broadcast(own, 0) != own;
   const auto first = static_cast<int>(
       ranks.least(static_cast<std::uint64_t>(differs ? ranks.self() : ranks.count())));

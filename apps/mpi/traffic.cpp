@@ -27,7 +27,7 @@ void Traffic::add(std::size_t bytes_of_message) {
   bytes += bytes_of_message;
 }
 
-void Traffic::add(std::span<const text::Bytes> messages_to_ranks, int self) {
+void Traffic::add(std::span<const files::Bytes> messages_to_ranks, int self) {
   for (std::size_t rank = 0; rank < messages_to_ranks.size(); ++rank) {
     if (rank == static_cast<std::size_t>(self) || messages_to_ranks[rank].empty()) continue;
     add(messages_to_ranks[rank].size());

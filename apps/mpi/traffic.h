@@ -17,7 +17,7 @@ struct Traffic {
 
   void add(std::size_t bytes_of_message);
   /// What `self` sends of these, to all ranks but itself.
-  void add(std::span<const text::Bytes> messages_to_ranks, int self);
+  void add(std::span<const files::Bytes> messages_to_ranks, int self);
 };
 
 /// What it took to make a map, of all ranks.

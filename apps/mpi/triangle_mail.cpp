@@ -6,7 +6,7 @@
 #include "apps/mpi/triangle_messages.h"
 
 namespace fathom::app {
-using namespace text;
+using namespace files;
 
 TriangleMail::TriangleMail(const Ranks& ranks, std::size_t most_waiting, Traffic& traffic,
                            Draw draw)

@@ -8,7 +8,7 @@
 #include "apps/mpi/sparse_exchange.h"
 #include "apps/mpi/traffic.h"
 #include "fathom/fast/some_tiles.h"
-#include "fathom/text/file_bytes.h"
+#include "fathom/files/file_bytes.h"
 
 namespace fathom::app {
 
@@ -26,7 +26,7 @@ class TriangleMail {
 
   /// messages[r] is for rank r. May take what has come meanwhile.
   /// Fails    as draw().
-  void send(std::vector<text::Bytes> messages);
+  void send(std::vector<files::Bytes> messages);
   /// Takes what has come.
   /// Fails    as draw().
   void receive() { exchange_.receive(); }
@@ -37,17 +37,17 @@ class TriangleMail {
   [[nodiscard]] bool is_given_up() const { return exchange_.is_given_up(); }
 
  private:
-  void add(std::size_t rank, text::Bytes& message);
+  void add(std::size_t rank, files::Bytes& message);
   void send_longest();
   void send_waiting(std::size_t rank);
-  void take(int from, const text::Bytes& message);
+  void take(int from, const files::Bytes& message);
   void draw_received();
 
   std::size_t most_waiting_;
   Traffic& traffic_;
   Draw draw_;
   /// For each rank, from each rank.
-  std::vector<text::Bytes> waiting_, received_;
+  std::vector<files::Bytes> waiting_, received_;
   std::size_t bytes_waiting_ = 0, bytes_received_ = 0;
   SparseExchange exchange_;
 };

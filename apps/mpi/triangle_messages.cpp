@@ -9,7 +9,7 @@
 #include "apps/mpi/picked_triangles.h"
 
 namespace fathom::app {
-using namespace text;
+using namespace files;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fathom/fast/some_tiles.h"
-#include "fathom/text/file_bytes.h"
+#include "fathom/files/file_bytes.h"
 
 namespace fathom::app {
 
@@ -19,12 +19,12 @@ namespace fathom::app {
 ///
 /// Numbers are as they are in memory: all ranks run on machines of one kind.
 /// `touches`    of tiles of other ranks, in the order of the triangles;  `owners`: the rank of each tile
-std::vector<text::Bytes> messages_of(const std::vector<SomeTriangles>& part,
-                                     std::span<const TileTouch> touches,
-                                     std::span<const int> owners, int ranks);
+std::vector<files::Bytes> messages_of(const std::vector<SomeTriangles>& part,
+                                      std::span<const TileTouch> touches,
+                                      std::span<const int> owners, int ranks);
 
 /// The triangles that a rank has received, one list for each object, in their order.
 /// `messages`   from all ranks, in the order of the triangles that these read. They are used up.
-std::vector<SomeTriangles> received_triangles(std::vector<text::Bytes> messages);
+std::vector<SomeTriangles> received_triangles(std::vector<files::Bytes> messages);
 
 }  // namespace fathom::app

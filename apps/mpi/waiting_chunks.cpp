@@ -4,7 +4,7 @@
 
 namespace fathom::app {
 
-void WaitingChunks::add(text::Bytes chunk) {
+void WaitingChunks::add(files::Bytes chunk) {
   const std::uint64_t size = chunk.size();
   bytes_ += size;
   if (bytes_ <= most_bytes_) {
@@ -15,10 +15,10 @@ void WaitingChunks::add(text::Bytes chunk) {
   chunks_.push_back({{}, file_->append(chunk), size});
 }
 
-text::Bytes WaitingChunks::take() {
+files::Bytes WaitingChunks::take() {
   Chunk& chunk = chunks_.at(next_++);
   if (chunk.size == 0) return std::exchange(chunk.bytes, {});
-  text::Bytes bytes(chunk.size);
+  files::Bytes bytes(chunk.size);
   file_->read(chunk.offset, bytes);
   return bytes;
 }

@@ -8,10 +8,10 @@
 #include "apps/shell/known_files.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_import.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/image/recognise_map.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/scene/framing.h"
-#include "fathom/text/input_file.h"
 
 namespace fathom::app {
 namespace {
@@ -77,7 +77,7 @@ std::vector<Camera> read_camera_file(const std::string& file, const Console& con
         "cameras.json' makes one",
         file));
   }
-  const text::InputFile input(file);
+  const files::InputFile input(file);
   Warnings warnings;
   std::vector<Camera> cameras = is_map(input.bytes()) ? cameras_of_map(input.bytes(), file)
                                                       : read_cameras(input.text(), file, warnings);

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "apps/shell/values.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/missing_channel.h"
-#include "fathom/numeric/errors.h"
 
 namespace fathom::app {
 

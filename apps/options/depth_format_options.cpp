@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "apps/shell/values.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 void DepthFormatOptions::add_to(Command& command) {

@@ -1,7 +1,7 @@
 #include "apps/options/lens_options.h"
 
 #include "apps/shell/values.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "apps/shell/known_files.h"
 #include "apps/shell/values.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/input_file.h"
-#include "fathom/text/sha256.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
+#include "fathom/files/sha256.h"
 
 namespace fathom::app {
 
@@ -19,10 +19,10 @@ void MotionOptions::add_to(Command& command) {
 }
 
 MovingScene MotionOptions::moving(Scene scene) const {
-  const text::InputFile input{std::filesystem::path(file)};
+  const files::InputFile input{std::filesystem::path(file)};
   note_input(file);
   Motion motion = read_motion(input.text(), file);
-  scene.sources.push_back({file, text::sha256(input.bytes()), ""});
+  scene.sources.push_back({file, files::sha256(input.bytes()), ""});
   return {std::move(scene), std::move(motion)};
 }
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <unordered_map>
 
-#include "fathom/numeric/errors.h"
-#include "fathom/numeric/unknown_name.h"
+#include "fathom/failures/errors.h"
+#include "fathom/failures/unknown_name.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::app {

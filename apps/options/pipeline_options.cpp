@@ -6,7 +6,7 @@
 
 #include "apps/options/pipeline_words.h"
 #include "apps/shell/values.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

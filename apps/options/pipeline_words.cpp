@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "apps/shell/values.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 

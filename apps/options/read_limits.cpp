@@ -5,7 +5,7 @@
 
 #include "apps/options/formats_program.h"
 #include "apps/shell/values.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

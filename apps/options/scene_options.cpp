@@ -6,8 +6,8 @@
 
 #include "apps/shell/known_files.h"
 #include "apps/shell/values.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/map_files.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
 
 namespace fathom::app {

@@ -8,8 +8,8 @@
 #include "apps/shell/failures.h"
 #include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/background.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::app {

@@ -10,7 +10,7 @@
 #include "apps/shell/command.h"
 #include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

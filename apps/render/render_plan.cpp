@@ -8,8 +8,8 @@
 #include "apps/options/depth_format_options.h"
 #include "apps/shell/failures.h"
 #include "fathom/depth_buffer/depth_buffer.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/deep_map.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/triangle/segment_channels.h"
 
 namespace fathom::app {

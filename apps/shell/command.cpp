@@ -8,7 +8,7 @@
 #include "apps/shell/max_memory.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
-#include "fathom/numeric/unknown_name.h"
+#include "fathom/failures/unknown_name.h"
 
 namespace fathom::app {
 namespace {

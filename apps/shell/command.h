@@ -50,7 +50,7 @@ class Option {
 /// they are written when all arguments have been read and this command is the one they name.
 class Command {
  public:
-  /// Returns the exit status. Fails with the errors of fathom/numeric/errors.h.
+  /// Returns the exit status. Fails with the errors of fathom/failures/errors.h.
   using Run = std::function<int(const Console&)>;
 
   /// `console` gets --quiet.
@@ -94,7 +94,7 @@ class Command {
 
   /// What completion knows of this command and of all below it. Which words an option takes is
   /// learnt from its parser: it is given a text that is none, and refuses it with an UnknownName
-  /// (fathom/numeric/unknown_name.h). What the options write to is worthless afterwards.
+  /// (fathom/failures/unknown_name.h). What the options write to is worthless afterwards.
   [[nodiscard]] CompletionTable completion_table() const;
 
  private:

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "fathom/failures/warnings.h"
 #include "fathom/text/printable.h"
-#include "fathom/text/warnings.h"
 
 namespace fathom::app {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "fathom/text/warnings.h"
+#include "fathom/failures/warnings.h"
 
 namespace fathom::app {
 

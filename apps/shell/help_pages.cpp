@@ -13,7 +13,7 @@
 
 #include "apps/shell/command_text.h"
 #include "apps/shell/values.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

@@ -10,8 +10,8 @@
 #include <unordered_set>
 #include <utility>
 
-#include "fathom/numeric/errors.h"
-#include "fathom/text/descriptor.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/descriptor.h"
 
 namespace fathom::app {
 namespace {
@@ -29,7 +29,7 @@ std::optional<Identity> identity_of(const fs::path& file) {
 /// Whether both names lead to one file now.
 bool are_one_file(const fs::path& first, const fs::path& second) {
   // As long as a file is open, the system gives its number to no other file.
-  const text::Descriptor held(::open(first.c_str(), O_PATH | O_CLOEXEC));
+  const files::Descriptor held(::open(first.c_str(), O_PATH | O_CLOEXEC));
   struct stat status {};
   if (!held.is_open() || ::fstat(held.get(), &status) != 0) return false;
   return identity_of(second) == Identity{status.st_dev, status.st_ino};

@@ -8,7 +8,7 @@
 
 #include "apps/shell/command_text.h"
 #include "apps/shell/values.h"
-#include "fathom/numeric/unknown_name.h"
+#include "fathom/failures/unknown_name.h"
 
 namespace fathom::app {
 namespace {

@@ -13,7 +13,7 @@
 #include "apps/shell/known_files.h"
 #include "apps/shell/output_place.h"
 #include "apps/shell/standard_streams.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {
@@ -50,7 +50,7 @@ std::string with_target_for(const std::string& staged, const fs::path& target,
 
 /// Waits until the names in a folder are on the disk. Some systems cannot tell.
 void sync_folder(const fs::path& folder) {
-  const text::Descriptor open(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const files::Descriptor open(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (open.is_open()) ::fsync(open.get());
 }
 
@@ -81,10 +81,10 @@ void OutputFile::find_place(bool exists, mode_t mode) {
   const OutputPlace place = place_of(target_);
   if (place.open_file) {
     expect_writable(*place.open_file, target_.string());
-    through_ = text::Descriptor(::fcntl(*place.open_file, F_DUPFD_CLOEXEC, 0));
+    through_ = files::Descriptor(::fcntl(*place.open_file, F_DUPFD_CLOEXEC, 0));
     if (!through_.is_open()) fail_with_errno(target_, errno);
   } else if (exists && S_ISCHR(mode)) {
-    through_ = text::Descriptor(::open(target_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
+    through_ = files::Descriptor(::open(target_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
     if (!through_.is_open()) fail_with_errno(target_, errno);
     expect_writable(through_.get(), target_.string());
   } else if (!place.is_foreign && (!exists || S_ISREG(mode))) {
@@ -115,7 +115,7 @@ void OutputFile::write(const std::function<void(const fs::path&)>& writer) const
   }
 }
 
-void OutputFile::write(text::ByteView bytes) const {
+void OutputFile::write(files::ByteView bytes) const {
   const int file = staged_->descriptor();
   if (::ftruncate(file, 0) != 0 || ::lseek(file, 0, SEEK_SET) != 0) fail_with_errno(target_, errno);
   write_all(file, reinterpret_cast<const char*>(bytes.data()), bytes.size(), target_);
@@ -160,7 +160,7 @@ void OutputFile::sync_all(const std::vector<OutputFile*>& placed) {
 
 void OutputFile::write_through() {
   if (!through_.is_open()) {
-    through_ = text::Descriptor(::open(target_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
+    through_ = files::Descriptor(::open(target_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
     if (!through_.is_open()) fail_with_errno(target_, errno);
   }
   std::array<char, 65536> buffer{};

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "apps/shell/staged_file.h"
-#include "fathom/text/descriptor.h"
-#include "fathom/text/file_bytes.h"
+#include "fathom/files/descriptor.h"
+#include "fathom/files/file_bytes.h"
 
 namespace fathom::app {
 
@@ -42,7 +42,7 @@ class OutputFile {
   /// Runs `writer` on the staged file, which exists and is empty. Where it fails with an Error, the
   /// message names the output as the user does.
   void write(const std::function<void(const std::filesystem::path&)>& writer) const;
-  void write(text::ByteView bytes) const;
+  void write(files::ByteView bytes) const;
   void write(const std::string& text) const { write(std::as_bytes(std::span(text))); }
 
   /// Puts the output in its place.
@@ -74,7 +74,7 @@ class OutputFile {
   std::filesystem::path place_;
   std::optional<Existing> existing_;
   /// What is written through, where that is open already.
-  text::Descriptor through_;
+  files::Descriptor through_;
   std::optional<StagedFile> staged_;
 };
 

@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "apps/shell/standard_streams.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

@@ -15,8 +15,8 @@
 #include <memory>
 #include <set>
 
-#include "fathom/numeric/errors.h"
-#include "fathom/text/descriptor.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/descriptor.h"
 
 namespace fathom::app {
 namespace {
@@ -47,7 +47,7 @@ struct CloseFolder {
 /// still has a name, so that a part is lost only before anything is in it. NFS grants such a lock on
 /// files that are open for writing alone.
 void remove_if_stale(int folder, const char* name) {
-  const text::Descriptor file(
+  const files::Descriptor file(
       ::openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   struct stat opened {
   }, named{};

@@ -19,7 +19,7 @@
 #include "apps/shell/signals.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::app {

@@ -12,7 +12,7 @@
 #include "apps/shell/failures.h"
 #include "apps/shell/last_resort.h"
 #include "apps/shell/part_files.h"
-#include "fathom/text/mapped_file.h"
+#include "fathom/files/mapped_file.h"
 
 // Handlers call only what is safe in them.
 namespace fathom::app {
@@ -56,7 +56,7 @@ extern "C" void remove_and_end(int signal) {
 }
 
 extern "C" FATHOM_NOT_ADDRESS_SANITIZED void report_or_end(int signal, siginfo_t* info, void*) {
-  const char* const file = info->si_code > 0 ? text::mapped_file_at(info->si_addr) : nullptr;
+  const char* const file = info->si_code > 0 ? files::mapped_file_at(info->si_addr) : nullptr;
   if (file == nullptr) return remove_and_end(signal);
   remove_all_pending();
   if (may_report()) {

@@ -50,7 +50,7 @@ void make_room_for_more(int descriptor) {
 /// default ACL. Told by one that is made and removed.
 mode_t mode_of_new_file(const fs::path& folder) {
   PendingFile* const name = note_pending(folder / new_part_name());
-  const text::Descriptor file(::open(name->path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  const files::Descriptor file(::open(name->path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   const int error = errno;
   struct stat status {};
   if (file.is_open()) ::fstat(file.get(), &status);
@@ -84,7 +84,7 @@ StagedFile StagedFile::nowhere() {
   for (const fs::path& folder : {chosen, fs::path("/tmp"), fs::path("/var/tmp")}) {
     if (!folder.empty() && staged.open_without_name(folder)) return staged;
   }
-  staged.file_ = text::Descriptor(::memfd_create("fathom-output", MFD_CLOEXEC));
+  staged.file_ = files::Descriptor(::memfd_create("fathom-output", MFD_CLOEXEC));
   if (staged.file_.is_open() && ::access(staged.path().c_str(), F_OK) == 0) return staged;
   staged.open_with_name(chosen.empty() ? fs::path("/tmp") : chosen);
   return staged;
@@ -107,10 +107,10 @@ bool StagedFile::open_without_name(const fs::path& folder) {
   constexpr int flags = O_TMPFILE | O_RDWR | O_CLOEXEC;
   struct stat ordinary {};
   {
-    const text::Descriptor other(::open(folder.c_str(), flags, 0666));
+    const files::Descriptor other(::open(folder.c_str(), flags, 0666));
     if (!other.is_open() || ::fstat(other.get(), &ordinary) != 0) return false;
   }
-  text::Descriptor file(::open(folder.c_str(), flags, 0600));
+  files::Descriptor file(::open(folder.c_str(), flags, 0600));
   // Without /proc it could neither be opened again nor get a name.
   if (!file.is_open() || ::access(path_of(file.get()).c_str(), F_OK) != 0) return false;
   ordinary_mode_ = ordinary.st_mode & 07777;
@@ -127,7 +127,7 @@ void StagedFile::open_with_name(const fs::path& folder) {
   constexpr int most_tries = 100;
   for (int tries = 1;; ++tries) {
     PendingFile* const name = note_pending(folder / new_part_name());
-    text::Descriptor file(::open(name->path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
+    files::Descriptor file(::open(name->path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
     const int error = file.is_open() ? EBUSY : errno;
     if (file.is_open() && is_ours(file.get()) && ::fchmod(file.get(), 0600) == 0) {
       file_ = std::move(file);

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "fathom/text/descriptor.h"
+#include "fathom/files/descriptor.h"
 
 namespace fathom::app {
 
@@ -62,7 +62,7 @@ class StagedFile {
   void rename_to(const std::filesystem::path& place);
   void copy_to(const StagedFile& other) const;
 
-  text::Descriptor file_;
+  files::Descriptor file_;
   mode_t ordinary_mode_ = 0;
   /// The name it has, if it has one; once it is put somewhere for now, that of the earlier file.
   PendingFile* name_ = nullptr;

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::app {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <system_error>
 
-#include "fathom/numeric/errors.h"
-#include "fathom/numeric/unknown_name.h"
+#include "fathom/failures/errors.h"
+#include "fathom/failures/unknown_name.h"
 
 namespace fathom::app {
 namespace {

@@ -14,7 +14,7 @@
 #include "apps/shell/values.h"
 #include "apps/surfaces/surface_commands.h"
 #include "fathom/area/coplanar.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/printable.h"
 

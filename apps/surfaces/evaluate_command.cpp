@@ -15,7 +15,7 @@
 #include "apps/surfaces/evaluation_report.h"
 #include "apps/surfaces/surface_commands.h"
 #include "fathom/evaluate.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

@@ -13,7 +13,7 @@
 #include "apps/shell/values.h"
 #include "apps/surfaces/probe_report.h"
 #include "apps/surfaces/surface_commands.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::app {

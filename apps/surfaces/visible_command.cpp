@@ -15,7 +15,7 @@
 #include "apps/shell/standard_streams.h"
 #include "apps/surfaces/surface_commands.h"
 #include "fathom/area/visible_areas.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/triangle_source.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/printable.h"

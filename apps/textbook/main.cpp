@@ -4,7 +4,7 @@
 #include "apps/shell/program.h"
 #include "apps/textbook/pipeline/pipeline_render.h"
 #include "apps/textbook/textbook_commands.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

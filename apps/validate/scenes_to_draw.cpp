@@ -9,7 +9,7 @@
 #include "apps/shell/known_files.h"
 #include "apps/validate/validate_input.h"
 #include "fathom/camera/camera_making.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/framing.h"
 
 namespace fathom::app {

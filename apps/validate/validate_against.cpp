@@ -13,7 +13,7 @@
 #include "fathom/attribution/attribute_and_name.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/attribution/other_scene.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/faults/fault_study.h"
 #include "validation/peers/drawing.h"
 #include "validation/report/predicted_fights.h"

@@ -7,7 +7,7 @@
 
 #include "apps/shell/command.h"
 #include "fathom/attribution/model/named_models.h"
-#include "fathom/numeric/unknown_name.h"
+#include "fathom/failures/unknown_name.h"
 #include "validation/scenes/validation_scenes.h"
 #include "validation/variants/peer.h"
 

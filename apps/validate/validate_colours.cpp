@@ -8,7 +8,7 @@
 #include "apps/validate/colour_report.h"
 #include "apps/validate/scenes_to_draw.h"
 #include "apps/validate/validate_report.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/peers/colour_drawing.h"
 
 namespace fathom::app {

@@ -13,7 +13,7 @@
 #include "apps/validate/validate_map.h"
 #include "apps/validate/validate_render.h"
 #include "fathom/attribution/model/named_models.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/scenes/validation_scenes.h"
 
 namespace fathom::app {

@@ -16,7 +16,7 @@
 #include "apps/shell/standard_streams.h"
 #include "apps/validate/scenes_to_draw.h"
 #include "fathom/attribution/model/named_models.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/text/counted.h"
 #include "validation/child/in_child.h"
 #include "validation/faults/fault_report.h"

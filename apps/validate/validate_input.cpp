@@ -2,7 +2,7 @@
 
 #include "apps/options/camera_options.h"
 #include "apps/shell/known_files.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/read_scene.h"
 
 namespace fathom::app {

@@ -15,7 +15,7 @@
 #include "apps/validate/validate_report.h"
 #include "fathom/attribution/judgement.h"
 #include "fathom/attribution/model/named_models.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

@@ -9,8 +9,8 @@
 #include "fathom/attribution/other_map.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/world_from_image.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/map_files.h"
-#include "fathom/numeric/errors.h"
 #include "validation/peers/drawing.h"
 
 namespace fathom::app {

@@ -12,10 +12,10 @@
 
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_making.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/map_files.h"
 #include "fathom/map_description.h"
 #include "fathom/mesh/mesh_faces.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/verify.h"
 #include "fathom/render.h"

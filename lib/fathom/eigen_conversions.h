@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "fathom/camera/camera.h"
+#include "fathom/failures/errors.h"
 #include "fathom/geometry/frames.h"
 #include "fathom/mesh/mesh.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 
 /// Cameras, points, placements and meshes from and to Eigen. Link fathom::eigen_conversions, which

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "fathom/area/deep_pixels.h"
+#include "fathom/failures/errors.h"
 #include "fathom/fast/render_fast.h"
 #include "fathom/map_description.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/reference.h"
 #include "fathom/scene/scene_fault.h"

@@ -5,8 +5,8 @@
 
 #include "fathom/depth_buffer/buffer_channels.h"
 #include "fathom/depth_format/encode.h"
+#include "fathom/failures/errors.h"
 #include "fathom/map_description.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/pipeline/geometry/vertex_transform.h"
 #include "fathom/pipeline/render_pipeline.h"

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "fathom/text/input_file.h"
+#include "fathom/files/input_file.h"
 #include "tests/apps/run_program.h"
 #include "tests/apps/test_folder.h"
 #include "tests/places.h"
@@ -110,7 +110,7 @@ TEST_P(DepthImages, HoldExactDepthsInTheirPlaces) {
     EXPECT_EQ(judged.status, 0) << layout.images[i] << ": " << judged.err;
   }
   if (layout.list.empty()) return;
-  EXPECT_THAT(std::string(text::InputFile(folder_.path() / "exact" / layout.list).text()),
+  EXPECT_THAT(std::string(files::InputFile(folder_.path() / "exact" / layout.list).text()),
               HasSubstr(layout.words));
 }
 
@@ -254,7 +254,7 @@ TEST(DataSetsOfAnyNames, GoOnWhereTheyWereInterrupted) {
     fs::remove(out / layout.images[1]);
     EXPECT_THAT(make().out, HasSubstr(", 1 made now"));
     EXPECT_TRUE(fs::exists(out / layout.images[1]));
-    std::string manifest(text::InputFile(out / "fathom-manifest.jsonl").text());
+    std::string manifest(files::InputFile(out / "fathom-manifest.jsonl").text());
     std::ofstream(out / "fathom-manifest.jsonl", std::ios::trunc)
         << manifest.substr(0, manifest.find('\n') + 1);
     const Outcome of_others = make();
@@ -329,7 +329,7 @@ TEST_F(BopScenes, HaveTheMasksAndCountsThatAreWorkedOutByHand) {
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_EQ(made.out, "exact: 1 image, 1 made now\n");
   const json info =
-      json::parse(text::InputFile(folder_.path() / "exact/scene_gt_info.json").text()).at("7");
+      json::parse(files::InputFile(folder_.path() / "exact/scene_gt_info.json").text()).at("7");
   ASSERT_EQ(info.size(), 4U);
   // The first covers [8, 12] × [3, 7] of the image, 4 by 4 pixels; the second, twice as large,
   // [8.2, 16.2] × [1, 9], before it: 0.2 by 4 pixels of the first are seen, but no centre of a pixel.
@@ -527,7 +527,7 @@ TEST_F(BopScenes, DepthsBeyondTheLastCodeAreAnErrorOrNone) {
   EXPECT_EQ(made.err,
             "fathom: warning: 8 pixels in 1 map lie beyond the last code and are stored as 0\n");
   const json info =
-      json::parse(text::InputFile(folder_.path() / "exact/scene_gt_info.json").text()).at("7");
+      json::parse(files::InputFile(folder_.path() / "exact/scene_gt_info.json").text()).at("7");
   EXPECT_EQ(info[0].at("px_count_valid"), 16);  // where the second is before it
   EXPECT_EQ(info[1].at("px_count_valid"), 64);
   EXPECT_EQ(info[2].at("px_count_valid"), 0);

@@ -6,9 +6,9 @@
 #include <fstream>
 
 #include "apps/jobs/manifest.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/descriptor.h"
-#include "fathom/text/input_file.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/descriptor.h"
+#include "fathom/files/input_file.h"
 #include "tests/apps/run_program.h"
 #include "tests/apps/test_folder.h"
 #include "tests/places.h"
@@ -44,7 +44,7 @@ class DataSets : public ::testing::Test {
     std::ofstream(folder_.path() / file, std::ios::binary) << text;
   }
   std::string read(const fs::path& file) {
-    return std::string(text::InputFile(folder_.path() / file).text());
+    return std::string(files::InputFile(folder_.path() / file).text());
   }
   Outcome make(const std::vector<std::string>& more = {},
                const std::string& pattern = "{stem}.npy") {
@@ -221,7 +221,7 @@ TEST_F(DataSets, ASidecarIsBesideEachPng) {
 TEST_F(DataSets, OneProcessAtATimeIsAtOneFolder) {
   ASSERT_EQ(make().status, 0);
   const fs::path manifest = folder_.path() / "out/fathom-manifest.jsonl";
-  const text::Descriptor locked(::open(manifest.c_str(), O_RDONLY));
+  const files::Descriptor locked(::open(manifest.c_str(), O_RDONLY));
   ASSERT_EQ(::flock(locked.get(), LOCK_EX), 0);
   const Outcome refused = make();
   EXPECT_EQ(refused.status, 4);

@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/scratch_folder.h"
 
 namespace fathom::app {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::attribution {
 namespace {

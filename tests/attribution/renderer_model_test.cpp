@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fathom/attribution/model/named_models.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::attribution {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom::attribution {

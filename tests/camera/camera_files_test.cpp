@@ -10,7 +10,7 @@
 #include <limits>
 #include <random>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/scratch_folder.h"
 
 namespace fathom {

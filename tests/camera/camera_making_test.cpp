@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "tests/scratch_folder.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fathom/camera/camera_import.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/scratch_folder.h"
 
 namespace fathom {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "fathom/camera/camera_import_internal.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/camera/judged.h"
 #include "tests/camera/seen_points.h"
 #include "tests/scratch_folder.h"

@@ -10,7 +10,7 @@
 
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_import_internal.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/camera/judged.h"
 #include "tests/camera/seen_points.h"
 #include "tests/places.h"

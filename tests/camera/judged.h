@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "fathom/camera/camera_import.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::test {
 

@@ -12,7 +12,7 @@
 
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/camera/camera_making.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/camera/seen_points.h"
 
 namespace fathom {

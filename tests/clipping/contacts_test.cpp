@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/clipping/print.h"
 #include "tests/scratch_folder.h"
 

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "fathom/clipping/exact_kernel.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/effort.h"
 
 namespace fathom::clipping::test {

@@ -9,7 +9,7 @@
 #include "fathom/clipping/cohen_sutherland.h"
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/liang_barsky.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/effort.h"
 
 namespace fathom::clipping::test {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "fathom/clipping/exact_kernel.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::clipping::test {
 namespace {

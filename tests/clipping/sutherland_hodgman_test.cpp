@@ -5,7 +5,7 @@
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/weiler_atherton.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/clipping/print.h"
 #include "tests/clipping/random_polygons.h"
 #include "tests/effort.h"

@@ -8,7 +8,7 @@
 
 #include "fathom/clipping/contacts.h"
 #include "fathom/clipping/exact_kernel.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/clipping/print.h"
 #include "tests/clipping/random_polygons.h"
 #include "tests/effort.h"

@@ -13,7 +13,7 @@
 #include "fathom/clipping/boolean_by_cgal.h"
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/rings.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/clipping/cgal_judge.h"
 #include "tests/clipping/pieces.h"
 #include "tests/clipping/print.h"

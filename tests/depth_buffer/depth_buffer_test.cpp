@@ -9,7 +9,7 @@
 
 #include "fathom/depth_format/encode.h"
 #include "fathom/depth_format/mapping.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/reference/probe.h"
 #include "fathom/render.h"
 #include "tests/effort.h"

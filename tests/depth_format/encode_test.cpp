@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/depth_format/exact_map.h"
 #include "tests/effort.h"
 

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "fathom/depth_format/encode.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom {
 namespace {

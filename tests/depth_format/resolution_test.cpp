@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/depth_format/exact_map.h"
 
 namespace fathom {

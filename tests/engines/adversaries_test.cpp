@@ -13,7 +13,7 @@
 
 #include "fathom/area/deep_pixels.h"
 #include "fathom/area/visible_areas.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/engines/expect_same_map.h"
 #include "tests/engines/only_target.h"
 #include "tests/inputs/adversarial_scenes.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "tests/engines/tested_engine.h"
 #include "tests/inputs/scene_building.h"

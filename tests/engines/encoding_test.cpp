@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/engines/tested_engine.h"
 #include "tests/inputs/scene_building.h"
 

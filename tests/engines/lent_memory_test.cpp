@@ -4,7 +4,7 @@
 #include <map>
 #include <thread>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/render.h"
 #include "tests/engines/expect_same_map.h"
 #include "tests/inputs/random_scenes.h"

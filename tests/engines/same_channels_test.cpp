@@ -7,7 +7,7 @@
 
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_making.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/read_scene.h"
 #include "fathom/threads/threads.h"
 #include "tests/effort.h"

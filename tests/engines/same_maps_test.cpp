@@ -4,7 +4,7 @@
 #include <set>
 
 #include "fathom/camera/camera_making.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/render.h"
 #include "fathom/threads/threads.h"
 #include "tests/effort.h"

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "fathom/evaluation/depth_agreement.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/evaluation/scenes.h"
 #include "tests/inputs/floating_point_modes.h"
 

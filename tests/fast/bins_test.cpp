@@ -8,8 +8,8 @@
 #include <set>
 
 #include "fathom/area/coverage.h"
+#include "fathom/failures/errors.h"
 #include "fathom/fast/tile.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/triangle/sampling.h"
 #include "tests/inputs/scene_building.h"
 #include "tests/inputs/soup.h"

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "fathom/failures/errors.h"
 #include "fathom/fast/render_fast.h"
-#include "fathom/numeric/errors.h"
 #include "tests/adversaries.h"
 #include "tests/effort.h"
 #include "tests/engines/expect_same_map.h"

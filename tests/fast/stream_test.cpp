@@ -8,7 +8,7 @@
 
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_making.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/reference/verify.h"
 #include "fathom/render.h"
 #include "fathom/scene/framing.h"

@@ -212,7 +212,7 @@ TEST(Tile, PackedIsWithinItsPlaceWhereTheListIsFull) {
     EXPECT_GT(tile.bytes(), Tile::most_packed_bytes);
     tile.pack();
     EXPECT_LE(tile.bytes(), Tile::most_packed_bytes);
-    text::Bytes saved;
+    files::Bytes saved;
     tile.save(saved);
     EXPECT_LE(saved.size(), Tile::most_packed_bytes);
   }
@@ -258,12 +258,12 @@ TEST(Tile, ComesBackFromAFileAsItWas) {
   tile.pack();
   EXPECT_GT(shown_once(tile), 100U);
   EXPECT_GT(tile.end_of_places(), shown_once(tile) + 100);
-  text::Bytes saved;
+  files::Bytes saved;
   tile.save(saved);
   Tile back;
   back.start(tile.area());
   back.restore([&](std::uint64_t offset, std::span<std::byte> to) {
-    std::ranges::copy(text::ByteView(saved).subspan(offset, to.size()), to.begin());
+    std::ranges::copy(files::ByteView(saved).subspan(offset, to.size()), to.begin());
   });
   EXPECT_EQ(back.end_of_places(), tile.end_of_places());
   EXPECT_EQ(back.end_of_front(), tile.end_of_front());

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/read_scene.h"
 #include "tests/places.h"
 #include "tests/scratch_folder.h"

@@ -9,7 +9,7 @@
 
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_import_internal.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/read_scene.h"
 
 namespace {

@@ -8,7 +8,7 @@
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/weiler_atherton.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/clipping/cgal_judge.h"
 #include "tests/clipping/pieces.h"
 

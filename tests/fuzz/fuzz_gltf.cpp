@@ -4,11 +4,11 @@
 #include <span>
 #include <string>
 
+#include "fathom/failures/errors.h"
+#include "fathom/failures/warnings.h"
 #include "fathom/mesh_files/read_gltf.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/scene/bounds.h"
 #include "fathom/scene/framing.h"
-#include "fathom/text/warnings.h"
 #include "tests/fuzz/fuzz_mesh.h"
 
 /// Any bytes as a glTF asset: an InputError of one line, or a scene that keeps its promises.

@@ -5,10 +5,10 @@
 
 #include "apps/maps/info.h"
 #include "fathom/camera/camera_files.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/image/map_files.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
-#include "fathom/text/input_file.h"
 #include "tests/fuzz/file_in_memory.h"
 #include "tests/fuzz/one_line.h"
 
@@ -29,7 +29,7 @@ const std::filesystem::path& empty_folder() {
 }
 
 std::string describe(const std::string& file, AnswerForm form) {
-  const text::InputFile input(file);
+  const files::InputFile input(file);
   const FileKind kind = kind_of(input.text());
   if (kind == FileKind::camera)
     return info_of_cameras(read_cameras(input.text(), file), file, form);

@@ -1,8 +1,8 @@
 #include <cstdint>
 #include <span>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/files/map_codecs.h"
-#include "fathom/numeric/errors.h"
 
 /// Readers of EXR, PFM, PNG, NPY, NPZ and COLMAP's maps: any bytes are a map or an InputError. A map that was read has
 /// as many values as pixels.

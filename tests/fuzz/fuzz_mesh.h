@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "fathom/failures/errors.h"
+#include "fathom/failures/warnings.h"
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/mesh_files/read_mesh.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/warnings.h"
 
 namespace fathom::fuzz {
 

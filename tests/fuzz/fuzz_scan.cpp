@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "apps/textbook/scan/scan_algorithms.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/fuzz/one_line.h"
 
 namespace fathom::fuzz {

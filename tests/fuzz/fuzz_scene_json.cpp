@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <span>
 
+#include "fathom/failures/errors.h"
 #include "fathom/mesh_files/recognise_format.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/scene/motion.h"
 #include "fathom/scene/scene_json.h"
 

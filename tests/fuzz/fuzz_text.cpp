@@ -2,7 +2,7 @@
 // lines and words end where the bytes do.
 #include <cstdint>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/text/decimal.h"
 #include "fathom/text/json_value.h"
 #include "fathom/text/printable.h"

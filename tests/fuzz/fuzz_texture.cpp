@@ -3,7 +3,7 @@
 #include <array>
 #include <cstring>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/pipeline/fragments/texture.h"
 #include "tests/fuzz/one_line.h"
 

@@ -5,11 +5,11 @@
 
 #include <cmath>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/compare.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/surface.h"
-#include "fathom/numeric/errors.h"
 #include "tests/image/map_samples.h"
 
 namespace fathom {

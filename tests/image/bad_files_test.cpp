@@ -12,11 +12,11 @@
 
 #include <cstring>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/image/files/exr_streams.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/rgb_image.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/input_file.h"
 #include "tests/image/map_samples.h"
 #include "tests/places.h"
 
@@ -24,7 +24,7 @@ namespace fathom {
 namespace {
 
 using namespace image;
-using namespace text;
+using namespace files;
 using ::testing::HasSubstr;
 using namespace fathom::testing;
 

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/map_files.h"
-#include "fathom/numeric/errors.h"
 #include "tests/image/map_samples.h"
 
 namespace fathom {

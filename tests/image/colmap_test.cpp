@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/background.h"
 #include "fathom/image/files/map_codecs.h"
-#include "fathom/numeric/errors.h"
 #include "tests/image/map_samples.h"
 #include "tests/image/run_program.h"
 
@@ -12,7 +12,7 @@ namespace fathom {
 namespace {
 
 using namespace image;
-using namespace text;
+using namespace files;
 using ::testing::HasSubstr;
 using namespace fathom::testing;
 

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/surface.h"
-#include "fathom/numeric/errors.h"
 #include "tests/image/map_samples.h"
 
 namespace fathom {

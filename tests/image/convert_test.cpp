@@ -7,9 +7,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/byte_order.h"
 #include "fathom/image/point_cloud.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/byte_order.h"
 #include "tests/image/map_samples.h"
 
 namespace fathom {

@@ -10,7 +10,7 @@
 
 #include <cstdlib>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom {
 namespace {

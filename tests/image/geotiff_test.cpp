@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/background.h"
 #include "fathom/image/files/map_codecs.h"
-#include "fathom/numeric/errors.h"
 #include "tests/image/map_samples.h"
 #include "tests/image/run_program.h"
 
@@ -206,8 +206,8 @@ TEST(GeoTiff, WhatItCannotHoldIsRefused) {
 
 TEST(GeoTiff, IsNotRead) {
   for (const auto& magic : {std::string("II*\0", 4), std::string("MM\0*", 4)}) {
-    text::Bytes bytes;
-    text::append(bytes, magic + "anything");
+    files::Bytes bytes;
+    files::append(bytes, magic + "anything");
     try {
       decode_map(bytes, "a.tif");
       FAIL() << "it was read";

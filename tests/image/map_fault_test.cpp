@@ -9,6 +9,7 @@
 #include <optional>
 #include <ostream>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/compare.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/cryptomatte.h"
@@ -16,7 +17,6 @@
 #include "fathom/image/point_cloud.h"
 #include "fathom/image/preview.h"
 #include "fathom/image/surface.h"
-#include "fathom/numeric/errors.h"
 #include "map_samples.h"
 
 namespace fathom {

@@ -3,16 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/numeric/binary16.h"
-#include "fathom/numeric/errors.h"
 #include "tests/image/map_samples.h"
 
 namespace fathom {
 namespace {
 
 using namespace image;
-using namespace text;
+using namespace files;
 using ::testing::HasSubstr;
 using namespace fathom::testing;
 

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/files/map_codecs.h"
-#include "fathom/numeric/errors.h"
 
 namespace fathom::image {
 namespace {
@@ -18,11 +18,11 @@ DepthMap constant_map() {
   return map;
 }
 
-text::Bytes exr_of(const DepthMap& map) {
+files::Bytes exr_of(const DepthMap& map) {
   return encode_exr(map, Compression::zip, 1, "a.exr");
 }
 
-text::Bytes png_of(DepthMap map) {
+files::Bytes png_of(DepthMap map) {
   map.channels[0] = {"Z", Samples<std::uint16_t>(500000, 7)};
   map.png_scale = 1000;
   return encode_png(map, map.channels[0], "a.png");
@@ -36,7 +36,7 @@ MapMemory allowed_small(std::uint64_t bytes) {
   return {.of_small_file = MemoryAllowance{bytes, "a small one may take", "ask for more"}};
 }
 
-void expect_refusal(const text::Bytes& bytes, const MapMemory& memory, const std::string& said) {
+void expect_refusal(const files::Bytes& bytes, const MapMemory& memory, const std::string& said) {
   try {
     decode_map(bytes, "map", memory);
     FAIL() << "was read, not: " << said;
@@ -46,11 +46,11 @@ void expect_refusal(const text::Bytes& bytes, const MapMemory& memory, const std
 }
 
 TEST(MapMemory, NoMoreThanIsAllowed) {
-  const text::Bytes exr = exr_of(constant_map());
+  const files::Bytes exr = exr_of(constant_map());
   EXPECT_NO_THROW(decode_map(exr, "map", allowed(2000000)));
   expect_refusal(exr, allowed(1999999),
                  "map: an image of 1000×500 pixels needs 2.0 MB; this test allows 2.0 MB");
-  const text::Bytes png = png_of(constant_map());
+  const files::Bytes png = png_of(constant_map());
   EXPECT_NO_THROW(decode_map(png, "map", allowed(4000000)));
   expect_refusal(png, allowed(3999999),
                  "map: an image of 1000×500 pixels needs 4.0 MB; this test allows 4.0 MB");
@@ -59,7 +59,7 @@ TEST(MapMemory, NoMoreThanIsAllowed) {
 TEST(MapMemory, EveryChannelCounts) {
   DepthMap map = constant_map();
   map.channels.push_back({"id", Samples<std::uint32_t>(500000, 3)});
-  const text::Bytes exr = exr_of(map);
+  const files::Bytes exr = exr_of(map);
   EXPECT_NO_THROW(decode_map(exr, "map", allowed(4000000)));
   expect_refusal(exr, allowed(3000000),
                  "map: an image of 1000×500 pixels needs 4.0 MB; this test allows 3.0 MB");
@@ -67,7 +67,7 @@ TEST(MapMemory, EveryChannelCounts) {
 
 /// A thousandfold is nothing wrong with a constant map, but is more than its size lets expect.
 TEST(MapMemory, SmallFilesHaveALimitOfTheirOwn) {
-  const text::Bytes exr = exr_of(constant_map());
+  const files::Bytes exr = exr_of(constant_map());
   ASSERT_LT(exr.size(), 20000U);
   EXPECT_NO_THROW(decode_map(exr, "map", allowed_small(2000000)));
   expect_refusal(exr, allowed_small(1000000),
@@ -81,7 +81,7 @@ TEST(MapMemory, SmallFilesHaveALimitOfTheirOwn) {
 /// What is packed less than a hundredfold is not held to it.
 TEST(MapMemory, FilesOfUsualSizeHaveNot) {
   DepthMap map = constant_map();
-  const text::Bytes exr = encode_exr(map, Compression::none, 1, "a.exr");
+  const files::Bytes exr = encode_exr(map, Compression::none, 1, "a.exr");
   EXPECT_NO_THROW(decode_map(exr, "map", allowed_small(1)));
 }
 

@@ -3,11 +3,11 @@
 
 #include <fstream>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/byte_order.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/npy_array.h"
 #include "fathom/image/files/zip_archive.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/byte_order.h"
 #include "tests/image/map_samples.h"
 #include "tests/image/run_program.h"
 
@@ -17,7 +17,7 @@ namespace fathom {
 namespace {
 
 using namespace image;
-using namespace text;
+using namespace files;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using namespace fathom::testing;

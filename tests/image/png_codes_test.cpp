@@ -1,12 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/mask_picture.h"
 #include "fathom/image/png_sidecar.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/input_file.h"
 #include "tests/image/map_samples.h"
 #include "tests/image/run_program.h"
 
@@ -87,7 +87,7 @@ TEST(MaskPicture, IsZeroAnd255AndAlwaysTheSameBytes) {
   const std::vector<std::uint8_t> mask{0, 1, 2, 255, 0, 0};
   write_mask(mask, 3, 2, folder / "a.png");
   write_mask(mask, 3, 2, folder / "b.png");
-  const text::InputFile a(folder / "a.png"), b(folder / "b.png");
+  const files::InputFile a(folder / "a.png"), b(folder / "b.png");
   EXPECT_TRUE(std::ranges::equal(a.bytes(), b.bytes()));
   const Outcome outcome = run("cd '" + (folder / "").string() + R"(' && /usr/bin/python3 -c "
 import cv2

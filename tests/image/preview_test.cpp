@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/pictures/legend.h"
 #include "fathom/image/surface.h"
-#include "fathom/numeric/errors.h"
 #include "tests/image/map_samples.h"
 
 namespace fathom {

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/inputs/sample_patterns.h"
 
 namespace fathom {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <functional>
 
+#include "fathom/failures/errors.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/mesh_files/recognise_format.h"
-#include "fathom/numeric/errors.h"
 #include "tests/inputs/mesh_habits.h"
 #include "tests/inputs/mesh_text.h"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "fathom/failures/warnings.h"
 #include "fathom/mesh/mesh.h"
-#include "fathom/text/warnings.h"
 
 namespace fathom::test {
 

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <limits>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/inputs/mesh_variants.h"
 #include "tests/scratch_folder.h"
 

@@ -9,8 +9,8 @@
 #include <limits>
 #include <thread>
 
+#include "fathom/failures/errors.h"
 #include "fathom/mesh_files/triangle_stream.h"
-#include "fathom/numeric/errors.h"
 #include "tests/scratch_folder.h"
 
 namespace fathom {

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "fathom/failures/errors.h"
+#include "fathom/failures/warnings.h"
 #include "fathom/mesh_files/read_gltf.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/scene/scene.h"
-#include "fathom/text/warnings.h"
 #include "tests/scratch_folder.h"
 
 /// glTF assets made for a test, and what the reader makes of them.

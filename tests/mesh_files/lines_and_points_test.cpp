@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/read_scene.h"
 #include "fathom/scene/scene_fault.h"
 #include "tests/scratch_folder.h"

@@ -5,9 +5,9 @@
 
 #include <random>
 
+#include "fathom/failures/errors.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/mesh_files/triangle_stream.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
 #include "tests/effort.h"
 #include "tests/inputs/mesh_text.h"

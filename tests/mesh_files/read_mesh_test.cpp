@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/inputs/mesh_variants.h"
 
 namespace fathom {

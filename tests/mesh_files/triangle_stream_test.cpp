@@ -14,7 +14,7 @@
 #include <numeric>
 #include <random>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/bounds.h"
 #include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"

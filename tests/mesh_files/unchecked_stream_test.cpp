@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "fathom/failures/errors.h"
 #include "fathom/mesh_files/triangle_stream.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/scene/read_scene.h"
 #include "tests/inputs/mesh_variants.h"
 #include "tests/scratch_folder.h"

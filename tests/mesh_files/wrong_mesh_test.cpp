@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/inputs/mesh_text.h"
 #include "tests/inputs/mesh_variants.h"
 #include "tests/scratch_folder.h"

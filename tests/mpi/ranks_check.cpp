@@ -11,15 +11,15 @@ namespace fathom::app {
 namespace {
 
 /// What one rank sends to another, which both know: of any length, often nothing.
-text::Bytes message_of(int from, int to) {
+files::Bytes message_of(int from, int to) {
   std::mt19937 random(static_cast<unsigned>(1000 * from + to));
-  text::Bytes bytes(random() % 3 == 0 ? 0 : random() % 1000);
+  files::Bytes bytes(random() % 3 == 0 ? 0 : random() % 1000);
   for (std::byte& byte : bytes) byte = static_cast<std::byte>(random() % 256);
   return bytes;
 }
 
 bool messages_arrive(const Ranks& ranks, std::size_t most_at_once) {
-  std::vector<text::Bytes> messages;
+  std::vector<files::Bytes> messages;
   for (int to = 0; to < ranks.count(); ++to) messages.push_back(message_of(ranks.self(), to));
   messages = ranks.exchange(std::move(messages), most_at_once);
   for (int from = 0; from < ranks.count(); ++from)
@@ -31,9 +31,9 @@ bool messages_arrive(const Ranks& ranks, std::size_t most_at_once) {
 bool sparse_messages_arrive(const Ranks& ranks, std::size_t most_on_the_way) {
   constexpr int rounds = 20;
   const auto count = static_cast<std::size_t>(ranks.count());
-  std::vector<text::Bytes> received(count);
-  SparseExchange exchange(ranks, most_on_the_way, [&](int from, const text::Bytes& message) {
-    text::append(received[static_cast<std::size_t>(from)], message);
+  std::vector<files::Bytes> received(count);
+  SparseExchange exchange(ranks, most_on_the_way, [&](int from, const files::Bytes& message) {
+    files::append(received[static_cast<std::size_t>(from)], message);
   });
   for (int round = 0; round < rounds * (ranks.self() + 1); ++round) {
     for (int to = 0; to < ranks.count(); ++to)
@@ -43,9 +43,9 @@ bool sparse_messages_arrive(const Ranks& ranks, std::size_t most_on_the_way) {
   exchange.end();
   bool well = !exchange.is_given_up();
   for (int from = 0; from < ranks.count(); ++from) {
-    text::Bytes expected;
+    files::Bytes expected;
     for (int round = 0; from != ranks.self() && round < rounds * (from + 1); ++round)
-      text::append(expected, message_of(from, ranks.self() + round));
+      files::append(expected, message_of(from, ranks.self() + round));
     well = well && received[static_cast<std::size_t>(from)] == expected;
   }
   return ranks.least(well ? 1 : 0) == 1;
@@ -57,13 +57,13 @@ bool sparse_failures_end(const Ranks& ranks, int failing, bool while_taking) {
   const bool is_failing = ranks.self() == failing;
   bool told = false, thrown = false;
   try {
-    SparseExchange exchange(ranks, 1000, [&](int, const text::Bytes&) {
+    SparseExchange exchange(ranks, 1000, [&](int, const files::Bytes&) {
       if (is_failing && while_taking) throw std::runtime_error("a message cannot be taken");
     });
     if (is_failing && !while_taking) throw std::runtime_error("the work cannot be done");
     for (int round = 0; round < 1000 && !exchange.is_given_up(); ++round) {
       for (int to = 0; to < ranks.count(); ++to)
-        if (to != ranks.self()) exchange.send(to, text::Bytes(100));
+        if (to != ranks.self()) exchange.send(to, files::Bytes(100));
       exchange.receive();
     }
     exchange.end();

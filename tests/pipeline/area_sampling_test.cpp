@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/pipeline/output/pixel_partition.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/render.h"

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/pipeline/geometry/draw_order.h"
 #include "fathom/pipeline/output/draw_rules.h"
 #include "fathom/pipeline/render_pipeline.h"

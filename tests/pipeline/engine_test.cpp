@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/pipeline/fragments/texture.h"
 #include "fathom/pipeline/render_pipeline.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/pipeline/published_fxaa.h"
 
 namespace fathom::pipeline {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "tests/inputs/scene_building.h"

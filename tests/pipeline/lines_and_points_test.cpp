@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/pipeline/scan/line.h"
 #include "fathom/render_by_pipeline.h"

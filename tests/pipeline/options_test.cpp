@@ -10,7 +10,7 @@
 #include <numeric>
 #include <sstream>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/places.h"
 
 namespace fathom::pipeline {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/pipeline/geometry/surface_motion.h"
 
 namespace fathom::pipeline {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "fathom/depth_format/encode.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/pipeline/geometry/vertex_transform.h"
 #include "fathom/render_by_pipeline.h"
 #include "tests/pipeline/layers.h"

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/pipeline/trace.h"
 #include "tests/inputs/scene_building.h"

@@ -10,7 +10,7 @@
 #include <set>
 #include <vector>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "tests/pipeline/layers.h"
 

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "fathom/depth_format/mapping.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/pipeline/geometry/window_transform.h"
 #include "tests/inputs/scene_building.h"

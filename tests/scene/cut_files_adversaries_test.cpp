@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/read_scene.h"
 #include "fathom/scene/streamed_scene.h"
 #include "tests/adversaries.h"

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/read_scene.h"
 #include "fathom/scene/scene_fault.h"
 #include "tests/scratch_folder.h"

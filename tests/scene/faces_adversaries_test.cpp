@@ -4,9 +4,9 @@
 
 #include <cstdio>
 
+#include "fathom/failures/warnings.h"
 #include "fathom/mesh/triangulate_face.h"
 #include "fathom/scene/read_scene.h"
-#include "fathom/text/warnings.h"
 #include "tests/adversaries.h"
 #include "tests/inputs/floating_point_modes.h"
 #include "tests/inputs/hard_faces.h"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/bounds.h"
 #include "tests/camera/seen_points.h"
 #include "tests/inputs/scene_of_points.h"

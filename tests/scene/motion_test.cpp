@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 
 namespace fathom {

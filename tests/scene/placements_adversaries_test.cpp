@@ -9,9 +9,9 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
+#include "fathom/failures/warnings.h"
 #include "fathom/scene/read_scene.h"
-#include "fathom/text/warnings.h"
 #include "tests/adversaries.h"
 #include "tests/inputs/draw.h"
 #include "tests/inputs/floating_point_modes.h"

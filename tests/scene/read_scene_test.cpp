@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/scene_fault.h"
 #include "tests/scratch_folder.h"
 

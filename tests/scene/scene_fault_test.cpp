@@ -8,7 +8,7 @@
 #include <functional>
 #include <limits>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/scratch_folder.h"
 
 namespace fathom {

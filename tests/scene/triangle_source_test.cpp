@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/inputs/both_readings.h"
 #include "tests/inputs/scene_building.h"
 #include "tests/places.h"

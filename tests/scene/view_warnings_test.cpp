@@ -8,7 +8,7 @@
 #include <random>
 
 #include "fathom/camera/camera_making.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/winding.h"
 #include "tests/scratch_folder.h"
 

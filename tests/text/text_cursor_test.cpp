@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/scratch_folder.h"
 
 namespace fathom {

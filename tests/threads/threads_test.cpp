@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/threads/per_thread.h"
 
 namespace fathom {

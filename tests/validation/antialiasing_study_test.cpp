@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/render.h"
 #include "tests/effort.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/bench/parts/ideas.h"
 #include "validation/bench/parts/parts_report.h"
 #include "validation/bench/shapes.h"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/apps/test_folder.h"
 #include "validation/report/comparison_html.h"
 #include "validation/report/read_report.h"

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/render.h"
 #include "tests/engines/expect_same_map.h"
 

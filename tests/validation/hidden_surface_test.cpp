@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/framing.h"
 #include "tests/effort.h"
 #include "validation/studies/course/mesh_texts.h"

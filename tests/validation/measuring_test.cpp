@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/bench/measurement.h"
 #include "validation/bench/processors.h"
 #include "validation/bench/renderers.h"

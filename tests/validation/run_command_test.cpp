@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/scratch_folder.h"
 
 /// Other programs, started without a shell.

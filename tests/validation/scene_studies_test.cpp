@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/studies/antialiasing/coverage_by_samples.h"
 #include "validation/studies/mitigation/mitigation.h"
 #include "validation/studies/subpixel/snapped_raster.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/variants/peer.h"
 #include "validation/variants/words.h"
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "tests/inputs/floating_point_modes.h"
 #include "tests/vtk/drawing.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/render.h"
 #include "validation/bench/scenes.h"
 

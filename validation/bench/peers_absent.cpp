@@ -1,4 +1,4 @@
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/bench/peers.h"
 #include "validation/bench/renderers.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/render.h"
 #include "validation/bench/measurement_fields.h"
 #include "validation/bench/peers.h"

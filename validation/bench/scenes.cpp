@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "fathom/camera/camera_making.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
 #include "validation/bench/made/city.h"

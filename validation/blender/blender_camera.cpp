@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/failures/errors.h"
 #include "fathom/geometry/eigen_arrays.h"
-#include "fathom/numeric/errors.h"
 
 namespace fathom::validation {
 namespace {

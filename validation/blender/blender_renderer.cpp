@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "fathom/attribution/model/named_models.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/map_files.h"
-#include "fathom/numeric/errors.h"
 #include "validation/blender/blender_camera.h"
 #include "validation/blender/blender_script.h"
 #include "validation/blender/workplace.h"

@@ -10,7 +10,7 @@
 #include <csignal>
 #include <fstream>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::validation {
 namespace {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::validation {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 /// What one process hands to another are structs with named fields: here are the names. Values go
 /// by write_fields.h and come by read_fields.h.

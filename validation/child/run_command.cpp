@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 extern char** environ;
 

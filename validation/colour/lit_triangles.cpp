@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "fathom/failures/errors.h"
 #include "fathom/geometry/eigen_arrays.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/pipeline/fragments/shading.h"
 #include "fathom/pipeline/geometry/vertex_transform.h"
 

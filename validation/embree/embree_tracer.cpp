@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/embree/binary32_view.h"
 #include "validation/embree/trace_image.h"
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/opengl/demanded_driver.h"
 #include "validation/opengl/virtual_display.h"
 

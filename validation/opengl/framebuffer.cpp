@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::validation {
 namespace {

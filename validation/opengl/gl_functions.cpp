@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::validation {
 namespace {

@@ -10,7 +10,7 @@
 #include "fathom/attribution/model/opengl_drivers.h"
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/attribution/ray/camera_rays.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/unit_roundoff.h"
 #include "validation/opengl/drawn_mesh.h"
 #include "validation/opengl/egl_context.h"

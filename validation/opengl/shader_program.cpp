@@ -1,6 +1,6 @@
 #include "validation/opengl/shader_program.h"
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::validation {
 

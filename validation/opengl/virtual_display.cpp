@@ -11,7 +11,7 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::validation {
 namespace {

@@ -1,4 +1,4 @@
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/peers/built_in_peers.h"
 
 namespace fathom::validation {

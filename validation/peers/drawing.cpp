@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/blender/blender_renderer.h"
 #include "validation/child/in_child.h"
 #include "validation/peers/built_in_peers.h"

@@ -5,8 +5,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "fathom/numeric/errors.h"
-#include "fathom/text/input_file.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/text/parse_json.h"
 #include "fathom/text/version.h"
 
@@ -65,7 +65,7 @@ bool is_cut_off(const text::JsonFault& fault, std::string_view text) {
 }  // namespace
 
 Report read_report(const std::filesystem::path& file) {
-  const text::InputFile input(file);
+  const files::InputFile input(file);
   const std::string name = file.string();
   try {
     return report_of(text::parse_json<Json>(input.text()), name);

@@ -7,7 +7,7 @@
 #include "fathom/attribution/model/opengl_matrices.h"
 #include "fathom/attribution/world_mesh.h"
 #include "fathom/camera/camera_making.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
 #include "validation/bench/scenes.h"

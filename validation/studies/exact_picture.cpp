@@ -1,6 +1,6 @@
 #include "validation/studies/exact_picture.h"
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/render.h"
 
 namespace fathom::studies {

@@ -5,10 +5,10 @@
 #include <span>
 #include <string>
 
-#include "fathom/numeric/errors.h"
-#include "fathom/text/descriptor.h"
-#include "fathom/text/file_bytes.h"
-#include "fathom/text/input_file.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/descriptor.h"
+#include "fathom/files/file_bytes.h"
+#include "fathom/files/input_file.h"
 #include "validation/child/run_command.h"
 #include "validation/studies/plot.h"
 
@@ -25,11 +25,11 @@ class MemoryFile {
 
   [[nodiscard]] std::string path() const { return "/proc/self/fd/" + std::to_string(file_.get()); }
   [[nodiscard]] std::string content() const {
-    return std::string(text::InputFile(path(), text::InputFile::Reading::copied).text());
+    return std::string(files::InputFile(path(), files::InputFile::Reading::copied).text());
   }
 
  private:
-  text::Descriptor file_;
+  files::Descriptor file_;
 };
 
 /// Runs gnuplot on an argument.
@@ -67,7 +67,7 @@ std::vector<StudyFile> run_gnuplot(const std::string& name, const std::string& s
   };
   const MemoryFile input, png, svg;
   const std::string commands = twice(png.path(), svg.path());
-  text::write_file(input.path(), std::as_bytes(std::span(commands)));
+  files::write_file(input.path(), std::as_bytes(std::span(commands)));
   const validation::Said said = run(input.path());
   std::vector<StudyFile> files{{name + ".gp", twice(name + ".png", name + ".svg")},
                                {name + ".png", png.content()},

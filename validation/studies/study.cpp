@@ -1,7 +1,7 @@
 #include "validation/studies/study.h"
 
-#include "fathom/numeric/errors.h"
-#include "fathom/numeric/unknown_name.h"
+#include "fathom/failures/errors.h"
+#include "fathom/failures/unknown_name.h"
 #include "validation/studies/antialiasing/antialiasing.h"
 #include "validation/studies/blending/blending.h"
 #include "validation/studies/clipping/clipping.h"

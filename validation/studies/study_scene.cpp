@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/studies/cell.h"
 #include "validation/studies/gnuplot.h"
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "fathom/numeric/errors.h"
-#include "fathom/numeric/unknown_name.h"
+#include "fathom/failures/errors.h"
+#include "fathom/failures/unknown_name.h"
 
 namespace fathom::validation {
 namespace {

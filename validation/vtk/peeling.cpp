@@ -5,7 +5,7 @@
 #include <vtkTextureObject.h>
 #include <vtkTranslucentPass.h>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/opengl/gl_functions.h"
 
 namespace fathom::validation {

@@ -12,8 +12,8 @@
 
 #include <array>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/depth_map.h"
-#include "fathom/numeric/errors.h"
 #include "validation/opengl/shader_program.h"
 
 namespace fathom::validation {

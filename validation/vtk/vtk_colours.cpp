@@ -25,7 +25,7 @@
 #include <vector>
 
 #include "fathom/attribution/model/opengl_matrices.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/vtk/surfaceless_window.h"
 

@@ -6,8 +6,8 @@
 
 #include "fathom/attribution/model/opengl_drivers.h"
 #include "fathom/attribution/model/window_depth.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/depth_map.h"
-#include "fathom/numeric/errors.h"
 #include "validation/vtk/camera_matrix.h"
 #include "validation/vtk/vtk_renderer.h"
 

@@ -19,7 +19,7 @@
 
 #include <algorithm>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/opengl/read_back.h"
 #include "validation/vtk/peeling.h"

@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "fathom/clipping/exact_kernel.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 /// What one case may cost: a line of input is answered in seconds, or refused before the work.
 namespace fathom::app::cases {

@@ -8,7 +8,7 @@
 #include <cctype>
 #include <limits>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/parse_json.h"
 #include "fathom/text/printable.h"

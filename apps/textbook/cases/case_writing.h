@@ -6,7 +6,7 @@
 
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/points.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/threads/interruption.h"
 
 /// Writing the answers to cases.

@@ -10,8 +10,8 @@
 #include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/standard_streams.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/input_file.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 
 namespace fathom::app::cases {
 namespace {
@@ -58,7 +58,7 @@ int answer_lines(const std::string& file, const AnswerCase& answer_case) {
 int answer_lines(const std::string& file, const AnswerLine& answer_line) {
   const std::string name = input_name(file);
   note_input(file);
-  const text::InputFile input(file);
+  const files::InputFile input(file);
   std::string_view rest = input.text();
   std::size_t number = 0, count = 0, failures = 0;
   std::string first_failure;

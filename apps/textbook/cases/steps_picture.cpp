@@ -1,7 +1,7 @@
 #include "apps/textbook/cases/steps_picture.h"
 
 #include "apps/shell/output_place.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app::cases {
 

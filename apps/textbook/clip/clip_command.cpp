@@ -13,7 +13,7 @@
 #include "apps/textbook/clip/clip_comparison.h"
 #include "apps/textbook/drawing/clip_drawing.h"
 #include "apps/textbook/textbook_commands.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app::drawing {
 namespace {

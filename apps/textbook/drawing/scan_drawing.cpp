@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app::drawing {
 namespace {

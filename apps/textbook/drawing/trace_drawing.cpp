@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app::drawing {
 namespace {

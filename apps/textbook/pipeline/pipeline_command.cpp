@@ -22,7 +22,7 @@
 #include "apps/textbook/pipeline/stage_cases.h"
 #include "apps/textbook/pipeline/trace_report.h"
 #include "apps/textbook/textbook_commands.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

@@ -1,7 +1,7 @@
 #include "apps/textbook/pipeline/pipeline_plan.h"
 
 #include "apps/options/channel_list.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/render_by_pipeline.h"
 
 namespace fathom::app {

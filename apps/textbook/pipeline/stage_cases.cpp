@@ -9,7 +9,7 @@
 #include "apps/textbook/cases/case_effort.h"
 #include "apps/textbook/pipeline/merge_json.h"
 #include "fathom/camera/camera_files.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/pipeline/fragments/interpolation.h"
 #include "fathom/pipeline/geometry/back_face_culling.h"

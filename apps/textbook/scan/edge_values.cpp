@@ -8,8 +8,8 @@
 
 #include "apps/textbook/cases/case_effort.h"
 #include "apps/textbook/scan/scan_reading.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/files/npy_array.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/pipeline/scan/edge_function.h"
 
 namespace fathom::app::scan {

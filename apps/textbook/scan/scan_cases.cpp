@@ -4,7 +4,7 @@
 
 #include "apps/shell/values.h"
 #include "apps/textbook/scan/edge_values.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/pipeline/geometry/subpixel_grid.h"
 
 namespace fathom::app::scan {

@@ -11,7 +11,7 @@
 #include "apps/textbook/scan/edge_values.h"
 #include "apps/textbook/scan/scan_cases.h"
 #include "apps/textbook/textbook_commands.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 namespace {

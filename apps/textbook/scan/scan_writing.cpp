@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/threads/interruption.h"
 
 namespace fathom::app::scan {

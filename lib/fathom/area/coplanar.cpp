@@ -9,7 +9,7 @@
 #include "fathom/area/scene_surfaces.h"
 #include "fathom/area/separation.h"
 #include "fathom/area/visible_fragments.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"

@@ -13,7 +13,7 @@
 #include "fathom/attribution/other_scene.h"
 #include "fathom/attribution/other_size.h"
 #include "fathom/camera/clip_planes.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::attribution {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/missing_channel.h"
 #include "fathom/image/surface.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::attribution {

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "fathom/camera/pose.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/double_word.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 

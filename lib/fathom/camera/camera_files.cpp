@@ -7,13 +7,14 @@
 #include <string>
 
 #include "fathom/camera/pose.h"
+#include "fathom/files/input_file.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/input_file.h"
 #include "fathom/text/json_text.h"
 #include "fathom/text/json_value.h"
 
 namespace fathom {
 using namespace camera;
+using namespace files;
 using namespace text;
 
 namespace {

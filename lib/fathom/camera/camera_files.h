@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
-#include "fathom/text/warnings.h"
+#include "fathom/failures/warnings.h"
 
 namespace fathom {
 

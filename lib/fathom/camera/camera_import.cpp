@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/printable.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
-#include "fathom/text/warnings.h"
+#include "fathom/failures/warnings.h"
 
 /// Cameras of other programs, converted to ours; docs/conventions.md has the formulas. Ours has no
 /// lens distortion: what an import leaves out of a lens it says, unless all its parameters are

@@ -11,7 +11,7 @@
 
 #include "fathom/camera/camera_import.h"
 #include "fathom/camera/data_set_cameras.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::text {
 class JsonValue;

@@ -5,7 +5,7 @@
 
 #include "fathom/camera/camera_making_internal.h"
 #include "fathom/camera/focal_length.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/numeric/trigonometry.h"

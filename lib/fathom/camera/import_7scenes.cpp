@@ -1,6 +1,6 @@
 #include "fathom/camera/posed_cameras.h"
+#include "fathom/files/input_file.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/input_file.h"
 
 namespace fathom {
 using namespace camera;
@@ -29,7 +29,7 @@ std::vector<ImportedCamera> import_7scenes(const std::filesystem::path& folder,
   for (const auto& file : files_of(folder, pose_suffix)) {
     std::string frame = file.filename().string();
     frame.resize(frame.size() - std::string_view(pose_suffix).size());
-    cameras.push_back(parse_7scenes({text::InputFile(file).text(), file.string()}, frame, given));
+    cameras.push_back(parse_7scenes({files::InputFile(file).text(), file.string()}, frame, given));
   }
   return cameras;
 }

@@ -10,9 +10,9 @@
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/camera/import_lines.h"
 #include "fathom/camera/pose.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
+#include "fathom/failures/unknown_name.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/numeric/unknown_name.h"
 
 namespace fathom {
 using namespace camera;

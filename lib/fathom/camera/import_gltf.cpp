@@ -6,13 +6,13 @@
 
 #include "fathom/camera/focal_length.h"
 #include "fathom/camera/posed_cameras.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/byte_order.h"
+#include "fathom/files/input_file.h"
 #include "fathom/gltf/gltf_transform.h"
 #include "fathom/numeric/certified.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/byte_order.h"
-#include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
 #include "fathom/text/text_ends.h"
 
@@ -190,7 +190,7 @@ std::vector<ImportedCamera> camera::parse_gltf_cameras(std::string_view bytes,
 std::vector<ImportedCamera> import_gltf(const std::filesystem::path& file, std::uint32_t width,
                                         std::uint32_t height) {
   const StandardArithmetic standard;
-  return parse_gltf_cameras(text::InputFile(file).text(), file.string(), width, height);
+  return parse_gltf_cameras(files::InputFile(file).text(), file.string(), width, height);
 }
 
 }  // namespace fathom

@@ -7,11 +7,11 @@
 
 #include "fathom/camera/import_lines.h"
 #include "fathom/camera/posed_cameras.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/numeric/certified.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/input_file.h"
 
 namespace fathom {
 using namespace camera;
@@ -179,10 +179,10 @@ std::vector<ImportedCamera> import_kitti(const fs::path& calibration,
                                          std::optional<std::uint32_t> number,
                                          const GivenLens& given) {
   const StandardArithmetic standard;
-  const text::InputFile file(calibration);
+  const files::InputFile file(calibration);
   const NamedText named{file.text(), calibration.string()};
   if (!poses) return parse_kitti(named, std::nullopt, number, given);
-  const text::InputFile trajectory(*poses);
+  const files::InputFile trajectory(*poses);
   return parse_kitti(named, NamedText{trajectory.text(), poses->string()}, number, given);
 }
 

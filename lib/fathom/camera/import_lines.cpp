@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/text/decimal.h"
 #include "fathom/text/printable.h"
 

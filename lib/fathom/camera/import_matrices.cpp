@@ -3,9 +3,9 @@
 
 #include "fathom/camera/import_lines.h"
 #include "fathom/camera/posed_cameras.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/input_file.h"
 
 namespace fathom {
 using namespace camera;
@@ -86,7 +86,7 @@ std::vector<ImportedCamera> import_matrices(const std::vector<NamedPose>& poses,
 std::vector<NamedPose> read_poses(const fs::path& file_or_folder) {
   const StandardArithmetic standard;
   const auto read = [](const fs::path& file) {
-    return parse_poses(text::InputFile(file).text(), file.string(), file.stem().string());
+    return parse_poses(files::InputFile(file).text(), file.string(), file.stem().string());
   };
   std::error_code ignored;
   if (!fs::is_directory(file_or_folder, ignored)) return read(file_or_folder);
@@ -101,7 +101,7 @@ std::vector<NamedPose> read_poses(const fs::path& file_or_folder) {
 
 std::vector<IntrinsicMatrix> read_intrinsic_matrices(const fs::path& file) {
   const StandardArithmetic standard;
-  return parse_intrinsic_matrices(text::InputFile(file).text(), file.string());
+  return parse_intrinsic_matrices(files::InputFile(file).text(), file.string());
 }
 
 }  // namespace fathom

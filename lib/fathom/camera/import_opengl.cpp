@@ -5,14 +5,15 @@
 
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/camera/pose.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
 
 namespace fathom {
 using namespace camera;
+using namespace files;
 using namespace text;
 
 namespace {

@@ -4,9 +4,9 @@
 
 #include "fathom/camera/import_lines.h"
 #include "fathom/camera/posed_cameras.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
 
 namespace fathom {
@@ -52,7 +52,7 @@ std::vector<ImportedCamera> camera::parse_replica(const NamedText& trajectory,
 std::vector<ImportedCamera> import_replica(const fs::path& folder, const GivenLens& given) {
   const StandardArithmetic standard;
   const fs::path trajectory = folder / "traj.txt";
-  const text::InputFile poses(trajectory);
+  const files::InputFile poses(trajectory);
   const NamedText named{poses.text(), trajectory.string()};
   if (given.K && given.width != 0) return parse_replica(named, std::nullopt, given);
   std::error_code ignored;
@@ -62,7 +62,7 @@ std::vector<ImportedCamera> import_replica(const fs::path& folder, const GivenLe
                      ": cam_params.json is neither here nor in the folder above; give K and the "
                      "image size instead");
   const fs::path file = fs::exists(beside, ignored) ? beside : above;
-  const text::InputFile parameters(file);
+  const files::InputFile parameters(file);
   return parse_replica(named, NamedText{parameters.text(), file.string()}, given);
 }
 

@@ -4,9 +4,9 @@
 
 #include "fathom/camera/import_lines.h"
 #include "fathom/camera/posed_cameras.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
 
 namespace fathom {
@@ -88,14 +88,14 @@ std::vector<ImportedCamera> import_scannet(const fs::path& folder, ScanNetStream
   const fs::path intrinsics =
       folder / "intrinsic" / (depth ? "intrinsic_depth.txt" : "intrinsic_color.txt");
   if (!given.K) {
-    const text::InputFile file(intrinsics);
+    const files::InputFile file(intrinsics);
     scannet.K = parse_scannet_intrinsics({file.text(), intrinsics.string()});
   }
   const Camera lens = lens_of(given, scannet, given.K ? "K" : intrinsics.string());
   std::vector<ImportedCamera> cameras;
   for (const auto& [number, file] : numbered_files(folder / "pose"))
-    cameras.push_back(
-        parse_scannet({text::InputFile(file).text(), file.string()}, std::to_string(number), lens));
+    cameras.push_back(parse_scannet({files::InputFile(file).text(), file.string()},
+                                    std::to_string(number), lens));
   require_different_names(cameras, (folder / "pose").string());
   return cameras;
 }
@@ -123,7 +123,7 @@ std::vector<ImportedCamera> camera::parse_scannetpp(const NamedText& file, const
 
 std::vector<ImportedCamera> import_scannetpp(const fs::path& file, const GivenLens& given) {
   const StandardArithmetic standard;
-  const text::InputFile input(file);
+  const files::InputFile input(file);
   return parse_scannetpp({input.text(), file.string()}, given);
 }
 

@@ -9,10 +9,10 @@
 
 #include "fathom/camera/import_lines.h"
 #include "fathom/camera/posed_cameras.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
 
 namespace fathom {
@@ -265,7 +265,7 @@ std::vector<ImportedCamera> camera::parse_sfm_data(const NamedText& file) {
 
 std::vector<ImportedCamera> import_sfm_data(const fs::path& file) {
   const StandardArithmetic standard;
-  const text::InputFile input(file);
+  const files::InputFile input(file);
   return parse_sfm_data({input.text(), file.string()});
 }
 

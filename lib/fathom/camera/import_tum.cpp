@@ -4,9 +4,9 @@
 
 #include "fathom/camera/import_lines.h"
 #include "fathom/camera/posed_cameras.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/input_file.h"
 
 namespace fathom {
 using namespace camera;
@@ -159,10 +159,10 @@ std::vector<ImportedCamera> import_tum(const fs::path& trajectory,
   std::error_code ignored;
   const fs::path file =
       fs::is_directory(trajectory, ignored) ? trajectory / "groundtruth.txt" : trajectory;
-  const text::InputFile poses(file);
+  const files::InputFile poses(file);
   const NamedText named{poses.text(), file.string()};
   if (!images) return parse_tum(named, std::nullopt, lens);
-  const text::InputFile list(*images);
+  const files::InputFile list(*images);
   return parse_tum(named, NamedText{list.text(), images->string()}, lens);
 }
 

@@ -6,7 +6,7 @@
 #include <unordered_set>
 
 #include "fathom/camera/import_lines.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::camera {

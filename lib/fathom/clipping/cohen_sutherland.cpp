@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "fathom/clipping/exact_kernel.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::clipping {

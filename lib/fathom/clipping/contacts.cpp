@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "fathom/clipping/boxes.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/threads/interruption.h"
 
 namespace fathom::clipping {

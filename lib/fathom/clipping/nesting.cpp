@@ -8,7 +8,7 @@
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/sweep.h"
 #include "fathom/clipping/touches.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::clipping {
 namespace {

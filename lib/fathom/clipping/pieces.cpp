@@ -7,7 +7,7 @@
 #include "fathom/clipping/nesting.h"
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/wedges.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::clipping {
 namespace {

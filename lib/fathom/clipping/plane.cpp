@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "fathom/clipping/exact_kernel.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 

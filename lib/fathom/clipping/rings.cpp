@@ -8,7 +8,7 @@
 #include "fathom/clipping/contacts.h"
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/nesting.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/threads/interruption.h"
 

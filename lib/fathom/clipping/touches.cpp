@@ -9,7 +9,7 @@
 
 #include "fathom/clipping/contacts.h"
 #include "fathom/clipping/sweep_order.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/threads/interruption.h"
 
 namespace fathom::clipping {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/threads/interruption.h"
 
 namespace fathom::clipping {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "fathom/depth_buffer/buffer_work.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/text/counted.h"

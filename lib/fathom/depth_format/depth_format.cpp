@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "fathom/numeric/errors.h"
-#include "fathom/numeric/unknown_name.h"
+#include "fathom/failures/errors.h"
+#include "fathom/failures/unknown_name.h"
 
 namespace fathom {
 namespace {

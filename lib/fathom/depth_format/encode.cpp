@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "fathom/depth_format/depth_bias.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {

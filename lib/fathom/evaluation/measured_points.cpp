@@ -2,12 +2,12 @@
 
 #include <string>
 
+#include "fathom/files/byte_order.h"
+#include "fathom/files/file_bytes.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/byte_order.h"
-#include "fathom/text/file_bytes.h"
 
 namespace fathom {
-using namespace text;
+using namespace files;
 
 std::vector<std::byte> ply_of(const std::vector<MeasuredPoint>& points) {
   const StandardArithmetic standard;

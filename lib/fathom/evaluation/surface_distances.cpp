@@ -6,9 +6,9 @@
 
 #include "fathom/evaluation/nearest_surface.h"
 #include "fathom/evaluation/point_sight.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/nearest_rank.h"
 #include "fathom/memory/available_memory.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/scene_fault.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::evaluation {
 namespace {

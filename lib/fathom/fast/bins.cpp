@@ -4,10 +4,10 @@
 #include <limits>
 #include <new>
 
+#include "fathom/failures/errors.h"
 #include "fathom/fast/boxes.h"
 #include "fathom/fast/setup.h"
 #include "fathom/fast/tile.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/scene/element_checks.h"
 #include "fathom/threads/threads.h"
 

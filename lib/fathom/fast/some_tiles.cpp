@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "fathom/failures/errors.h"
 #include "fathom/fast/coverage/coverage_in_rounds.h"
 #include "fathom/fast/frame.h"
 #include "fathom/fast/tile_store.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"

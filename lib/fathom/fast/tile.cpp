@@ -106,11 +106,11 @@ std::vector<std::uint32_t> Tile::only_samples() const {
 }
 
 // What is known of blocks is left out: it is found again.
-void Tile::save(text::Bytes& bytes) const {
+void Tile::save(files::Bytes& bytes) const {
   const SavedState state{places_, end_of_front_, draws_back_faces_ ? 1U : 0U};
-  text::append(bytes, std::as_bytes(std::span(&state, 1)));
-  text::append(bytes, std::as_bytes(std::span(q_)));
-  text::append(bytes, std::as_bytes(std::span(tags_)));
+  files::append(bytes, std::as_bytes(std::span(&state, 1)));
+  files::append(bytes, std::as_bytes(std::span(q_)));
+  files::append(bytes, std::as_bytes(std::span(tags_)));
   std::vector<SurfaceOfSample> of_samples;
   std::vector<TileSurface> others;
   const std::vector<std::uint32_t> only = only_samples();
@@ -123,8 +123,8 @@ void Tile::save(text::Bytes& bytes) const {
       others.push_back(surface);
     }
   }
-  text::append(bytes, std::as_bytes(std::span(of_samples)));
-  text::append(bytes, std::as_bytes(std::span(others)));
+  files::append(bytes, std::as_bytes(std::span(of_samples)));
+  files::append(bytes, std::as_bytes(std::span(others)));
 }
 
 void Tile::restore(const std::function<void(std::uint64_t, std::span<std::byte>)>& read) {

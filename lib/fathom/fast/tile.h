@@ -17,7 +17,7 @@
 #include "fathom/fast/map_layout.h"
 #include "fathom/fast/setup.h"
 #include "fathom/fast/tile_shape.h"
-#include "fathom/text/file_bytes.h"
+#include "fathom/files/file_bytes.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/referee.h"
 
@@ -121,7 +121,7 @@ class Tile : public TileShape {
   [[nodiscard]] std::size_t bytes() const;
   /// Adds what the tile is to `bytes`, most_packed_bytes at most, or makes it that again: read(offset,
   /// to) reads from there. The tile has been packed, or started where it was.
-  void save(text::Bytes& bytes) const;
+  void save(files::Bytes& bytes) const;
   void restore(const std::function<void(std::uint64_t offset, std::span<std::byte> to)>& read);
 
   /// Where a tile is written to.

@@ -97,7 +97,7 @@ void TileStore::write_oldest(std::size_t count) {
   for (; end < count && is_too_much(); ++end) bytes_ -= slots_[in_memory_[end]].bytes;
   parallel_for(std::size_t{0}, end, [&](std::size_t i) {
     Slot& slot = slots_[in_memory_[i]];
-    text::Bytes bytes;
+    files::Bytes bytes;
     slot.tile->save(bytes);
     file_->write(place_of(in_memory_[i]), bytes);
     slot.tile.reset();

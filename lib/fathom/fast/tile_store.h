@@ -8,7 +8,7 @@
 
 #include "fathom/fast/bins.h"
 #include "fathom/fast/tile.h"
-#include "fathom/text/spill_file.h"
+#include "fathom/files/spill_file.h"
 
 namespace fathom::fast {
 
@@ -60,7 +60,7 @@ class TileStore {
   std::uint64_t bytes_ = 0;
   std::mutex mutex_;
   std::uint64_t rooms_made_ = 0;
-  std::optional<text::SpillFile> file_;
+  std::optional<files::SpillFile> file_;
 };
 
 }  // namespace fathom::fast

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/pixel_place.h"
 #include "fathom/image/surface.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {

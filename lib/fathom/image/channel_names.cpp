@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/missing_channel.h"
-#include "fathom/numeric/errors.h"
 
 namespace fathom {
 namespace {

@@ -4,10 +4,10 @@
 #include <bit>
 #include <cmath>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/compare_internal.h"
 #include "fathom/image/missing_channel.h"
 #include "fathom/image/nearest_rank.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {

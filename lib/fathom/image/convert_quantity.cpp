@@ -1,11 +1,11 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/background.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/missing_channel.h"
 #include "fathom/image/surface.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {

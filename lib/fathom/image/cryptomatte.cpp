@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/json_text.h"
 

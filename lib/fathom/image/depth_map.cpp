@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/text/counted.h"
 
 namespace fathom {

@@ -3,19 +3,20 @@
 #include <algorithm>
 #include <cstring>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/image/background.h"
 #include "fathom/image/channel_names.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/npy_array.h"
 #include "fathom/image/missing_channel.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/input_file.h"
 #include "fathom/text/json_text.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom {
 using namespace image;
+using namespace files;
 using namespace text;
 
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "fathom/failures/unknown_name.h"
 #include "fathom/image/depth_map.h"
-#include "fathom/numeric/unknown_name.h"
 
 /// Errors about names of channels: they carry the names that there are, and ask for the one that may be
 /// meant, also where a name is a word that other programs use ("depth" for Z).

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "fathom/text/byte_order.h"
+#include "fathom/files/byte_order.h"
 
 namespace fathom::image {
 

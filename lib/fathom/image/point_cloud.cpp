@@ -4,14 +4,14 @@
 #include <array>
 #include <cmath>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/byte_order.h"
+#include "fathom/files/file_bytes.h"
 #include "fathom/image/surface.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/byte_order.h"
-#include "fathom/text/file_bytes.h"
 
 namespace fathom {
-using namespace text;
+using namespace files;
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
+#include "fathom/failures/unknown_name.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/numeric/unknown_name.h"
 
 namespace fathom {
 namespace {

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/convert.h"
 #include "fathom/numeric/certified.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 

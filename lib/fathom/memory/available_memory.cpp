@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "fathom/failures/errors.h"
 #include "fathom/memory/control_groups.h"
-#include "fathom/numeric/errors.h"
 
 namespace fathom {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <numeric>
 
+#include "fathom/failures/errors.h"
 #include "fathom/mesh/triangulate_face.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::mesh {

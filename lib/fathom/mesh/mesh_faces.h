@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
+#include "fathom/failures/warnings.h"
 #include "fathom/mesh/mesh.h"
-#include "fathom/text/warnings.h"
 
 /// From the faces of a file to the triangles of a mesh.
 namespace fathom::mesh {

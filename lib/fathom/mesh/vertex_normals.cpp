@@ -5,7 +5,7 @@
 #include <numeric>
 #include <string>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom {
 

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::mesh_files {
 namespace {

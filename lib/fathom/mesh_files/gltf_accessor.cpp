@@ -8,6 +8,7 @@
 #include "fathom/text/counted.h"
 
 namespace fathom::mesh_files {
+using namespace files;
 using namespace text;
 
 namespace {

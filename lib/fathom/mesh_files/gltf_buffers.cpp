@@ -5,13 +5,14 @@
 #include <limits>
 #include <system_error>
 
+#include "fathom/failures/errors.h"
 #include "fathom/mesh_files/gltf_uri.h"
 #include "fathom/mesh_files/named_files.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/text_ends.h"
 
 namespace fathom::mesh_files {
+using namespace files;
 using namespace text;
 
 namespace {

@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include "fathom/files/confinement.h"
+#include "fathom/files/input_file.h"
 #include "fathom/mesh_files/expansion_budget.h"
 #include "fathom/mesh_files/read_options.h"
-#include "fathom/text/confinement.h"
-#include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
 
 /// Where the bytes of a glTF asset come from. For this room's .cpp files only.
@@ -55,7 +55,7 @@ class GltfBuffers {
   };
   /// External files that have been loaded, in the order of loading, each once.
   [[nodiscard]] const std::vector<ExternalFile>& external_files() const { return external_files_; }
-  /// For what has been made of their bytes. Fails    as text::InputFile::expect_unchanged().
+  /// For what has been made of their bytes. Fails    as files::InputFile::expect_unchanged().
   void expect_unchanged() const;
 
  private:
@@ -66,14 +66,14 @@ class GltfBuffers {
   std::optional<text::JsonValue> descriptions_;
   std::filesystem::path folder_;
   bool outside_files_;
-  std::vector<text::Boundary> boundaries_;
-  text::InputFile::Reading reading_;
+  std::vector<files::Boundary> boundaries_;
+  files::InputFile::Reading reading_;
   ExpansionBudget& budget_;
   std::map<std::uint64_t, Bytes> loaded_;
   /// By where they lie: many buffers may name the same file.
   std::map<std::filesystem::path, Bytes> loaded_files_;
   std::vector<std::vector<std::byte>> storage_;
-  std::vector<std::unique_ptr<text::InputFile>> files_;
+  std::vector<std::unique_ptr<files::InputFile>> files_;
   std::vector<ExternalFile> external_files_;
 };
 

@@ -9,6 +9,7 @@
 
 namespace fathom::mesh_files {
 using namespace formats_program;
+using namespace files;
 using namespace text;
 
 namespace {

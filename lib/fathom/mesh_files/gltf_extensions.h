@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "fathom/failures/warnings.h"
 #include "fathom/text/json_value.h"
-#include "fathom/text/warnings.h"
 
 namespace fathom::mesh_files {
 

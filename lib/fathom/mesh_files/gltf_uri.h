@@ -12,7 +12,7 @@ namespace fathom::mesh_files {
 ///
 /// Unless `outside_files`, the path must stay in the folder: "../x", "%2e%2e/x" and "/etc/passwd"
 /// are refused without a look at the file system. Where symbolic links lead is not looked at here;
-/// see text::Boundary.
+/// see files::Boundary.
 /// Fails    InputError: no relative URI, or one that leaves the folder.
 /// Source   [GLTF20] 2.8 (URIs)
 std::filesystem::path file_of_uri(const text::JsonValue& uri, const std::filesystem::path& folder,

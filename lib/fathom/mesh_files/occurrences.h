@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "fathom/failures/warnings.h"
 #include "fathom/text/counted.h"
-#include "fathom/text/warnings.h"
 
 namespace fathom::mesh_files {
 

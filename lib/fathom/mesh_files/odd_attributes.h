@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "fathom/failures/warnings.h"
 #include "fathom/mesh/mesh.h"
-#include "fathom/text/warnings.h"
 
 namespace fathom::mesh_files {
 

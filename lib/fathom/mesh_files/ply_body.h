@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "fathom/failures/warnings.h"
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/mesh_files/ply_rows.h"
 #include "fathom/text/counted.h"
-#include "fathom/text/warnings.h"
 
 namespace fathom::mesh_files {
 

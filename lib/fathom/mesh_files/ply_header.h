@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fathom/text/warnings.h"
+#include "fathom/failures/warnings.h"
 
 namespace fathom::mesh_files {
 

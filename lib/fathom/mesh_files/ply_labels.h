@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "fathom/failures/warnings.h"
 #include "fathom/mesh/segmentation.h"
 #include "fathom/mesh_files/ply_header.h"
-#include "fathom/text/warnings.h"
 
 /// Labels in PLY files. For this room's .cpp files only.
 namespace fathom::mesh_files {

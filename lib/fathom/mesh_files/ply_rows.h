@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/byte_window.h"
 #include "fathom/mesh/mesh.h"
 #include "fathom/mesh_files/ply_header.h"
 #include "fathom/mesh_files/ply_labels.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/byte_window.h"
 
 static_assert(std::endian::native == std::endian::little, "little endian PLY is read as it lies");
 
@@ -36,8 +36,8 @@ template <bool big_endian>
 class BinaryRows {
  public:
   BinaryRows(std::string_view body, const std::string& file, const PlyHeader& header)
-      : BinaryRows(text::ByteWindow(body, header.size), file) {}
-  BinaryRows(text::ByteWindow bytes, const std::string& file)
+      : BinaryRows(files::ByteWindow(body, header.size), file) {}
+  BinaryRows(files::ByteWindow bytes, const std::string& file)
       : bytes_(std::move(bytes)), file_(file) {}
 
   static std::uint64_t least_row_size(const PlyElement& element) {
@@ -143,7 +143,7 @@ class BinaryRows {
     return std::bit_cast<T>(bytes);
   }
 
-  text::ByteWindow bytes_;
+  files::ByteWindow bytes_;
   const std::string& file_;
 };
 

@@ -13,7 +13,7 @@
 // not asked for, taken for what its size lets suppose; what is kept is where things are. Faces are read again, from the file, whenever triangles are asked for.
 namespace fathom::mesh_files {
 using namespace mesh;
-using namespace text;
+using namespace files;
 
 namespace {
 

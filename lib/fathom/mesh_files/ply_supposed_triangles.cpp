@@ -5,7 +5,7 @@
 #include "fathom/mesh_files/ply_body.h"
 
 namespace fathom::mesh_files {
-using namespace text;
+using namespace files;
 
 namespace {
 

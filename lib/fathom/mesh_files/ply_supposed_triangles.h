@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "fathom/files/random_access_file.h"
 #include "fathom/mesh_files/ply_header.h"
-#include "fathom/text/random_access_file.h"
 
 namespace fathom::mesh_files {
 
@@ -30,18 +30,18 @@ class PlySupposedTriangles {
   /// Whether the faces of one of `parts` equal parts have three corners each. Looks at its vertices,
   /// too.
   /// Fails    InputError, as the ordinary reader, where a vertex is not finite.
-  [[nodiscard]] bool check(const text::RandomAccessFile& file, std::uint64_t part,
+  [[nodiscard]] bool check(const files::RandomAccessFile& file, std::uint64_t part,
                            std::uint64_t parts) const;
 
  private:
   template <bool big_endian>
-  void check_vertices(const text::RandomAccessFile& file, std::uint64_t first,
+  void check_vertices(const files::RandomAccessFile& file, std::uint64_t first,
                       std::uint64_t end) const;
   template <bool big_endian>
-  [[nodiscard]] bool are_triangles(const text::RandomAccessFile& file, std::uint64_t first,
+  [[nodiscard]] bool are_triangles(const files::RandomAccessFile& file, std::uint64_t first,
                                    std::uint64_t end) const;
   template <bool big_endian>
-  [[nodiscard]] bool check_rows(const text::RandomAccessFile& file, std::uint64_t part,
+  [[nodiscard]] bool check_rows(const files::RandomAccessFile& file, std::uint64_t part,
                                 std::uint64_t parts) const;
 
   bool big_endian_ = false;

@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
+#include "fathom/failures/errors.h"
 #include "fathom/mesh_files/ply_header.h"
 #include "fathom/mesh_files/ply_labels.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/text/text_cursor.h"
 
 namespace fathom::mesh_files {

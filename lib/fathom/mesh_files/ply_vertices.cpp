@@ -8,11 +8,11 @@
 #include <span>
 #include <system_error>
 
+#include "fathom/failures/errors.h"
 #include "fathom/mesh_files/ply_labels.h"
-#include "fathom/numeric/errors.h"
 
 namespace fathom::mesh_files {
-using namespace text;
+using namespace files;
 
 namespace {
 

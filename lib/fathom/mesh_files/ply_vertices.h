@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "fathom/files/file_blocks.h"
+#include "fathom/files/mapped_file.h"
+#include "fathom/files/random_access_file.h"
 #include "fathom/geometry/frames.h"
 #include "fathom/mesh_files/ply_header.h"
-#include "fathom/text/file_blocks.h"
-#include "fathom/text/mapped_file.h"
-#include "fathom/text/random_access_file.h"
 
 namespace fathom::mesh_files {
 
@@ -48,7 +48,7 @@ class PlyVertices {
  public:
   /// The file must outlive this.
   /// Fails    InputError if the vertices cannot be mapped, for instance for lack of addresses.
-  PlyVertices(const text::RandomAccessFile& file, const PlyVertexLayout& layout, bool mapped);
+  PlyVertices(const files::RandomAccessFile& file, const PlyVertexLayout& layout, bool mapped);
   explicit PlyVertices(PlyVertexList list) : list_(std::move(list)) {}
   PlyVertices(const PlyVertices&) = delete;
   PlyVertices& operator=(const PlyVertices&) = delete;
@@ -69,9 +69,9 @@ class PlyVertices {
   PlyVertexLayout layout_;
   PlyVertexList list_;
   std::string name_;
-  text::MappedFile mapped_;
+  files::MappedFile mapped_;
   const char* rows_ = nullptr;
-  std::optional<text::FileBlocks> blocks_;
+  std::optional<files::FileBlocks> blocks_;
 };
 
 }  // namespace fathom::mesh_files

@@ -4,6 +4,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "fathom/files/sha256.h"
 #include "fathom/gltf/gltf_transform.h"
 #include "fathom/mesh_files/gltf_accessor.h"
 #include "fathom/mesh_files/gltf_buffers.h"
@@ -13,10 +14,10 @@
 #include "fathom/mesh_files/gltf_primitives.h"
 #include "fathom/mesh_files/gltf_references.h"
 #include "fathom/text/printable.h"
-#include "fathom/text/sha256.h"
 
 namespace fathom::mesh_files {
 using namespace gltf;
+using namespace files;
 using namespace text;
 
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "fathom/files/source.h"
 #include "fathom/mesh/mesh.h"
 #include "fathom/mesh/object.h"
 #include "fathom/mesh_files/read_options.h"
-#include "fathom/text/source.h"
 
 namespace fathom::mesh_files {
 

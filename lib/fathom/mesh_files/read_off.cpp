@@ -2,12 +2,12 @@
 #include <cmath>
 #include <utility>
 
+#include "fathom/failures/errors.h"
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/mesh_files/occurrences.h"
 #include "fathom/mesh_files/off_colours.h"
 #include "fathom/mesh_files/off_keyword.h"
 #include "fathom/mesh_files/read_mesh.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/text_cursor.h"
 #include "fathom/text/text_ends.h"

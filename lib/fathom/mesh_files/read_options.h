@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "fathom/text/warnings.h"
+#include "fathom/failures/warnings.h"
 
 namespace fathom {
 
@@ -44,7 +44,7 @@ struct ReadOptions {
   /// memory, beside 64 MiB; more is an error. See expansion_budget.h.
   std::uint64_t max_expansion = 64;
   /// Map files of more than 64 MiB, and the vertices of a PLY that stays in its file, instead of
-  /// reading them into memory. Only for programs that handle the signal SIGBUS (text/mapped_file.h):
+  /// reading them into memory. Only for programs that handle the signal SIGBUS (files/mapped_file.h):
   /// they get it where another program cuts a mapped file short meanwhile. Without mapping, that is
   /// an InputError.
   bool map_large_files = false;

@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
+#include "fathom/failures/warnings.h"
 #include "fathom/mesh/mesh.h"
-#include "fathom/text/warnings.h"
 
 /// Binary STL: a header of 84 bytes, which ends with the number of triangles, then 50 bytes each.
 namespace fathom::mesh_files {

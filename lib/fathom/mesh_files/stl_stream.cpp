@@ -1,14 +1,14 @@
 #include <algorithm>
 #include <vector>
 
+#include "fathom/failures/errors.h"
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/mesh_files/stl_binary.h"
 #include "fathom/mesh_files/streams.h"
-#include "fathom/numeric/errors.h"
 
 namespace fathom::mesh_files {
 using namespace mesh;
-using namespace text;
+using namespace files;
 
 namespace {
 

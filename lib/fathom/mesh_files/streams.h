@@ -2,21 +2,21 @@
 
 #include <memory>
 
+#include "fathom/files/random_access_file.h"
 #include "fathom/mesh_files/ply_header.h"
 #include "fathom/mesh_files/triangle_stream.h"
-#include "fathom/text/random_access_file.h"
 
 /// The streams of the two formats; open_triangle_stream() chooses between them.
 namespace fathom::mesh_files {
 
 /// `check`: read through the file, and find the bounds.
-std::unique_ptr<TriangleStream> open_stl_stream(std::unique_ptr<text::RandomAccessFile> file,
+std::unique_ptr<TriangleStream> open_stl_stream(std::unique_ptr<files::RandomAccessFile> file,
                                                 bool check, Warnings& warnings);
 
 /// `header` is that of the file, and binary. Of the options, `segments`, `check_when_opened` and
 /// `map_large_files` matter. A file that can be taken for one of triangles alone is not read through
 /// where neither a check nor segments are wanted.
-std::unique_ptr<TriangleStream> open_ply_stream(std::unique_ptr<text::RandomAccessFile> file,
+std::unique_ptr<TriangleStream> open_ply_stream(std::unique_ptr<files::RandomAccessFile> file,
                                                 const PlyHeader& header, const ReadOptions& options,
                                                 Warnings& warnings);
 

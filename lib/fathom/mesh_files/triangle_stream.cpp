@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <future>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/sha256.h"
 #include "fathom/mesh_files/recognise_format.h"
 #include "fathom/mesh_files/stl_binary.h"
 #include "fathom/mesh_files/streams.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/sha256.h"
 #include "fathom/threads/interruption.h"
 
 namespace fathom {
 using namespace mesh_files;
-using namespace text;
+using namespace files;
 
 namespace {
 

@@ -6,9 +6,9 @@
 #include <memory>
 #include <optional>
 
+#include "fathom/files/source.h"
 #include "fathom/mesh/mesh.h"
 #include "fathom/mesh_files/read_options.h"
-#include "fathom/text/source.h"
 
 namespace fathom {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/pipeline/geometry/subpixel_grid.h"
 #include "fathom/pipeline/geometry/vertex_transform.h"
 

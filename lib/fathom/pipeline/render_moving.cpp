@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/pipeline/geometry/surface_motion.h"
 #include "fathom/pipeline/rasterization/grid_samples.h"

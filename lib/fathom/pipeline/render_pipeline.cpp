@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/pipeline/geometry/draw_order.h"
 #include "fathom/pipeline/geometry/geometry_stages.h"

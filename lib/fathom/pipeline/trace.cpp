@@ -4,7 +4,7 @@
 #include <cmath>
 #include <variant>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/pipeline/output/draw_rules.h"
 #include "fathom/pipeline/rasterization/rasterizer.h"

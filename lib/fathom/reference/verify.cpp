@@ -9,7 +9,7 @@
 #include <random>
 
 #include "fathom/area/coverage.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/verify_samples.h"
 #include "fathom/scene/scene_fault.h"

@@ -9,13 +9,14 @@
 #include <tuple>
 
 #include "fathom/camera/camera_import_internal.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/read_scene.h"
-#include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
 
 namespace fathom {
+using namespace files;
 using namespace text;
 
 namespace {

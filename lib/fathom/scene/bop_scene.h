@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
+#include "fathom/failures/warnings.h"
 #include "fathom/mesh_files/read_options.h"
 #include "fathom/scene/scene.h"
-#include "fathom/text/warnings.h"
 
 namespace fathom {
 

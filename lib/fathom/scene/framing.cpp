@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fathom/camera/camera_making_internal.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/farthest_object.h"

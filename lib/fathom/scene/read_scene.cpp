@@ -6,6 +6,9 @@
 #include <memory>
 #include <utility>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
+#include "fathom/files/sha256.h"
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/mesh_files/expansion_budget.h"
 #include "fathom/mesh_files/foreign_formats.h"
@@ -14,12 +17,9 @@
 #include "fathom/mesh_files/read_gltf.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/mesh_files/recognise_format.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/scene_json.h"
-#include "fathom/text/input_file.h"
 #include "fathom/text/printable.h"
-#include "fathom/text/sha256.h"
 #include "fathom/threads/interruption.h"
 #include "fathom/threads/threads.h"
 
@@ -27,6 +27,7 @@ namespace fathom {
 using namespace mesh;
 using namespace mesh_files;
 using namespace scene;
+using namespace files;
 using namespace text;
 
 namespace {

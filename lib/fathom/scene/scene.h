@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "fathom/files/source.h"
 #include "fathom/mesh/mesh.h"
 #include "fathom/mesh/object.h"
 #include "fathom/scene/draw_state.h"
-#include "fathom/text/source.h"
 
 namespace fathom {
 

@@ -5,8 +5,8 @@
 #include <map>
 #include <span>
 
+#include "fathom/failures/errors.h"
 #include "fathom/mesh/mesh_faces.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/element_checks.h"
 #include "fathom/scene/object_fault.h"

@@ -1,10 +1,11 @@
 #include "fathom/scene/scene_json.h"
 
+#include "fathom/files/input_file.h"
 #include "fathom/scene/draw_state_json.h"
-#include "fathom/text/input_file.h"
 #include "fathom/text/json_value.h"
 
 namespace fathom::scene {
+using namespace files;
 using namespace text;
 
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom {
 namespace {

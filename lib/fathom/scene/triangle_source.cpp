@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/object_fault.h"
 
 namespace fathom {

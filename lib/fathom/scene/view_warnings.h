@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
+#include "fathom/failures/warnings.h"
 #include "fathom/scene/scene.h"
-#include "fathom/text/warnings.h"
 
 /// What is probably not meant in the way that a camera looks at a scene: mistakes that give a map
 /// of the right size with the wrong thing in it, or with nothing. Nothing here changes a map; a

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 /// The one door through which JSON comes in, from files, from texts within files, and from other
 /// processes. Only for .cpp files and internal headers.

@@ -6,7 +6,7 @@
 #include <limits>
 #include <system_error>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::text {

@@ -1,6 +1,6 @@
 #include "fathom/text/text_ends.h"
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::text {
 namespace {

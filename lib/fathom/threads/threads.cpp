@@ -4,7 +4,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom {
 

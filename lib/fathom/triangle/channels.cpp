@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/pixel_place.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/segment_channels.h"

@@ -1,6 +1,6 @@
 #include "fathom/triangle/map_of_camera.h"
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::triangle {
 

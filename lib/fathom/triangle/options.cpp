@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/threads/threads.h"
 

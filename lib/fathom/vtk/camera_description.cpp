@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "fathom/camera/camera_making.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::vtk {
 namespace {

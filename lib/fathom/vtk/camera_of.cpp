@@ -8,7 +8,7 @@
 #include <array>
 
 #include "fathom/camera/camera_import.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::vtk {
 namespace {

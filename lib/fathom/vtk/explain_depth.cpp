@@ -17,7 +17,7 @@
 #include "fathom/attribution/model/opengl_drivers.h"
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/attribution/pixels/corner_numbers.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/vtk/camera_description.h"
 #include "fathom/vtk/camera_of.h"

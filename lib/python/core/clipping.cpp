@@ -5,7 +5,7 @@
 #include "fathom/clipping/boolean_by_cgal.h"
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/weiler_atherton.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "running.h"
 
 namespace py = pybind11;

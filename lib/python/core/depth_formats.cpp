@@ -6,7 +6,7 @@
 #include "bindings.h"
 #include "fathom/depth_format/encode.h"
 #include "fathom/depth_format/resolution.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/threads/threads.h"

@@ -3,7 +3,7 @@
 #include <exception>
 #include <new>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace py = pybind11;
 

@@ -12,6 +12,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "fathom/camera/world_from_image.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/background.h"
 #include "fathom/image/channel_names.h"
 #include "fathom/image/compare.h"
@@ -19,7 +20,6 @@
 #include "fathom/image/map_files.h"
 #include "fathom/image/point_cloud.h"
 #include "fathom/map_description.h"
-#include "fathom/numeric/errors.h"
 #include "running.h"
 
 namespace py = pybind11;

@@ -7,10 +7,10 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/image/missing_channel.h"
 #include "fathom/memory/available_memory.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/scene/view_warnings.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"

@@ -14,7 +14,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/bounds.h"
 #include "fathom/scene/read_scene.h"
 #include "fathom/scene/scene_segments.h"

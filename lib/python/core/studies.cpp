@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "entry_points.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "running.h"
 #include "scene.h"
 #include "validation/studies/study.h"

@@ -23,7 +23,7 @@
 #include "apps/textbook/scan/scan_cases.h"
 #include "arrays.h"
 #include "entry_points.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/pipeline/geometry/window_transform.h"
 #include "fathom/render_by_pipeline.h"
 #include "running.h"

@@ -12,8 +12,8 @@
 #include <memory>
 
 #include "fathom/camera/camera_files.h"
+#include "fathom/failures/errors.h"
 #include "fathom/fast/stream.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/scene/framing.h"
 #include "tests/adversaries.h"
 #include "tests/effort.h"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::pipeline {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "fathom/camera/camera_making.h"
+#include "fathom/failures/errors.h"
 #include "fathom/mesh/mesh_faces.h"
-#include "fathom/numeric/errors.h"
 #include "validation/bench/generated/soup_stream.h"
 #include "validation/bench/generated/terrain_heights.h"
 #include "validation/bench/generated/terrain_stream.h"

@@ -1,6 +1,6 @@
 #include "validation/bench/parts/ideas.h"
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::bench {
 

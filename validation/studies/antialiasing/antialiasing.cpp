@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/studies/antialiasing/coverage_by_samples.h"
 #include "validation/studies/antialiasing/curve.h"
 #include "validation/studies/antialiasing/methods.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "fathom/area/sampled_coverage.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/render.h"
 
 namespace fathom::studies {

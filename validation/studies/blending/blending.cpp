@@ -1,6 +1,6 @@
 #include "validation/studies/blending/blending.h"
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/studies/blending/blended.h"
 #include "validation/studies/page_texts.h"
 #include "validation/studies/picture.h"

@@ -11,7 +11,7 @@
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/weiler_atherton.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/studies/clipping/clipped_shapes.h"
 
 namespace fathom::studies {

@@ -1,6 +1,6 @@
 #include "validation/studies/clipping/clipping.h"
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/studies/clipping/beside_cgal.h"
 #include "validation/studies/clipping/clipped_shapes.h"
 #include "validation/studies/clipping/shape_plot.h"

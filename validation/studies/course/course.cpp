@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/studies/antialiasing/temporal.h"
 #include "validation/studies/course/aliasing.h"
 #include "validation/studies/course/back_faces.h"

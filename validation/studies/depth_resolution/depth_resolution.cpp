@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/studies/depth_resolution/format_steps.h"
 #include "validation/studies/formats.h"
 #include "validation/studies/page_texts.h"

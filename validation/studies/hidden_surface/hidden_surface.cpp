@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/studies/hidden_surface/comparison.h"
 #include "validation/studies/hidden_surface/eye_scene.h"
 #include "validation/studies/page_texts.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/studies/indistinguishable/lost_order.h"
 #include "validation/studies/page_texts.h"
 #include "validation/studies/results.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/studies/lines/line_drift.h"
 #include "validation/studies/lines/step_costs.h"
 #include "validation/studies/page_texts.h"

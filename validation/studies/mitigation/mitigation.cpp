@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/studies/formats.h"
 #include "validation/studies/mitigation/cures.h"
 #include "validation/studies/page_texts.h"

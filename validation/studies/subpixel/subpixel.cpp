@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/studies/page_texts.h"
 #include "validation/studies/results.h"
 #include "validation/studies/study_scene.h"

@@ -1,6 +1,6 @@
 #include "validation/studies/z_fighting/scene_study.h"
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "validation/studies/formats.h"
 #include "validation/studies/page_texts.h"
 #include "validation/studies/results.h"

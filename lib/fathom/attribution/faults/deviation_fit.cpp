@@ -9,7 +9,7 @@
 #include "fathom/attribution/faults/normal_equations.h"
 #include "fathom/attribution/faults/residuals.h"
 #include "fathom/attribution/faults/standard_deviations.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 // How to read this file: fitted_deviation() at the end. All sets are compared by one linear step,
 // those that are best among sets of their size are fitted, and the smallest that is good enough is

@@ -3,9 +3,9 @@
 #include <variant>
 
 #include "fathom/camera/clip_planes.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
+#include "fathom/failures/unknown_name.h"
 #include "fathom/numeric/unit_roundoff.h"
-#include "fathom/numeric/unknown_name.h"
 
 namespace fathom::attribution {
 namespace {

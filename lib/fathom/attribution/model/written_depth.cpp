@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "fathom/attribution/model/own_roundings.h"
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom::attribution {

@@ -7,13 +7,13 @@ namespace {
 
 /// The elements of a mesh array or of a vector as bytes.
 template <class Array>
-text::ByteView bytes_of(const Array& array) {
+files::ByteView bytes_of(const Array& array) {
   return std::as_bytes(std::span(array.data(), array.size()));
 }
 
 /// Fills an array from a file; returns where it ends there.
 template <class T>
-std::uint64_t read_array(const text::SpillFile& file, std::uint64_t offset, std::vector<T>& array,
+std::uint64_t read_array(const files::SpillFile& file, std::uint64_t offset, std::vector<T>& array,
                          std::size_t count) {
   array.resize(count);
   file.read(offset, std::as_writable_bytes(std::span(array)));
@@ -24,12 +24,12 @@ std::uint64_t read_array(const text::SpillFile& file, std::uint64_t offset, std:
 
 void SpilledTriangles::add(std::size_t bucket, std::span<const KeptTriangles> kept) {
   for (const KeptTriangles& some : kept) {
-    text::Bytes bytes;
+    files::Bytes bytes;
     bytes.reserve(bytes_of(some.mesh.vertices).size() + bytes_of(some.mesh.triangles).size() +
                   bytes_of(some.numbers).size());
-    text::append(bytes, bytes_of(some.mesh.vertices));
-    text::append(bytes, bytes_of(some.mesh.triangles));
-    text::append(bytes, bytes_of(some.numbers));
+    files::append(bytes, bytes_of(some.mesh.vertices));
+    files::append(bytes, bytes_of(some.mesh.triangles));
+    files::append(bytes, bytes_of(some.numbers));
     buckets_[bucket].push_back({file_.append(bytes), some.object,
                                 static_cast<std::uint32_t>(some.mesh.vertices.size()),
                                 static_cast<std::uint32_t>(some.mesh.triangles.size())});

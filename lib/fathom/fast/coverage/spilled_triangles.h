@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fathom/fast/coverage/gathered_triangles.h"
-#include "fathom/text/spill_file.h"
+#include "fathom/files/spill_file.h"
 
 namespace fathom::fast {
 
@@ -33,7 +33,7 @@ class SpilledTriangles {
   };
   [[nodiscard]] KeptTriangles read(const Block& block) const;
 
-  text::SpillFile file_;
+  files::SpillFile file_;
   std::vector<std::vector<Block>> buckets_;
 };
 

@@ -5,12 +5,12 @@
 #include <limits>
 #include <string_view>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/byte_order.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/raw_pixels.h"
 #include "fathom/image/pixel_place.h"
 #include "fathom/image/surface.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/byte_order.h"
 
 /// The dense maps of COLMAP ([SZPF16], src/colmap/mvs/mat.h and .cc): width, height and channels in
 /// decimal, each ended by "&", then binary32, little endian: one channel after the other, row by row
@@ -21,7 +21,7 @@
 ///               (patch_match_cuda.cu: its product with the viewing ray is not positive); 0 0 0 where
 ///               there is none (normal_map.cc)
 namespace fathom::image {
-using namespace text;
+using namespace files;
 
 namespace {
 

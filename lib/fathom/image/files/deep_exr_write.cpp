@@ -9,17 +9,17 @@
 #include <cstddef>
 #include <numeric>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/file_bytes.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/files/exr_attributes.h"
 #include "fathom/image/files/exr_streams.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/file_bytes.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom {
 using namespace image;
-using namespace text;
+using namespace files;
 
 namespace {
 

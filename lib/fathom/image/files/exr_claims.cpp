@@ -4,15 +4,15 @@
 #include <string_view>
 #include <vector>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/byte_order.h"
 #include "fathom/image/files/map_codecs.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/byte_order.h"
 
 /// Checks what an OpenEXR header claims against the size of the file, before OpenEXR, which
 /// allocates by those claims, sees it.
 /// Source   [OpenEXR] for the layout.
 namespace fathom::image {
-using namespace text;
+using namespace files;
 
 namespace {
 

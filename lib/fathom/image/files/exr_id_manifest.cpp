@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <new>
 
+#include "fathom/files/byte_order.h"
 #include "fathom/image/files/exr_streams.h"
-#include "fathom/text/byte_order.h"
 
 namespace fathom::image {
 namespace {
@@ -35,7 +35,7 @@ std::vector<char> serialized(const std::vector<NamedChannel>& channels) {
 Imf::OpaqueAttribute id_manifest(const std::vector<NamedChannel>& channels) {
   const std::vector<char> plain = serialized(channels);
   uLongf size = ::compressBound(plain.size());
-  text::Bytes value(sizeof(std::uint64_t) + size);
+  files::Bytes value(sizeof(std::uint64_t) + size);
   store(value.data(), std::uint64_t{plain.size()}, std::endian::little);
   if (::compress(reinterpret_cast<Bytef*>(value.data() + sizeof(std::uint64_t)), &size,
                  reinterpret_cast<const Bytef*>(plain.data()), plain.size()) != Z_OK) {

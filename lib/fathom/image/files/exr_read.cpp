@@ -3,14 +3,14 @@
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/files/exr_attributes.h"
 #include "fathom/image/files/exr_streams.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/map_memory.h"
-#include "fathom/numeric/errors.h"
 
 namespace fathom::image {
-using namespace text;
+using namespace files;
 
 namespace {
 

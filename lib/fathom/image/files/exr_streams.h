@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "fathom/text/byte_order.h"
-#include "fathom/text/file_bytes.h"
+#include "fathom/files/byte_order.h"
+#include "fathom/files/file_bytes.h"
 
 namespace fathom::image {
 
@@ -17,7 +17,7 @@ namespace fathom::image {
 /// sees the letter X, whatever is there.
 class ByteInput : public Imf::IStream {
  public:
-  ByteInput(text::ByteView bytes, const std::string& name, std::vector<std::size_t> defused)
+  ByteInput(files::ByteView bytes, const std::string& name, std::vector<std::size_t> defused)
       : IStream(name.c_str()), bytes_(bytes), defused_(std::move(defused)) {}
 
   bool read(char to[], int count) override {
@@ -37,7 +37,7 @@ class ByteInput : public Imf::IStream {
   }
 
  private:
-  text::ByteView bytes_;
+  files::ByteView bytes_;
   std::vector<std::size_t> defused_;
   std::size_t position_ = 0;
 };
@@ -70,10 +70,10 @@ class ByteOutput : public Imf::OStream {
     }
   }
 
-  [[nodiscard]] text::Bytes take() { return std::move(bytes_); }
+  [[nodiscard]] files::Bytes take() { return std::move(bytes_); }
 
  private:
-  text::Bytes bytes_;
+  files::Bytes bytes_;
   std::size_t position_ = 0, end_of_table_ = 0;
 };
 

@@ -8,16 +8,16 @@
 #include <thread>
 #include <vector>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/exr_bands.h"
 #include "fathom/image/files/exr_attributes.h"
 #include "fathom/image/files/exr_streams.h"
 #include "fathom/image/files/exr_zip.h"
 #include "fathom/image/files/map_codecs.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::image {
-using namespace text;
+using namespace files;
 
 namespace {
 
@@ -156,16 +156,16 @@ std::optional<std::uint32_t> rows_of_exr_chunk(Compression compression) {
   return rows_of_a_chunk(compression);
 }
 
-text::Bytes exr_beginning(const DepthMap& band, std::uint32_t height, Compression compression,
-                          const std::string& name) {
+files::Bytes exr_beginning(const DepthMap& band, std::uint32_t height, Compression compression,
+                           const std::string& name) {
   const StandardArithmetic standard;
   require_size(MapFormat::exr, band.width, height, name);
   return as_output_error(
       name, [&] { return header_bytes(layout_of(band, height, compression, name).header, name); });
 }
 
-std::vector<text::Bytes> exr_chunks(const DepthMap& band, Compression compression, int threads,
-                                    const std::string& name) {
+std::vector<files::Bytes> exr_chunks(const DepthMap& band, Compression compression, int threads,
+                                     const std::string& name) {
   const StandardArithmetic standard;
   Imf::FrameBuffer pixels;  // sorts channels as the file does
   for (const ImageChannel& channel : band.channels) {

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <vector>
 
+#include "fathom/files/byte_order.h"
 #include "fathom/image/files/compressor.h"
-#include "fathom/text/byte_order.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
 
@@ -16,7 +16,7 @@ static_assert(std::endian::native == std::endian::little,
               "EXR has its numbers as they are in memory");
 
 namespace fathom::image {
-using namespace text;
+using namespace files;
 
 namespace {
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/byte_order.h"
 #include "fathom/image/background.h"
 #include "fathom/image/files/compressor.h"
 #include "fathom/image/files/map_codecs.h"
@@ -13,8 +15,6 @@
 #include "fathom/image/files/tiff_directory.h"
 #include "fathom/image/pixel_place.h"
 #include "fathom/image/surface.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/byte_order.h"
 #include "fathom/text/version.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
@@ -29,6 +29,7 @@
 /// What no surface is has one value in all bands, as GDAL knows one for each file: the background that
 /// the map names, or NaN. Only quantities, as A, have 0 there, which is a value of theirs.
 namespace fathom::image {
+using namespace files;
 using namespace text;
 
 namespace {

@@ -4,53 +4,53 @@
 #include <string>
 #include <vector>
 
+#include "fathom/files/file_bytes.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/image/map_files.h"
-#include "fathom/text/file_bytes.h"
 
 /// The formats as pure functions between maps and bytes, for map_files.cpp, tests and fuzzers.
 /// `name` is the file's name for messages. PFM, NPY and COLMAP's take as much as their files; the others may
 /// take many times that, within `memory`. Decoders throw InputError, encoders OutputError.
 namespace fathom::image {
 
-text::Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
-                       const std::string& name);
+files::Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
+                        const std::string& name);
 /// As memory_to_encode().
 double memory_to_encode_exr(Compression compression, std::uint32_t height, double bytes_of_map);
-DepthMap decode_exr(text::ByteView bytes, const std::string& name, const MapMemory& memory = {});
+DepthMap decode_exr(files::ByteView bytes, const std::string& name, const MapMemory& memory = {});
 
-text::Bytes encode_pfm(const DepthMap& map, const ImageChannel& channel, const std::string& name);
-DepthMap decode_pfm(text::ByteView bytes, const std::string& name);
+files::Bytes encode_pfm(const DepthMap& map, const ImageChannel& channel, const std::string& name);
+DepthMap decode_pfm(files::ByteView bytes, const std::string& name);
 
-text::Bytes encode_png(const DepthMap& map, const ImageChannel& channel, const std::string& name);
-DepthMap decode_png(text::ByteView bytes, const std::string& name, const MapMemory& memory = {});
+files::Bytes encode_png(const DepthMap& map, const ImageChannel& channel, const std::string& name);
+DepthMap decode_png(files::ByteView bytes, const std::string& name, const MapMemory& memory = {});
 
 /// One channel, or several of one type as the parts of a pixel.
-text::Bytes encode_npy(const DepthMap& map, const std::vector<const ImageChannel*>& channels,
-                       const std::string& name);
-DepthMap decode_npy(text::ByteView bytes, const std::string& name);
+files::Bytes encode_npy(const DepthMap& map, const std::vector<const ImageChannel*>& channels,
+                        const std::string& name);
+DepthMap decode_npy(files::ByteView bytes, const std::string& name);
 
-text::Bytes encode_npz(const DepthMap& map, const std::string& name);
-DepthMap decode_npz(text::ByteView bytes, const std::string& name, const MapMemory& memory = {});
+files::Bytes encode_npz(const DepthMap& map, const std::string& name);
+DepthMap decode_npz(files::ByteView bytes, const std::string& name, const MapMemory& memory = {});
 /// What decode_npy() makes of one of its arrays; without a name, of the only one.
-DepthMap decode_npz_array(text::ByteView bytes, const std::string& array, const std::string& name,
+DepthMap decode_npz_array(files::ByteView bytes, const std::string& array, const std::string& name,
                           const MapMemory& memory);
 
 /// One channel, Z, or the three of Nc.
-text::Bytes encode_colmap(const DepthMap& map, const std::vector<const ImageChannel*>& channels,
-                          const std::string& name);
-DepthMap decode_colmap(text::ByteView bytes, const std::string& name);
+files::Bytes encode_colmap(const DepthMap& map, const std::vector<const ImageChannel*>& channels,
+                           const std::string& name);
+DepthMap decode_colmap(files::ByteView bytes, const std::string& name);
 
 /// Fails    OutputError where the map has no world_from_image, or a channel does not fit.
-text::Bytes encode_geotiff(const DepthMap& map, int threads, const std::string& name);
+files::Bytes encode_geotiff(const DepthMap& map, int threads, const std::string& name);
 
 /// Recognises the format by the first bytes and decodes.
-DepthMap decode_map(text::ByteView bytes, const std::string& name, const MapMemory& memory = {});
+DepthMap decode_map(files::ByteView bytes, const std::string& name, const MapMemory& memory = {});
 
 /// Fails    InputError if an OpenEXR file's header (its first part) claims more than the file can
 ///          hold, is not that of a plain image, or cannot be followed. See exr_claims.cpp.
 /// Returns the positions of attribute types that OpenEXR must not interpret (see ByteInput).
-std::vector<std::size_t> check_exr_claims(text::ByteView bytes, const std::string& name);
+std::vector<std::size_t> check_exr_claims(files::ByteView bytes, const std::string& name);
 
 /// Greatest ratio of image bytes to file bytes that DEFLATE reaches (1032:1, [zlib]), doubled so as
 /// not to depend on the last detail.

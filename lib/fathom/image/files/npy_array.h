@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "fathom/files/file_bytes.h"
 #include "fathom/image/depth_map.h"
-#include "fathom/text/file_bytes.h"
 
 /// Single arrays of NPY, which are also the members of an NPZ. `name` is for messages. What reads
 /// fails with InputError.
@@ -21,16 +21,16 @@ struct ImageSize {
 std::vector<const ImageChannel*> parts_of(const DepthMap& map, const std::string& name);
 
 /// An array of shape (height, width) or, for several channels of one type, (height, width, parts).
-text::Bytes npy_of_channels(const ImageSize& size,
-                            const std::vector<const ImageChannel*>& channels);
+files::Bytes npy_of_channels(const ImageSize& size,
+                             const std::vector<const ImageChannel*>& channels);
 /// The channel of this name that an array holds, or its parts (names as in parts_of()).
-std::vector<ImageChannel> channels_of_npy(text::ByteView bytes, const std::string& channel,
+std::vector<ImageChannel> channels_of_npy(files::ByteView bytes, const std::string& channel,
                                           ImageSize& size, const std::string& name);
 /// Whether an array has the type and the dimensions of a channel.
-bool is_image_array(text::ByteView bytes, const std::string& name);
+bool is_image_array(files::ByteView bytes, const std::string& name);
 
 /// A single text, an array without dimensions: numpy's bytes.
-text::Bytes npy_of_text(const std::string& text);
-std::string text_of_array(text::ByteView bytes, const std::string& name);
+files::Bytes npy_of_text(const std::string& text);
+std::string text_of_array(files::ByteView bytes, const std::string& name);
 
 }  // namespace fathom::image

@@ -2,18 +2,19 @@
 #include <charconv>
 #include <string_view>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/byte_order.h"
 #include "fathom/image/channel_table.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/npy_array.h"
 #include "fathom/numeric/binary16.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/byte_order.h"
 #include "fathom/text/counted.h"
 
 /// NPY ([Ker07]): "\x93NUMPY", version, length of the header, a Python dictionary of descr,
 /// fortran_order and shape, then the values. A channel has the shape (height, width); channels that
 /// are the parts of one (N.X, N.Y, N.Z) have (height, width, parts).
 namespace fathom::image {
+using namespace files;
 using namespace text;
 
 namespace {

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <set>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/name_tables.h"
 #include "fathom/image/files/npy_array.h"
 #include "fathom/image/files/zip_archive.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/text/json_text.h"
 #include "fathom/text/json_value.h"
 #include "fathom/text/printable.h"
@@ -17,6 +17,7 @@
 /// of one, for them together. The array `fathom` is a text, the JSON object of the map's texts:
 /// json.loads(numpy.load("map.npz")["fathom"].item()).
 namespace fathom::image {
+using namespace files;
 using namespace text;
 
 namespace {

@@ -2,17 +2,17 @@
 #include <cmath>
 #include <string_view>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/byte_order.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/raw_pixels.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/byte_order.h"
 
 /// PFM ([Netpbm]): "Pf" or "PF", width, height and scale, one white space after each, then binary32
 /// rows from the bottom up. A negative scale means little endian. The scale's magnitude is a unit
 /// that most readers ignore: it is not applied, so that the values keep their bits; if it is not 1,
 /// it is kept as the text `pfm.scale`.
 namespace fathom::image {
-using namespace text;
+using namespace files;
 
 namespace {
 

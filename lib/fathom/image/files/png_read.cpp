@@ -7,17 +7,17 @@
 #include <iterator>
 #include <new>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/byte_order.h"
 #include "fathom/image/channel_table.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/map_memory.h"
 #include "fathom/image/files/name_tables.h"
 #include "fathom/image/files/png_stream.h"
 #include "fathom/image/png_chunks.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/byte_order.h"
 
 namespace fathom::image {
-using namespace text;
+using namespace files;
 
 void png_fail(png_structp png, png_const_charp reason) {
   auto* failure = static_cast<PngFailure*>(png_get_error_ptr(png));

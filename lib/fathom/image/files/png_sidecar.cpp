@@ -2,8 +2,8 @@
 
 #include <charconv>
 
+#include "fathom/failures/errors.h"
 #include "fathom/image/missing_channel.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/json_text.h"
 

@@ -2,7 +2,7 @@
 
 #include <png.h>
 
-#include "fathom/text/file_bytes.h"
+#include "fathom/files/file_bytes.h"
 
 /// libpng without longjmp over C++ objects: whoever calls libpng keeps everything with a destructor
 /// in a struct outside the function that calls setjmp.

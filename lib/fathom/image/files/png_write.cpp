@@ -4,6 +4,8 @@
 #include <new>
 #include <utility>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/byte_order.h"
 #include "fathom/image/channel_table.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/name_tables.h"
@@ -11,11 +13,10 @@
 #include "fathom/image/mask_picture.h"
 #include "fathom/image/rgb_image.h"
 #include "fathom/image/surface.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/byte_order.h"
 #include "fathom/text/version.h"
 
 namespace fathom::image {
+using namespace files;
 using namespace text;
 
 namespace {
@@ -182,7 +183,7 @@ void write_png(const RgbImage& image, const std::filesystem::path& path) {
   const auto bytes = std::as_bytes(std::span(image.pixels));
   picture.pixels.assign(bytes.begin(), bytes.end());
   picture.texts = {{"Software", text::software_in_outputs()}};
-  text::write_file(path, image::encode(picture, path.string()));
+  files::write_file(path, image::encode(picture, path.string()));
 }
 
 std::vector<std::byte> encode_mask(std::span<const std::uint8_t> mask, std::uint32_t width,
@@ -203,7 +204,7 @@ std::vector<std::byte> encode_mask(std::span<const std::uint8_t> mask, std::uint
 
 void write_mask(std::span<const std::uint8_t> mask, std::uint32_t width, std::uint32_t height,
                 const std::filesystem::path& path) {
-  text::write_file(path, encode_mask(mask, width, height, path.string()));
+  files::write_file(path, encode_mask(mask, width, height, path.string()));
 }
 
 }  // namespace fathom

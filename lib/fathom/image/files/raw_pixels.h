@@ -3,15 +3,15 @@
 #include <cstdint>
 #include <string>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/file_bytes.h"
 #include "fathom/text/counted.h"
-#include "fathom/text/file_bytes.h"
 
 namespace fathom::image {
 
 /// Refuses what follows the header of a file, a "PFM file", unless it is as long as its pixels.
 /// Fails    InputError.
-inline void require_raw_pixels(text::ByteView data, std::uint32_t width, std::uint32_t height,
+inline void require_raw_pixels(files::ByteView data, std::uint32_t width, std::uint32_t height,
                                std::size_t pixel_bytes, const std::string& file,
                                const std::string& name) {
   const std::uint64_t pixels = std::uint64_t{width} * height;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "fathom/text/byte_order.h"
+#include "fathom/files/byte_order.h"
 
 namespace fathom::image {
-using namespace text;
+using namespace files;
 
 namespace {
 

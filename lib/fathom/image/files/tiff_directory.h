@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/text/file_bytes.h"
+#include "fathom/files/file_bytes.h"
 
 /// The directory of a little-endian TIFF: what there is to know of its image, as tagged values
 /// ([TIFF92], section 2). Not its task: what the tags mean.
@@ -24,13 +24,13 @@ class TiffDirectory {
 
   /// The directory as it lies at `at`, with the values that do not fit into its entries behind it;
   /// another directory does not follow. Its length depends on the number of values alone.
-  [[nodiscard]] text::Bytes encoded_at(std::uint32_t at) const;
+  [[nodiscard]] files::Bytes encoded_at(std::uint32_t at) const;
 
  private:
   struct Entry {
     std::uint16_t tag, type;
     std::uint32_t count;
-    text::Bytes values;
+    files::Bytes values;
   };
   template <class T>
   void add(std::uint16_t tag, std::uint16_t type, std::span<const T> values);

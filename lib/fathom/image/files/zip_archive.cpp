@@ -8,15 +8,15 @@
 #include <optional>
 #include <utility>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/byte_order.h"
 #include "fathom/image/files/map_codecs.h"
-#include "fathom/numeric/errors.h"
-#include "fathom/text/byte_order.h"
 
 /// [ZIP]: for each file a local header, its name and its bytes; then the directory, which says all of
 /// it again with the places of the local headers; last, where the directory begins. All numbers are
 /// little endian.
 namespace fathom::image {
-using namespace text;
+using namespace files;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fathom/text/file_bytes.h"
+#include "fathom/files/file_bytes.h"
 
 /// Archives of the ZIP format ([ZIP]), as far as NPZ needs them: written without compression, read
 /// with or without DEFLATE; not encrypted, split or beyond 4 GiB (ZIP64).
@@ -17,15 +17,15 @@ class ZipWriter {
   /// `name` is the archive's, for messages.
   explicit ZipWriter(std::string name) : name_(std::move(name)) {}
   /// Fails    OutputError if the archive would reach 4 GiB, or have more than 65534 files.
-  void add(const std::string& file, text::ByteView content);
+  void add(const std::string& file, files::ByteView content);
   /// The archive. Nothing can be added after that.
-  text::Bytes take();
+  files::Bytes take();
 
  private:
   void require_space(std::size_t more) const;
 
   std::string name_;
-  text::Bytes bytes_, directory_;
+  files::Bytes bytes_, directory_;
   std::size_t files_ = 0;
 };
 
@@ -34,17 +34,17 @@ struct ZipEntry {
   std::string name;
   bool deflated = false;
   std::uint32_t crc = 0;
-  text::ByteView stored;
+  files::ByteView stored;
   /// Unpacked, in bytes: what is stored, or no more than DEFLATE can make of it.
   std::size_t size = 0;
 };
 
 /// The directory of an archive, checked against the archive; nothing is unpacked.
 /// Fails    InputError "NAME: corrupt or truncated ZIP archive: …".
-std::vector<ZipEntry> read_zip_directory(text::ByteView bytes, const std::string& name);
+std::vector<ZipEntry> read_zip_directory(files::ByteView bytes, const std::string& name);
 
 /// The content of a file, in the archive itself or in `room`.
 /// Fails    InputError if it is not as long as the directory says, or its checksum differs.
-text::ByteView unpack(const ZipEntry& entry, text::Bytes& room, const std::string& name);
+files::ByteView unpack(const ZipEntry& entry, files::Bytes& room, const std::string& name);
 
 }  // namespace fathom::image

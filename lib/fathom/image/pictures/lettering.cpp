@@ -8,7 +8,7 @@
 #include <cstring>
 #include <new>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::image {
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "fathom/failures/errors.h"
 #include "fathom/mesh/mesh_faces.h"
-#include "fathom/numeric/errors.h"
 
 namespace fathom::mesh_files::formats_program {
 namespace {

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "fathom/failures/warnings.h"
 #include "fathom/mesh/mesh.h"
 #include "fathom/mesh_files/expansion_budget.h"
 #include "fathom/mesh_files/formats_program/messages.h"
-#include "fathom/text/warnings.h"
 
 /// Meshes as fathom-formats describes them, made into ours. Nothing that it says is trusted.
 namespace fathom::mesh_files::formats_program {

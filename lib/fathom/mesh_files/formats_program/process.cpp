@@ -13,7 +13,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::mesh_files::formats_program {
 namespace {

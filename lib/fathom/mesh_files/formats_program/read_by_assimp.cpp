@@ -3,13 +3,13 @@
 #include <cmath>
 #include <map>
 
+#include "fathom/failures/errors.h"
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/mesh_files/foreign_formats.h"
 #include "fathom/mesh_files/formats_program/foreign_mesh.h"
 #include "fathom/mesh_files/formats_program/process.h"
 #include "fathom/mesh_files/formats_program/reasons.h"
 #include "fathom/numeric/certified.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::mesh_files {

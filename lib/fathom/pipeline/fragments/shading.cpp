@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/failures/errors.h"
 #include "fathom/geometry/eigen_arrays.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/pipeline/geometry/primitive_assembly.h"
 
 namespace fathom::pipeline {

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <optional>
 
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/image/pixel_place.h"
 #include "fathom/image/png_chunks.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/text/counted.h"
-#include "fathom/text/input_file.h"
 #include "fathom/threads/interruption.h"
 
 namespace fathom::pipeline {
@@ -210,7 +210,7 @@ RgbImage read_rgb_png(const std::filesystem::path& path) {
   const std::string name = path.string();
   if (!std::filesystem::exists(path))
     throw InputError(name + ": does not exist; a texture is a PNG file or 'checker'");
-  return decode_rgb_png(text::InputFile(path).bytes(), name);
+  return decode_rgb_png(files::InputFile(path).bytes(), name);
 }
 
 }  // namespace fathom::pipeline

@@ -6,8 +6,8 @@
 #include <list>
 #include <utility>
 
+#include "fathom/failures/errors.h"
 #include "fathom/geometry/eigen_arrays.h"
-#include "fathom/numeric/errors.h"
 #include "fathom/pipeline/geometry/plane_sides.h"
 #include "fathom/threads/interruption.h"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/failures/errors.h"
 #include "fathom/geometry/eigen_arrays.h"
-#include "fathom/numeric/errors.h"
 
 namespace fathom::pipeline {
 namespace {

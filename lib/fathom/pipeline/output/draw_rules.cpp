@@ -1,6 +1,6 @@
 #include "fathom/pipeline/output/draw_rules.h"
 
-#include "fathom/numeric/errors.h"
+#include "fathom/failures/errors.h"
 #include "fathom/pipeline/geometry/vertex_transform.h"
 #include "fathom/text/printable.h"
 

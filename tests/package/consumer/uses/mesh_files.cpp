@@ -1,5 +1,5 @@
+#include <fathom/failures/errors.h>
 #include <fathom/mesh_files/triangle_stream.h>
-#include <fathom/numeric/errors.h>
 
 bool use_mesh_files() {
   fathom::Warnings warnings;

@@ -1,0 +1,83 @@
+#include "fathom/failures/unknown_name.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace fathom {
+namespace {
+
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+bool differ_by_case_alone(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return lower(x) == lower(y); });
+}
+
+/// Optimal string alignment: the least number of letters to insert, remove, replace, or exchange
+/// with their neighbour, where no letter is touched twice.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  const std::size_t columns = b.size() + 1;
+  std::vector<std::size_t> table((a.size() + 1) * columns);
+  const auto at = [&](std::size_t i, std::size_t j) -> std::size_t& {
+    return table[i * columns + j];
+  };
+  for (std::size_t i = 0; i <= a.size(); ++i) {
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      if (i == 0 || j == 0) {
+        at(i, j) = i + j;
+        continue;
+      }
+      const std::size_t replaced = at(i - 1, j - 1) + (a[i - 1] == b[j - 1] ? 0 : 1);
+      at(i, j) = std::min({at(i - 1, j) + 1, at(i, j - 1) + 1, replaced});
+      const bool exchanged = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (exchanged) at(i, j) = std::min(at(i, j), at(i - 2, j - 2) + 1);
+    }
+  }
+  return table.back();
+}
+
+/// How far a misspelling may lie from a name. A name of which nothing remains is not meant.
+std::size_t reach(std::string_view name) {
+  if (name.size() < 2) return 0;
+  return name.size() < 6 ? 1 : 2;
+}
+
+}  // namespace
+
+std::vector<std::string> nearest_names(std::string_view name,
+                                       const std::vector<std::string>& names) {
+  std::vector<std::string> nearest;
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  for (const std::string& each : names) {
+    const std::size_t distance = differ_by_case_alone(name, each) ? 0 : edit_distance(name, each);
+    if (distance > reach(each) || distance > least) continue;
+    if (distance < least) nearest.clear();
+    least = distance;
+    nearest.push_back(each);
+  }
+  return nearest;
+}
+
+std::string did_you_mean(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names)
+    text += (text.empty() ? "did you mean '" : " or '") + name + "'";
+  return text.empty() ? text : text + "?";
+}
+
+std::string suggestion(std::string_view name, const std::vector<std::string>& names) {
+  const std::string text = did_you_mean(nearest_names(name, names));
+  return text.empty() ? text : "; " + text;
+}
+
+UnknownName::UnknownName(const std::string& message, std::string name,
+                         std::vector<std::string> names)
+    : UsageError(message + suggestion(name, names)),
+      name_(std::move(name)),
+      names_(std::move(names)) {}
+
+}  // namespace fathom

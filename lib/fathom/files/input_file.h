@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fathom/files/confinement.h"
+#include "fathom/files/descriptor.h"
+#include "fathom/files/file_state.h"
+#include "fathom/files/mapped_file.h"
+
+namespace fathom::files {
+
+/// As many bytes are read from what is no regular file: a pipe, standard input, a file of /proc.
+/// These do not say how large they are, and some have no end.
+inline constexpr std::uint64_t largest_unsized_input = std::uint64_t{1} << 30;
+
+/// The bytes of an input file, or of standard input if the path is "-".
+///
+/// They are read into memory, up to their end: bytes that have been read cannot be taken away. A
+/// program that handles the signal SIGBUS may have large regular files mapped instead, so that they
+/// take no memory of ours (see MappedFile).
+class InputFile {
+ public:
+  enum class Reading { copied, mapped_where_large };
+
+  /// Fails    InputError "PATH: why": missing, not readable, a directory, a device other than what
+  ///          standard input is, cut short while it is read, or more than largest_unsized_input from
+  ///          what is no regular file.
+  explicit InputFile(const std::filesystem::path& path, Reading reading = Reading::copied);
+  /// A file that another file names; "-" is an ordinary name. Fails    as open_confined().
+  InputFile(const std::filesystem::path& path, const std::vector<Boundary>& boundaries,
+            Reading reading = Reading::copied);
+  /// Bytes that are there already; they must outlive this.
+  explicit InputFile(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+  [[nodiscard]] std::string_view text() const {
+    return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
+  }
+
+  /// For what has been made of the bytes: whether they were those of one state of the file.
+  /// Fails    InputError where a regular file was written to while it was read or, if it is mapped,
+  ///          since. (A mapped file that is cut within its last page ends in zeros, without a signal.)
+  void expect_unchanged() const;
+
+ private:
+  struct Free {
+    void operator()(std::byte* bytes) const { std::free(bytes); }
+  };
+
+  void take(Descriptor file, Reading reading);
+  /// Makes the buffer larger or smaller; what it holds stays.
+  void resize(std::size_t capacity);
+  void read(int descriptor, std::uint64_t size);
+
+  std::string name_;
+  std::span<const std::byte> bytes_;
+  std::unique_ptr<std::byte, Free> buffer_;
+  MappedFile mapped_;
+  /// A mapped file, to ask for its state.
+  Descriptor file_;
+  /// States of a regular file: when it was opened, and when it had been read.
+  FileState opened_, read_;
+};
+
+/// The folder in which an input looks for the files that it names: its own; for standard input or a
+/// pipe, which lie in none, the working directory.
+std::filesystem::path folder_of_input(const std::filesystem::path& path);
+
+}  // namespace fathom::files
