@@ -11,8 +11,7 @@
 from . import pipeline
 from ._core import Error, InputError, OutputError, UsageError
 from ._core import version as __version__
-from ._importing import ViewWarning
-from ._render import render
+from ._warnings import ViewWarning
 from .camera import Camera, read_cameras, write_cameras
 from .clipping import clip
 from .deep import DeepMap, render_deep
@@ -21,6 +20,7 @@ from .evaluation import evaluate
 from .lens import Lens
 from .maps import NO_SEGMENT, NO_SURFACE, Map, compare, read_map
 from .questions import probe, verify, visible
+from .rendering import render
 from .scanning import scan
 from .scene import Scene
 from .validation import Validation, validate

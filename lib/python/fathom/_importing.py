@@ -6,7 +6,6 @@ All conventions are in docs/data-sets.md and docs/conventions.md.
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Literal, Protocol, TypeVar
 
@@ -25,6 +24,7 @@ from ._arguments import (
     takes_pixel_centre,
 )
 from ._files import Path, path_of
+from ._warnings import warn
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -37,14 +37,6 @@ if TYPE_CHECKING:
 
     #: fathom.Camera, which builds on this module.
     Camera = TypeVar("Camera", bound=Imported)
-
-
-class ViewWarning(UserWarning):
-    """A suspicious view: the camera probably does not see the scene as intended.
-
-    `warnings.simplefilter("error", fathom.ViewWarning)` makes it an exception; "ignore" silences
-    it.
-    """
 
 
 def from_colmap(
@@ -164,7 +156,7 @@ def from_matrices(
         one_of("axes", axes, ("opencv", "opengl")) == "opengl",
         as_number("pixel_centre", pixel_centre),
         *as_size(size),
-    ), stacklevel=4)
+    ))
 
 
 def from_tum(
@@ -310,11 +302,8 @@ def _fault_of_frame(camera: _core.Camera, size: tuple[int, int] | Literal[False]
     return ""
 
 
-def _named(
-    cls: type[Camera], imported: tuple[_core.Named, list[str]], stacklevel: int = 3
-) -> dict[str, Camera]:
-    """Cameras of a class; `stacklevel` is that of the caller whom warnings are for."""
+def _named(cls: type[Camera], imported: tuple[_core.Named, list[str]]) -> dict[str, Camera]:
+    """Cameras of a class, with a warning for each note."""
     cameras, notes = imported
-    for note in notes:
-        warnings.warn(note, ViewWarning, stacklevel=stacklevel)
+    warn(notes)
     return {name: cls._of(camera) for name, camera in cameras}

@@ -1,18 +1,16 @@
-"""Rendering, and what is asked of its options."""
+"""Rendering into arrays, with checks of its options."""
 
 from __future__ import annotations
 
 import math
 import os
-import warnings
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal, Union, cast
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
 
 import numpy as np
 
 from . import _core
 from ._arguments import (
-    as_array,
     as_number,
     as_threads,
     camera_handle,
@@ -21,26 +19,38 @@ from ._arguments import (
     in_words,
     no_camera,
     one_of,
-    require_one_matrix,
-    scene_handle,
-    takes_pixel_centre,
 )
-from ._importing import ViewWarning
 from .camera import Camera
-from .maps import Map, rendered
 
 if TYPE_CHECKING:
     import numpy.typing as npt
-
-    from .scene import Scene
 
 Cull = Literal["none", "back", "front"]
 Background = Union[float, Literal["inf", "nan"]]
 Normals = Literal["file", "vertex", "place"]
 normal_sources = ("file", "vertex", "place")
 
+#: The channels that fathom renders: the letters of their parts, and their type, or "" for the one
+#: that is asked for.
+rendered = _core.channels()
+
+
+class Rendered(NamedTuple):
+    """The arrays of a map, or of a stack of maps."""
+
+    arrays: dict[str, npt.NDArray[Any]]
+    #: Each camera, with the description of its map.
+    views: list[tuple[Camera, _core.Map]]
+    #: Whether a sequence of cameras was given.
+    is_stack: bool
+    #: The value for pixels without a surface; None if the arrays already contain it.
+    background: float | None
+    #: Suspicious views.
+    notes: list[str]
+
+
 def render_cameras(
-    scene: Scene,
+    scene: _core.Scene,
     camera: Camera | Sequence[Camera],
     channels: Sequence[str],
     cull: str,
@@ -50,10 +60,8 @@ def render_cameras(
     engine: str,
     threads: int,
     normals: str,
-    out: Mapping[str, npt.NDArray[Any]] | None = None,
-    stacklevel: int = 3,
-) -> Map:
-    """`stacklevel` is that of the caller whom warnings are for."""
+    out: Mapping[str, npt.NDArray[Any]] | None,
+) -> Rendered:
     names = channel_names(channels)
     stored = stored_type(dtype)
     options = _core.RenderOptions(
@@ -66,32 +74,21 @@ def render_cameras(
         one_of("normals", normals, normal_sources),
     )
     nothing = background_value(background, stored)
-    single = isinstance(camera, Camera)
+    is_stack = not isinstance(camera, Camera)
     cameras = [camera] if isinstance(camera, Camera) else list_of_cameras(camera)
     require_room(cameras, names, stored)
     width, height = cameras[0].size
-    handle = scene_handle(scene)
-    arrays = room_for(names, stored, (height, width) if single else (len(cameras), height, width), out)
+    shape = (len(cameras), height, width) if is_stack else (height, width)
+    arrays = room_for(names, stored, shape, out)
     if out is not None:
-        check_apart(handle, arrays)
-    handles = [camera_handle(each) for each in cameras]
-    try:
-        if single:
-            description, notes = _core.render_one(handle, handles[0], options, list(arrays.values()))
-            result = Map(arrays, cameras[0], description)
-        else:
-            descriptions, notes = _core.render_stack(handle, handles, options, list(arrays.values()))
-            result = Map(arrays, _views=list(zip(cameras, descriptions)))
-            result._description.png_scale = descriptions[0].png_scale
-            result._description.tables = descriptions[0].tables
-    except _core.InputError:
-        scene._check()
-        raise
-    if nothing is not None:
-        result._set_background(nothing)
-    for note in notes:
-        warnings.warn(note, ViewWarning, stacklevel=stacklevel)
-    return result
+        check_apart(scene, arrays)
+    handles, places = [camera_handle(each) for each in cameras], list(arrays.values())
+    if is_stack:
+        descriptions, notes = _core.render_stack(scene, handles, options, places)
+    else:
+        description, notes = _core.render_one(scene, handles[0], options, places)
+        descriptions = [description]
+    return Rendered(arrays, list(zip(cameras, descriptions)), is_stack, nothing, notes)
 
 
 def room_for(
@@ -216,97 +213,3 @@ def require_room(cameras: list[Camera], names: list[str], stored: str) -> None:
     if needed > 2.0**28:  # to ask what there is takes longer than a small map
         maps = "" if len(cameras) == 1 else f"{len(cameras)} maps of "
         _core.require_bytes(f"{maps}{in_pixels(cameras[0].size)} pixels", needed)
-
-
-@takes_pixel_centre
-def render(
-    vertices: npt.ArrayLike,
-    faces: npt.ArrayLike,
-    K: npt.ArrayLike,
-    T: npt.ArrayLike,
-    size: Sequence[int],
-    *,
-    pixel_centre: float,
-    channels: Sequence[str] = ("Z",),
-    near: float = 0,
-    far: float = math.inf,
-    cull: Cull = "none",
-    dtype: npt.DTypeLike = "float32",
-    scale: float = 1000,
-    background: Background = math.inf,
-    normals: Normals = "file",
-    threads: int = 0,
-    out: Mapping[str, npt.NDArray[Any]] | None = None,
-) -> Map:
-    """Renders the exact depth map of a mesh: every value is the exact number, rounded once.
-
-    vertices      N×3, float64 or float32, in the world
-    faces         M×3 triangles; integers of any type, numbers of vertices from 0
-    K             3×3, fx skew cx / 0 fy cy / 0 0 1, in pixels; or a stack of n, n×3×3
-    T             4×4 or 3×4, world to camera, x right, y down, z forward (OpenCV); or a stack of n
-    size          (width, height) in pixels
-    pixel_centre  the image coordinate of the first pixel's centre, as K counts: 0.5 (COLMAP, OpenGL) or 0 (OpenCV,
-                  BOP). There is no default: half a pixel is the error that is made most often.
-    channels      what to render, ("Z", "id") or "Z,id": Z (planar depth), A (coverage), Zlow (exact depth minus Z), distance (along the ray),
-                  id, face, object (numbers of what is visible; NO_SURFACE where nothing is), material, group, part
-                  and label (of a Scene; NO_SEGMENT where what is visible has none), N (normal) and P (position), both
-                  in the world, bary (weights of a triangle's second and third corner), Nc (normal in the camera
-                  frame), Ns (the corners' normals interpolated, in the world)
-    near, far     the range of planar depth that counts, in scene units
-    cull          "back" or "front" leaves out triangles that face so
-    dtype         of Z and distance: float32, float64, or uint16 for codes round(scale · depth), 0 for no surface
-    background    what Z and distance have where there is no surface (and where a depth is beyond the greatest number
-                  of the type): inf, nan, 0 or any other number
-    normals       of Ns: "file" (where there are none, as "vertex"), "vertex": sums over the triangles at each vertex,
-                  weighted by area, or "place": over those at all vertices that lie at one place
-    threads       to work in; 0: all. Results never depend on it.
-    out           arrays to write to, by channel, such as an earlier call has returned: saves the time in which the
-                  system provides memory. They must fit, and are what is returned.
-
-    Returns a dict: H×W arrays by the names of channels, H×W×3 for N, P, Nc and Ns, H×W×2 for bary; with n cameras, n of
-    each, n×H×W(×3). Arrays of vertices and faces that fit (see Scene.add_mesh()) are not copied. Other Python threads run
-    meanwhile, and Ctrl-C ends it.
-
-    Warns (ViewWarning) of what is probably not meant: nothing in front of the camera, a matrix from camera to world, one
-    that is no rotation, a principal point far from the middle, an eye inside a solid, metres beside millimetres.
-
-    Raises TypeError, ValueError or IndexError, which name the argument; MemoryError; OutputError where a depth has no
-    code.
-
-    >>> corners = np.array([(-1, -1, 4), (1, -1, 4), (0, 1, 4)], float)
-    >>> K = np.array([[4, 0, 2], [0, 4, 2], [0, 0, 1]], float)
-    >>> render(corners, [(0, 1, 2)], K, np.eye(4), (4, 4), pixel_centre=0.5)["Z"]
-    array([[inf, inf, inf, inf],
-           [inf,  4.,  4., inf],
-           [inf, inf, inf, inf],
-           [inf, inf, inf, inf]], dtype=float32)
-    """
-    from .scene import Scene
-
-    scene = Scene()
-    scene.add_mesh(vertices, faces)
-    cameras = cameras_of(K, T, size, pixel_centre, near, far)
-    return render_cameras(scene, cameras, channels, cull, dtype, scale, background, "fast", threads, normals, out,
-                          stacklevel=4)
-
-
-def cameras_of(
-    K: npt.ArrayLike, T: npt.ArrayLike, size: Sequence[int], pixel_centre: float, near: float, far: float
-) -> Camera | list[Camera]:
-    """One camera, or as many as K or T is a stack of; the other one may be a single matrix for all."""
-    require_one_matrix("T", T)
-    intrinsics, poses = as_array("K", K), as_array("T", T)
-    counts = {len(stack) for stack in (intrinsics, poses) if stack.ndim == 3}
-    if not counts:
-        return Camera.from_opencv(K, T, size, pixel_centre=pixel_centre, near=near, far=far)
-    if len(counts) > 1:
-        raise ValueError(f"K and T: expected stacks of one length, found {len(intrinsics)} and {len(poses)}")
-    count = counts.pop()
-
-    def each(stack: npt.NDArray[np.float64], i: int) -> npt.NDArray[np.float64]:
-        return cast("npt.NDArray[np.float64]", stack[i]) if stack.ndim == 3 else stack
-
-    return [
-        Camera.from_opencv(each(intrinsics, i), each(poses, i), size, pixel_centre=pixel_centre, near=near, far=far)
-        for i in range(count)
-    ]

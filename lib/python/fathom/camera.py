@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import warnings
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Callable, Literal, Union, cast
 
@@ -27,7 +26,8 @@ from ._arguments import (
     takes_pixel_centre,
 )
 from ._files import Path, make_folder_of, path_of
-from ._importing import ViewWarning, intrinsics_of
+from ._importing import intrinsics_of
+from ._warnings import warn
 from .lens import Lens, LensKeywords, Projection, lens_handle, projections
 
 if TYPE_CHECKING:
@@ -436,8 +436,7 @@ def cameras_from_json(text: str, name: str = "camera") -> list[Camera]:
         raise ValueError(message) from None
     # A file's name may stand for any bytes.
     cameras, notes = _core.cameras_from_json(text, os.fsencode(path_of("name", name)))
-    for note in notes:
-        warnings.warn(note, ViewWarning, stacklevel=3)
+    warn(notes)
     return [Camera._of(each) for each in cameras]
 
 

@@ -105,8 +105,8 @@ class Lens:
         return _lens, (self._keywords(),)
 
     def __repr__(self) -> str:
-        numbers = [f"{name}={each!r}" for name, each in self._keywords().items() if each is not None]
-        return f"Lens({', '.join(numbers)})"
+        given = [f"{name}={each!r}" for name, each in self._keywords().items() if each is not None]
+        return f"Lens({', '.join(given)})"
 
 
 def _lens(keywords: LensKeywords) -> Lens:

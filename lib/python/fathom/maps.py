@@ -12,13 +12,14 @@ from . import _core
 from ._core import OutputError
 from ._arguments import as_array, as_count, as_number, as_text, as_threads, camera_handle, culls, one_of, scene_handle
 from ._files import Path, make_folder_of, path_of
+from ._render import rendered
 from .camera import Camera, cameras_from_json
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from ._arguments import HasScene as Scene
     from ._arguments import Numbers
-    from .scene import Scene
 
 #: What id, face, object, material, group, part and label have where there is no surface.
 NO_SURFACE = _core.no_surface
@@ -27,8 +28,6 @@ NO_SEGMENT = _core.no_segment
 #: The channels that have it.
 segment_channels = ("material", "group", "part", "label")
 
-#: The channels that fathom renders: the letters of their parts, and their type, or "" for the one that is asked for.
-rendered = _core.channels()
 #: Those that are one array with a last axis: N is N.X, N.Y, N.Z in files.
 parts_of = {name: parts for name, (parts, _) in rendered.items() if parts}
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import json
 import numbers
-import warnings
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
 
@@ -13,7 +12,7 @@ from . import _core
 from ._answers import Answer, answer_of, as_arguments, case_of
 from ._arguments import as_count, as_number, camera_handle, one_of, scene_handle
 from ._core import InputError, UsageError
-from ._importing import ViewWarning
+from ._warnings import warn
 from .camera import Camera
 from .maps import Map
 
@@ -191,6 +190,4 @@ def _word(name: str, value: Any) -> str:
 
 def _warn(stretched: bool) -> None:
     if stretched:
-        warnings.warn(
-            "viewport: its width : height is not the camera's: the picture is stretched", ViewWarning, stacklevel=3
-        )
+        warn(["viewport: its width : height is not the camera's: the picture is stretched"])

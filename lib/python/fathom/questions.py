@@ -9,8 +9,8 @@ import numpy as np
 
 from . import _core
 from ._arguments import as_count, as_threads, camera_handle, culls, one_of, scene_handle
-from ._render import Cull, stored_type
-from .maps import Map, rendered
+from ._render import Cull, rendered, stored_type
+from .maps import Map
 
 if TYPE_CHECKING:
     import numpy.typing as npt

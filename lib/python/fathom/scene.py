@@ -2,21 +2,31 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _core
-from ._arguments import as_count, as_text, as_threads, check_elements, faces_of, labels_of, names_of, pose_of, vertices_of
+from ._arguments import (
+    as_count,
+    as_text,
+    as_threads,
+    check_elements,
+    faces_of,
+    labels_of,
+    names_of,
+    pose_of,
+    vertices_of,
+)
 from ._files import Path, path_of
-from ._render import Background, Cull, Normals, render_cameras
+from ._render import Background, Cull, Normals, Rendered, render_cameras
+from ._warnings import warn
+from .maps import Map
 
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
     from .camera import Camera
-    from .maps import Map
 
 
 class Object(NamedTuple):
@@ -39,7 +49,8 @@ class Origin(NamedTuple):
 
 
 class Scene:
-    """Meshes and the objects that place them. Triangles are numbered from 0 over all objects in their order.
+    """Meshes and the objects that place them. Triangles are numbered from 0 over all objects in
+    their order.
 
     >>> import numpy as np
     >>> scene = Scene()
@@ -59,8 +70,9 @@ class Scene:
 
     @classmethod
     def read(cls, *files: Path, threads: int = 0) -> Scene:
-        """Reads meshes (OBJ, PLY, STL, OFF, glTF/GLB, and what assimp reads where the program fathom-formats is
-        installed) and scene files (JSON), in this order, into one scene. What a reader notices is a warning."""
+        """Reads meshes (OBJ, PLY, STL, OFF, glTF/GLB, and what assimp reads where the program
+        fathom-formats is installed) and scene files (JSON), in this order, into one scene. What a
+        reader notices is a warning."""
         if not files:
             raise TypeError("read: expected a file")
         scene = cls()
@@ -69,8 +81,7 @@ class Scene:
         paths = [path_of("files", file) for file in files]
         formats = shutil.which("fathom-formats") or ""
         scene._handle, notes = _core.read_scene(paths, formats, as_threads(threads))
-        for note in notes:
-            warnings.warn(note, stacklevel=2)
+        warn(notes, UserWarning)
         return scene
 
     def add_mesh(
@@ -83,19 +94,19 @@ class Scene:
         labels: npt.ArrayLike | None = None,
         materials: str | Sequence[str | None] | None = None,
     ) -> int:
-        """Adds a mesh, and an object that places it. Returns the number of the mesh, for add_instance().
+        """Adds a mesh, and an object that places it. Returns the number of the mesh, for
+        add_instance().
 
-        vertices  N×3; float64, or float32 and integers, taken as the exact numbers that they are
-        faces     M×3 triangles; integers of any type, numbers of vertices from 0
-        pose      4×4 or 3×4, mesh to world; the identity where it is left out
-        name      of the object; "mesh 0", "mesh 1", … where it is left out
-        labels    an integer for each face, or one for all: what channel `label` has where the face is visible. A
-                  negative one is none
-        materials a name for each face, or one for all, numbered in channel `material` by first appearance in the
-                  scene; None and "" are none
+        vertices   N×3; float64, or float32 and integers, taken as the exact numbers that they are
+        faces      M×3 triangles; integers of any type, numbers of vertices from 0
+        pose       4×4 or 3×4, mesh to world; the identity where it is left out
+        name       of the object; "mesh 0", "mesh 1", … where it is left out
+        labels     an integer for each face, or one for all, for channel `label`. Negative: no label
+        materials  a name for each face, or one for all, numbered in channel `material` by first
+                   appearance in the scene; None and "" are none
 
-        Arrays in C order, of float64 and of int32 or uint32, are not copied: what is changed in them later is changed
-        in the scene, and must not be while something is rendered.
+        Arrays in C order, of float64 and of int32 or uint32, are not copied: what is changed in
+        them later is changed in the scene, and must not be while something is rendered.
         """
         placed = None if pose is None else pose_of("pose", pose)
         called = as_text("name", name)
@@ -135,14 +146,15 @@ class Scene:
 
     @property
     def tables(self) -> dict[str, dict[int, str]]:
-        """What the numbers in channels `material`, `group` and `part` stand for, as Map.tables has it."""
+        """What the numbers in channels `material`, `group` and `part` stand for, as Map.tables has
+        it."""
         found = {channel: self._handle.names(channel) for channel in ("material", "group", "part")}
         return {channel: dict(enumerate(names)) for channel, names in found.items() if names}
 
     @property
     def bounds(self) -> tuple[tuple[float, ...], tuple[float, ...]] | None:
-        """The smallest box of the world, (lower, upper), that holds all triangles, rounded outwards; None where there
-        are none."""
+        """The smallest box of the world, (lower, upper), that holds all triangles, rounded
+        outwards; None where there are none."""
         box = self._handle.bounds()
         return None if box is None else (tuple(box[0]), tuple(box[1]))
 
@@ -156,7 +168,8 @@ class Scene:
 
     def origin(self, triangle: int) -> Origin:
         """Where a triangle comes from, by its number in channel `id`."""
-        return Origin(*self._handle.origin(as_count("triangle", triangle, 0, self.triangle_count - 1)))
+        number = as_count("triangle", triangle, 0, self.triangle_count - 1)
+        return Origin(*self._handle.origin(number))
 
     def render(
         self,
@@ -172,9 +185,20 @@ class Scene:
         threads: int = 0,
         out: Mapping[str, npt.NDArray[Any]] | None = None,
     ) -> Map:
-        """Renders the scene as a camera sees it, or as many of one image size do: see fathom.render(), whose other
-        arguments these are. One camera gives arrays of H×W, a sequence of n cameras arrays of n×H×W."""
-        return render_cameras(self, camera, channels, cull, dtype, scale, background, engine, threads, normals, out)
+        """Renders the scene as a camera sees it, or as many of one image size do: see
+        fathom.render(), whose other arguments these are. One camera gives arrays of H×W, a sequence
+        of n cameras arrays of n×H×W."""
+        try:
+            rendered = render_cameras(self._handle, camera, channels, cull, dtype, scale,
+                                      background, engine, threads, normals, out)
+        except _core.InputError:
+            self._check()
+            raise
+        result = _map_of(rendered)
+        if rendered.background is not None:
+            result._set_background(rendered.background)
+        warn(rendered.notes)
+        return result
 
     def _check(self) -> None:
         """Raises an exception that names the argument at fault, if one is."""
@@ -182,7 +206,18 @@ class Scene:
             check_elements(self.vertices(mesh), self.faces(mesh))
 
     def __repr__(self) -> str:
-        return f"Scene({self._handle.object_count} objects, {self.mesh_count} meshes, {self.triangle_count} triangles)"
+        return (f"Scene({self._handle.object_count} objects, {self.mesh_count} meshes, "
+                f"{self.triangle_count} triangles)")
+
+
+def _map_of(rendered: Rendered) -> Map:
+    camera, description = rendered.views[0]
+    if not rendered.is_stack:
+        return Map(rendered.arrays, camera, description)
+    stack = Map(rendered.arrays, _views=rendered.views)
+    stack._description.png_scale = description.png_scale
+    stack._description.tables = description.tables
+    return stack
 
 
 def _no_mesh() -> int:

@@ -1,0 +1,123 @@
+"""render(): the maps of one mesh, from arrays."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+
+from ._arguments import as_array, require_one_matrix, takes_pixel_centre
+from ._render import Background, Cull, Normals
+from .camera import Camera
+from .scene import Scene
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from .maps import Map
+
+
+@takes_pixel_centre
+def render(
+    vertices: npt.ArrayLike,
+    faces: npt.ArrayLike,
+    K: npt.ArrayLike,
+    T: npt.ArrayLike,
+    size: Sequence[int],
+    *,
+    pixel_centre: float,
+    channels: Sequence[str] = ("Z",),
+    near: float = 0,
+    far: float = math.inf,
+    cull: Cull = "none",
+    dtype: npt.DTypeLike = "float32",
+    scale: float = 1000,
+    background: Background = math.inf,
+    normals: Normals = "file",
+    threads: int = 0,
+    out: Mapping[str, npt.NDArray[Any]] | None = None,
+) -> Map:
+    """Renders the exact depth map of a mesh: every value is the exact number, rounded once.
+
+    vertices      N×3, float64 or float32, in the world
+    faces         M×3 triangles; integers of any type, numbers of vertices from 0
+    K             3×3, fx skew cx / 0 fy cy / 0 0 1, in pixels; or a stack of n, n×3×3
+    T             4×4 or 3×4, world to camera, x right, y down, z forward (OpenCV); or a stack of n
+    size          (width, height) in pixels
+    pixel_centre  the image coordinate of the first pixel's centre, as K counts: 0.5 (COLMAP,
+                  OpenGL) or 0 (OpenCV, BOP). There is no default: half a pixel is the most common
+                  error.
+    channels      what to render, ("Z", "id") or "Z,id": Z (planar depth), A (coverage), Zlow (exact
+                  depth minus Z), distance (along the ray), id, face, object (numbers of what is
+                  visible; NO_SURFACE where nothing is), material, group, part and label (of a
+                  Scene; NO_SEGMENT where what is visible has none), N (normal) and P (position),
+                  both in the world, bary (weights of a triangle's second and third corner), Nc
+                  (normal in the camera frame), Ns (the corners' normals interpolated, in the world)
+    near, far     the range of planar depth that counts, in scene units
+    cull          "back" or "front" leaves out triangles that face so
+    dtype         of Z and distance: float32, float64, or uint16 for codes round(scale · depth), 0
+                  for no surface
+    background    what Z and distance have where there is no surface (and where a depth is beyond
+                  the greatest number of the type): inf, nan, 0 or any other number
+    normals       of Ns: "file" (where there are none, as "vertex"), "vertex": sums over the
+                  triangles at each vertex, weighted by area, or "place": over those at all vertices
+                  that lie at one place
+    threads       to work in; 0: all. Results never depend on it.
+    out           arrays to write to, by channel, such as an earlier call has returned: saves the
+                  time in which the system provides memory. They must fit, and are what is returned.
+
+    Returns a dict: H×W arrays by the names of channels, H×W×3 for N, P, Nc and Ns, H×W×2 for bary;
+    with n cameras, n of each, n×H×W(×3). Arrays of vertices and faces that fit (see
+    Scene.add_mesh()) are not copied. Other Python threads run meanwhile, and Ctrl-C ends it.
+
+    Warns (ViewWarning) of a suspicious view: nothing in front of the camera, a matrix from
+    camera to world, one that is no rotation, a principal point far from the middle, an eye inside a
+    solid, metres beside millimetres.
+
+    Raises TypeError, ValueError or IndexError, which name the argument; MemoryError; OutputError
+    where a depth has no code.
+
+    >>> corners = np.array([(-1, -1, 4), (1, -1, 4), (0, 1, 4)], float)
+    >>> K = np.array([[4, 0, 2], [0, 4, 2], [0, 0, 1]], float)
+    >>> render(corners, [(0, 1, 2)], K, np.eye(4), (4, 4), pixel_centre=0.5)["Z"]
+    array([[inf, inf, inf, inf],
+           [inf,  4.,  4., inf],
+           [inf, inf, inf, inf],
+           [inf, inf, inf, inf]], dtype=float32)
+    """
+    scene = Scene()
+    scene.add_mesh(vertices, faces)
+    cameras = cameras_of(K, T, size, pixel_centre, near, far)
+    return scene.render(cameras, channels=channels, cull=cull, dtype=dtype, scale=scale,
+                        background=background, normals=normals, threads=threads, out=out)
+
+
+def cameras_of(
+    K: npt.ArrayLike,
+    T: npt.ArrayLike,
+    size: Sequence[int],
+    pixel_centre: float,
+    near: float,
+    far: float,
+) -> Camera | list[Camera]:
+    """One camera, or as many as K or T is a stack of; the other may be a single matrix for all."""
+    require_one_matrix("T", T)
+    intrinsics, poses = as_array("K", K), as_array("T", T)
+    counts = {len(stack) for stack in (intrinsics, poses) if stack.ndim == 3}
+    if not counts:
+        return Camera.from_opencv(K, T, size, pixel_centre=pixel_centre, near=near, far=far)
+    if len(counts) > 1:
+        raise ValueError("K and T: expected stacks of one length, found "
+                         f"{len(intrinsics)} and {len(poses)}")
+    count = counts.pop()
+
+    def each(stack: npt.NDArray[np.float64], i: int) -> npt.NDArray[np.float64]:
+        return cast("npt.NDArray[np.float64]", stack[i]) if stack.ndim == 3 else stack
+
+    return [
+        Camera.from_opencv(each(intrinsics, i), each(poses, i), size, pixel_centre=pixel_centre,
+                           near=near, far=far)
+        for i in range(count)
+    ]
