@@ -13,8 +13,8 @@ import pytest
 import fathom
 
 source = pathlib.Path(os.environ["FATHOM_SOURCE"])
-modules = ["_importing", "_render", "camera", "clipping", "deep", "depth_formats", "lens", "maps",
-           "pipeline", "questions", "scanning", "scene", "studies", "validation"]
+modules = ["_importing", "camera", "clipping", "deep", "depth_formats", "lens", "maps",
+           "pipeline", "questions", "rendering", "scanning", "scene", "studies", "validation"]
 
 
 @pytest.mark.parametrize("name", ["fathom", *(f"fathom.{name}" for name in modules)])

@@ -77,5 +77,18 @@ def test_an_eye_inside_a_solid():
 def test_a_file_that_does_not_say_pixel_centre(camera, tmp_path):
     text = "".join(line for line in camera.to_json().splitlines(True) if "pixel_centre" not in line)
     (tmp_path / "camera.json").write_text(text)
-    with pytest.warns(fathom.ViewWarning, match="pixel_centre"):
+    with pytest.warns(fathom.ViewWarning, match="pixel_centre") as told:
         assert fathom.Camera.read(tmp_path / "camera.json") == camera
+    assert told[0].filename == __file__
+
+
+@pytest.mark.parametrize("call", [
+    lambda scene, camera: scene.render(camera),
+    lambda scene, camera: scene.render([camera, camera]),
+    lambda scene, camera: fathom.render(scene.vertices(), scene.faces(), camera.K, camera.world_to_camera,
+                                        camera.size, pixel_centre=0.5),
+])
+def test_a_warning_names_the_line_that_calls(spot, camera, call):
+    with pytest.warns(fathom.ViewWarning, match="principal point") as told:
+        call(spot, changed(camera, cx=camera.cx + 35))
+    assert {each.filename for each in told} == {__file__}
