@@ -15,7 +15,7 @@ import theme  # noqa: E402
 root = here.parent.parent
 project = "Fathom"
 version = release = re.search(r"project\(\s*\w+\s+VERSION ([\d.]+)", (root / "CMakeLists.txt").read_text())[1]
-project_copyright = "GPL-3.0-or-later"
+project_copyright = "the authors of Fathom, GPL-3.0-or-later"
 root_doc = "index"
 extensions = ["myst_parser", "sphinx.ext.autodoc"]
 exclude_patterns = ["files/**"]
@@ -52,6 +52,7 @@ nitpick_ignore_regex = [
     ("c:identifier", r"u?int\d+_t|size_t"),
 ]
 
+SHORT = 24  # characters of code that a line on a telephone holds easily
 INLINED = re.compile(r"^images/conventions-[\w-]+\.svg$")
 ANCHOR = re.compile(r'^<a id="([^"]+)">$')
 
@@ -73,9 +74,17 @@ def drawings_in_the_page(app, document, name):
             image.replace_self(nodes.raw("", drawing, format="html"))
 
 
+def short_code(app, document, name):
+    """An option such as --near is not broken after its hyphens."""
+    for literal in document.findall(nodes.literal):
+        if len(literal.astext()) <= SHORT:
+            literal["classes"].append("short")
+
+
 def setup(app):
     app.connect("doctree-read", anchors_of_raw_html)
     app.connect("doctree-resolved", drawings_in_the_page)
+    app.connect("doctree-resolved", short_code)
     app.connect("build-finished", theme.repair)
     app.connect("autodoc-process-docstring", docstrings.to_restructured_text)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

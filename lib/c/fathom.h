@@ -1,10 +1,10 @@
 /* Fathom for C, and for every language that calls C: exact depth maps of triangle meshes.
  *
- * Handles are opaque; each is freed by the function of its kind, which takes NULL too. Functions that can fail return
- * a fathom_status; then fathom_error() says why, in one line, and nothing is written to what they would have made.
+ * Handles are opaque. Each kind of handle has a function that frees it and accepts NULL. Functions that can fail
+ * return a fathom_status; after a failure fathom_error() returns the reason in one line, and outputs are not written.
  * No exception leaves this library. Strings are UTF-8.
  *
- * All functions may be called by several threads at the same time, also with the same scene and map, as long as nobody
+ * Several threads may call all functions at the same time, also with the same scene and map, as long as no thread
  * changes or frees these meanwhile. Results never depend on the number of threads.
  */
 #ifndef FATHOM_H
@@ -25,81 +25,83 @@ extern "C" {
 
 /* NOLINTBEGIN(readability-identifier-naming): C has no namespaces, but prefixes. */
 
-/* The values are the program's exit statuses. */
+/* Equal to the program's exit statuses. */
 typedef enum {
   FATHOM_OK = 0,
-  FATHOM_USAGE = 2,  /* the request makes no sense */
+  FATHOM_USAGE = 2,  /* arguments are invalid or contradict each other */
   FATHOM_INPUT = 3,  /* a file, scene, camera or map cannot be used */
-  FATHOM_OUTPUT = 4, /* what cannot be written, or does not fit its format */
-  FATHOM_MEMORY = 5, /* there is not enough memory */
-  FATHOM_STOPPED = 6 /* fathom_options.progress asked for it */
+  FATHOM_OUTPUT = 4, /* a file cannot be written, or a value does not fit its format */
+  FATHOM_MEMORY = 5, /* out of memory */
+  FATHOM_STOPPED = 6 /* stopped by fathom_options.progress */
 } fathom_status;
 
-/* Why the last call that failed in this thread did; "" if none has. It stays until the next one fails. */
+/* The reason of this thread's last failed call; "" before the first failure. Valid until the next failure. */
 FATHOM_API const char* fathom_error(void);
 
-/* "0.1.0" */
+/* Version, for example "0.1.0". */
 FATHOM_API const char* fathom_version(void);
 
 /* ------------------------------------------------------------------------------------------------- scenes */
 
 typedef struct fathom_scene fathom_scene;
 
-/* A scene without meshes. */
+/* Makes a scene without meshes. */
 FATHOM_API fathom_status fathom_scene_new(fathom_scene** scene);
-/* Meshes (OBJ, PLY, STL, OFF, glTF) and scene files (JSON), in this order, as one scene. */
+/* Reads meshes (OBJ, PLY, STL, OFF, glTF) and scene files (JSON) into one scene, in the given order. */
 FATHOM_API fathom_status fathom_scene_read(const char* const* files, size_t count,
                                            fathom_scene** scene);
+/* Frees a scene; NULL is allowed. */
 FATHOM_API void fathom_scene_free(fathom_scene* scene);
 
 /* Adds a mesh, and an object that places it.
  *
  *   vertices    3 numbers for each vertex, in the mesh's own frame
- *   triangles   3 numbers of vertices for each triangle, from 0
+ *   triangles   3 vertex numbers for each triangle, from 0
  *   pose        mesh to world, 3 rows of 4 numbers; NULL: the identity
- *   name        of the object; may be NULL
- *   lent        not 0: the arrays are not copied, and stay as they are until the scene is freed
+ *   name        name of the object; may be NULL
+ *   lent        not 0: the arrays are not copied; keep them unchanged until the scene is freed
  *
- * FATHOM_USAGE where a count is above 2^32 - 2.
+ * Fails with FATHOM_USAGE if a count is above 2^32 - 2.
  */
 FATHOM_API fathom_status fathom_scene_add(fathom_scene* scene, const double* vertices,
                                           size_t vertex_count, const uint32_t* triangles,
                                           size_t triangle_count, const double* pose,
                                           const char* name, int lent);
 
-/* In all objects. */
+/* Number of triangles in all objects. */
 FATHOM_API uint64_t fathom_scene_triangle_count(const fathom_scene* scene);
 
-/* The smallest box that holds all triangles, rounded outwards. FATHOM_INPUT where there are none. */
+/* The smallest box that contains all triangles, in the world, rounded outwards. FATHOM_INPUT without triangles. */
 FATHOM_API fathom_status fathom_scene_bounds(const fathom_scene* scene, double lower[3],
                                              double upper[3]);
 
 /* ------------------------------------------------------------------------------------------------ cameras */
 
-/* Every number is the real number that it denotes. See docs/conventions.md. */
+/* Every number is exact: it means the real number that it denotes. See docs/conventions.md. */
 typedef struct {
   uint32_t width, height; /* pixels */
   int orthographic;       /* 0: perspective */
-  double fx, fy, cx, cy,
-      skew; /* pixels; of an orthographic camera fx, fy and skew per scene unit */
-  double
-      pixel_centre; /* image coordinate of the first pixel's centre: 0.5 (OpenGL) or 0 (OpenCV) */
+  /* pixels; for an orthographic camera fx, fy and skew are per scene unit */
+  double fx, fy, cx, cy, skew;
+  /* image coordinate of the first pixel's centre: 0.5 (OpenGL) or 0 (OpenCV) */
+  double pixel_centre;
   double world_to_camera[3][4]; /* x right, y down, z forward */
-  double near_depth,
-      far_depth; /* the range of planar depth that counts: 0 and INFINITY for all of it */
+  /* range of planar depths that are rendered, in scene units; 0 and INFINITY: all */
+  double near_depth, far_depth;
 } fathom_camera;
 
-/* The camera at `eye` that looks at `target` with `up` upwards; the image's height spans `fov` degrees. */
+/* Makes a camera at `eye` that looks at `target`, with `up` upwards in the image. `fov` is the vertical field of view
+ * in degrees. */
 FATHOM_API fathom_status fathom_camera_look_at(const double eye[3], const double target[3],
                                                const double up[3], uint32_t width, uint32_t height,
                                                double fov, fathom_camera* camera);
-/* The camera that sees the whole of a scene, in a direction given by degrees; y is up. */
+/* Makes a camera that sees the whole scene, from a direction in degrees; y is up. */
 FATHOM_API fathom_status fathom_camera_frame(const fathom_scene* scene, double azimuth,
                                              double elevation, uint32_t width, uint32_t height,
                                              double fov, fathom_camera* camera);
-/* The camera of a file with one. */
+/* Reads a camera file with one camera. */
 FATHOM_API fathom_status fathom_camera_read(const char* file, fathom_camera* camera);
-/* FATHOM_INPUT where it is no camera. */
+/* Checks a camera. FATHOM_INPUT if it is invalid. */
 FATHOM_API fathom_status fathom_camera_check(const fathom_camera* camera);
 
 /* -------------------------------------------------------------------------------------------------- maps */
@@ -111,54 +113,59 @@ typedef enum { FATHOM_CULL_NONE = 0, FATHOM_CULL_BACK = 1, FATHOM_CULL_FRONT = 2
 typedef struct {
   fathom_cull cull;
   int float64; /* not 0: Z and distance are doubles */
-  int threads; /* to work in; 0: all */
-  /* Called now and then with the fraction done, from any thread but never from two at once; ends the call with
-   * FATHOM_STOPPED where it returns another value than 0. May be NULL. */
+  int threads; /* number of threads; 0: all */
+  /* Called from time to time with the fraction done, from any thread, but never from two at once. If it does not return
+   * 0, the call ends with FATHOM_STOPPED. May be NULL. */
   int (*progress)(double done, void* data);
   void* data;
 } fathom_options;
 
-/* What no identifier is: id, face, object, material, group, part and label where nothing is seen. */
+/* The value of id, face, object, material, group, part and label without a surface. */
 #define FATHOM_NO_SURFACE UINT32_C(0xFFFFFFFF)
-/* material, group, part and label where what is seen has none. */
+/* The value of material, group, part and label if the visible triangle has no such name or label. */
 #define FATHOM_NO_SEGMENT UINT32_C(0xFFFFFFFE)
 
 /* Renders the exact map: every value is the exact number, rounded once.
  *
- *   channels   "Z", or several: "Z,A,id,N"
- *   options    NULL: all of them 0
+ *   channels   one channel or several: "Z", "Z,A,id,N"
+ *   options    NULL: all options are 0
  */
 FATHOM_API fathom_status fathom_render(const fathom_scene* scene, const fathom_camera* camera,
                                        const char* channels, const fathom_options* options,
                                        fathom_map** map);
-/* EXR, NPZ, PFM, PNG, NPY or a dense map of COLMAP's; what it is, is told by its content. */
+/* Reads EXR, NPZ, PFM, PNG, NPY or a dense map of COLMAP. The format is detected from the content. */
 FATHOM_API fathom_status fathom_map_read(const char* file, fathom_map** map);
-/* In the format that the suffix names: .exr, .npz and .tif have all channels; .pfm, .png, .npy and .bin (COLMAP's) the
- * one that is named, or, where `channel` is NULL, the only one. A .tif needs an orthographic camera that looks along the
- * world's z axis. */
+/* Writes a map; the suffix selects the format. .exr, .npz and .tif contain all channels. .pfm, .png, .npy and .bin
+ * (COLMAP) contain `channel` or, if it is NULL, the map's only channel. A .tif needs an orthographic camera that looks
+ * along the world's z axis. */
 FATHOM_API fathom_status fathom_map_write(const fathom_map* map, const char* file,
                                           const char* channel);
+/* Frees a map; NULL is allowed. */
 FATHOM_API void fathom_map_free(fathom_map* map);
 
+/* Pixels in a row. */
 FATHOM_API uint32_t fathom_map_width(const fathom_map* map);
+/* Rows of pixels. */
 FATHOM_API uint32_t fathom_map_height(const fathom_map* map);
-/* The name of channel 0, 1, …; NULL beyond the last. N has the channels N.X, N.Y and N.Z; so have Nc and
- * Ns. */
+/* Name of channel 0, 1, …; NULL after the last. N consists of the channels N.X, N.Y and N.Z, likewise Nc and Ns. */
 FATHOM_API const char* fathom_map_channel(const fathom_map* map, size_t number);
-/* width × height values, row by row from the top, as long as the map is not freed; NULL where there is no channel of
- * this name and type. */
+/* width × height values, row by row from the top, valid until the map is freed; NULL if the map has no channel of this
+ * name and type. */
 FATHOM_API const float* fathom_map_float32(const fathom_map* map, const char* channel);
+/* Like fathom_map_float32(). */
 FATHOM_API const double* fathom_map_float64(const fathom_map* map, const char* channel);
+/* Like fathom_map_float32(). */
 FATHOM_API const uint32_t* fathom_map_uint32(const fathom_map* map, const char* channel);
+/* Like fathom_map_float32(). */
 FATHOM_API const uint16_t* fathom_map_uint16(const fathom_map* map, const char* channel);
-/* What a number in channel "object", "material", "group" or "part" stands for, as long as the map is not freed; NULL
- * where it has no name. */
+/* The name behind a number of channel "object", "material", "group" or "part", valid until the map is freed; NULL
+ * without a name. */
 FATHOM_API const char* fathom_map_name(const fathom_map* map, const char* channel, uint32_t number);
-/* What the map carries: "fathom.camera", "fathom.sources", …; NULL where it has no such text. */
+/* A text of the map: "fathom.camera", "fathom.sources", …; NULL if the map has no such text. */
 FATHOM_API const char* fathom_map_text(const fathom_map* map, const char* name);
 
-/* Computes up to `pixels` pixels of a rendered map again by exact arithmetic alone, and counts those that differ in a
- * bit. `options` are those that it was rendered with. */
+/* Computes up to `pixels` pixels of a rendered map again, only with exact arithmetic, and counts the pixels that
+ * differ in a bit. Pass the `options` of the render. */
 FATHOM_API fathom_status fathom_verify(const fathom_map* map, const fathom_scene* scene,
                                        const fathom_camera* camera, const fathom_options* options,
                                        uint64_t pixels, uint64_t* differing);

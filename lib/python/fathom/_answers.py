@@ -1,4 +1,4 @@
-"""Answers of the textbooks' commands, in Python's types."""
+"""Answers of the textbook commands, as Python types."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from ._core import InputError, UsageError
 
 
 class Answer(dict[str, Any]):
-    """What a command answers, with the picture of its steps: a notebook shows it below the cell.
+    """The answer of a command, with a picture of its steps, which a notebook shows below the cell.
 
-    svg  the picture as SVG; empty if it was not asked for (`draw=True`)
+    svg  the picture as SVG; empty without `draw=True`
     """
 
     svg: str = ""
@@ -38,7 +38,7 @@ _fraction = re.compile(r"-?\d+(/\d+)?")
 
 
 def answer_of(text: str, svg: str = "") -> Answer:
-    """Numbers that are written as "p/q" become Fractions; names stay texts."""
+    """Parses an answer. Numbers written as "p/q" become Fractions; names remain strings."""
     with _core.standard_arithmetic():  # Python reads decimals by binary64 arithmetic, and writes them
         answer = Answer(_exact(json.loads(text)))
     answer.svg = svg
@@ -56,9 +56,9 @@ def _exact(value: Any, key: str = "") -> Any:
 
 
 def case_of(case: Mapping[str, Any]) -> str:
-    """A case as a line of JSON. Numbers are those that they are, which has to be one of binary64.
+    """A case as a line of JSON. Numbers are exact and must be representable in binary64.
 
-    Raises ValueError, which names the key, for any other number; TypeError for other things."""
+    Raises ValueError, which names the key, for any other number; TypeError for other types."""
     with _core.standard_arithmetic():
         return json.dumps({name: _plain(name, value) for name, value in case.items()}, allow_nan=False)
 

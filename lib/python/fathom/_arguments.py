@@ -1,4 +1,4 @@
-"""What every function that takes arrays asks of them: one sentence that names the argument."""
+"""Checks of arguments; each error is one sentence that names the argument."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ most_rows = 2**32 - 2
 
 
 def as_array(name: str, value: object) -> npt.NDArray[Any]:
-    """`value` as an array, without a copy where it is one. Masks are refused: that of a map is its background."""
+    """`value` as an array, without a copy if it is an array. Masked arrays are refused: maps mark missing pixels by their
+    background."""
     try:
         array = np.asarray(value)
     except (TypeError, ValueError):
@@ -50,8 +51,8 @@ def as_text(name: str, value: object) -> str:
 
 
 def as_numbers(name: str, value: object, shape: tuple[int, ...] | None = None) -> Numbers:
-    """Finite float64 numbers in C order. Integers and narrower floats are taken as what they are; a copy is made
-    only where they have to be widened or moved."""
+    """float64 numbers in C order. Integers and narrower floats are converted exactly; the array is copied only if it has
+    to be widened or moved."""
     array = as_array(name, value)
     if array.dtype.kind not in "fiu" or (array.dtype.kind == "f" and array.dtype.itemsize > 8):
         raise TypeError(f"{name}: expected float64 or float32 numbers, found {array.dtype}")
@@ -85,7 +86,7 @@ def as_number(name: str, value: Any) -> float:
     raise TypeError(f"{name}: expected a number, found {value!r}")
 
 
-#: What cull may be.
+#: The values of `cull`.
 culls = ("none", "back", "front")
 
 most_threads = 1024
@@ -134,7 +135,7 @@ class HasScene(Protocol):
 
 
 def scene_handle(scene: object) -> _core.Scene:
-    """What the extension module calls a Scene."""
+    """The extension module's object behind a Scene."""
     handle = getattr(scene, "_handle", None)
     if not isinstance(handle, _core.Scene):
         raise TypeError(f"scene: expected a Scene, found {scene!r}")
@@ -149,14 +150,14 @@ def camera_handle(camera: object) -> _core.Camera:
 
 
 def no_camera(name: str, expected: str, found: object) -> TypeError:
-    """The error of what is no Camera. The path of a camera file is a common one."""
+    """The error for a value that is not a Camera. The path of a camera file is a common mistake."""
     hint = f"; fathom.read_cameras({found!r}) reads a camera file" if isinstance(found, (str, os.PathLike)) else ""
     return TypeError(f"{name}: expected {expected}, found {found!r}{hint}")
 
 
 def takes_pixel_centre(function: Function) -> Function:
-    """For functions that need a `pixel_centre`: they take the spelling `pixel_center`, as camera files do, and say what is
-    missing where there is neither."""
+    """For functions that need a `pixel_centre`: also accepts the spelling `pixel_center`, as camera files do, and explains
+    the argument if it is missing."""
 
     @functools.wraps(function)
     def checked(*args: Any, **options: Any) -> Any:
@@ -177,7 +178,7 @@ def in_words(shape: tuple[int, ...]) -> str:
 
 
 def vertices_of(value: object) -> Numbers:
-    """N×3 float64 numbers in C order, the caller's own array where it is one. Not looked at, since engines look."""
+    """N×3 float64 numbers in C order, without a copy if possible. Values are not checked here: the engines check them."""
     array = as_array("vertices", value)
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"vertices: expected shape N×3, found {in_words(array.shape)}")
@@ -187,7 +188,7 @@ def vertices_of(value: object) -> Numbers:
 
 
 def faces_of(value: object, vertex_count: int) -> npt.NDArray[np.uint32]:
-    """M×3 32-bit integers in C order, the caller's own array where it is one."""
+    """M×3 32-bit integers in C order, without a copy if possible."""
     array = as_array("faces", value)
     if array.dtype.kind not in "iu":
         raise TypeError(f"faces: expected integers, found {array.dtype}")
@@ -198,7 +199,7 @@ def faces_of(value: object, vertex_count: int) -> npt.NDArray[np.uint32]:
     if len(array) > most_rows:
         raise ValueError(f"faces: {len(array)} rows are more than {most_rows}")
     if array.dtype.itemsize == 4 and array.dtype.isnative:
-        # A negative index is beyond any count as an unsigned one, and engines refuse those.
+        # As unsigned numbers, negative indices are beyond any count, and engines refuse them.
         return np.ascontiguousarray(array).view(np.uint32)
     check_corners(array, vertex_count)
     return np.ascontiguousarray(array, dtype=np.uint32)
@@ -209,7 +210,7 @@ def check_corners(faces: npt.NDArray[Any], vertex_count: int) -> None:
     if len(bad):
         row, column = (int(i) for i in bad[0])
         vertex = int(faces[row, column])
-        # An array of int32 is taken as one of uint32: what is beyond 2^31 was negative, since no mesh has so many.
+        # An array of int32 is read as uint32: a number beyond 2^31 was negative, because no mesh has so many vertices.
         if faces.dtype == np.uint32 and vertex >= 2**31:
             vertex -= 2**32
         raise IndexError(
@@ -219,7 +220,7 @@ def check_corners(faces: npt.NDArray[Any], vertex_count: int) -> None:
 
 
 def labels_of(value: object, face_count: int) -> npt.NDArray[np.uint32]:
-    """A label for each face, or one for all; negative ones are none."""
+    """A label for each face, or one for all; a negative number means no label."""
     array = as_array("labels", value)
     if array.dtype.kind not in "iub":
         raise TypeError(f"labels: expected integers, found {array.dtype}")
@@ -232,7 +233,7 @@ def labels_of(value: object, face_count: int) -> npt.NDArray[np.uint32]:
 
 
 def names_of(argument: str, value: object, face_count: int) -> tuple[npt.NDArray[np.uint32], list[str]]:
-    """The number of each face's name, or of the one of all, and the names by these numbers."""
+    """The number of each face's name (or of the single name), and the names by number."""
     if not isinstance(value, (str, Iterable)):
         raise TypeError(f"{argument}: expected a name, or one for each face, found {value!r}")
     given: list[object] = [value] if isinstance(value, str) else list(value)
@@ -248,7 +249,7 @@ def names_of(argument: str, value: object, face_count: int) -> tuple[npt.NDArray
 
 
 def check_elements(vertices: Numbers, faces: npt.NDArray[Any]) -> None:
-    """The caller's words for what an engine has refused."""
+    """Reports in terms of the caller's arguments why an engine refused a mesh."""
     if not np.isfinite(vertices).all():
         raise ValueError(f"vertices: {_first_not_finite(vertices)} is not a finite number")
     check_corners(faces, len(vertices))
@@ -268,7 +269,7 @@ def pose_of(name: str, value: object) -> Rows:
 
 
 def require_one_matrix(name: str, value: object) -> None:
-    """A rotation and a translation by themselves are what OpenCV's users have at hand."""
+    """Explains the common mistake of OpenCV users to pass a rotation and a translation separately."""
     if isinstance(value, (tuple, list)) and len(value) == 2 and not isinstance(value[0], (int, float)):
         if np.size(value[0]) == 9 and np.size(value[1]) == 3:
             raise ValueError(f"{name}: expected one matrix, found R and t: np.column_stack([R, t]) is one")

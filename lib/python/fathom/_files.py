@@ -1,4 +1,4 @@
-"""Names of files, and the folders that they are written to."""
+"""Names of files, and missing folders of output files."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ Path = Union[str, "os.PathLike[str]"]
 
 
 def path_of(name: str, path: Path) -> str:
-    """The path as the library takes it; `name` is the argument. ValueError where no file can have this name: of the
-    lone surrogates, only those that stand for bytes (os.fsdecode) can be in one."""
+    """The path in the form that the library takes; `name` is the argument. ValueError if no file can have this name: only
+    lone surrogates that stand for bytes (os.fsdecode) are allowed."""
     try:
         given = os.fspath(path)
     except TypeError:
@@ -26,7 +26,7 @@ def path_of(name: str, path: Path) -> str:
 
 
 def make_folder(folder: Path) -> None:
-    """Makes a folder, and those above it, where they are missing."""
+    """Creates a folder and its parents if they are missing."""
     try:
         os.makedirs(folder, exist_ok=True)
     except OSError as error:
@@ -34,7 +34,7 @@ def make_folder(folder: Path) -> None:
 
 
 def make_folder_of(file: Path) -> None:
-    """Makes the folder in which a file is about to be written, as the program does."""
+    """Creates the folder of an output file, as the program does."""
     folder = os.path.dirname(os.fspath(file))
     if folder:
         make_folder(folder)

@@ -45,8 +45,8 @@ def from_colmap(
     """The cameras of a COLMAP model (cameras and images, .bin or .txt), by the names of their
     images.
 
-    Those with lens distortion are left out with a ViewWarning, unless `ignore_distortion` takes
-    their pinhole part. Raises InputError where none is left.
+    Cameras with lens distortion are left out with a ViewWarning; with `ignore_distortion` their
+    pinhole part is used. Raises InputError if no camera is left.
     """
     return _named(cls, _core.import_colmap(path_of("folder", folder), ignore_distortion))
 
@@ -54,13 +54,13 @@ def from_colmap(
 def from_nerf(
     cls: type[Camera], file: Path, size: Size | None = None, *, ignore_distortion: bool = False
 ) -> dict[str, Camera]:
-    """The cameras of a transforms.json, by their file_path; those of frames without one by their
-    number. `size`, (width, height) in pixels, is for files without w and h. Lens distortion is as
+    """The cameras of a transforms.json, by file_path, or by number for frames without file_path.
+    `size`, (width, height) in pixels, is for files without w and h. Lens distortion is handled as
     in from_colmap().
 
-    Raises InputError, which names the frame, where two have one file_path, a focal length is
-    negative (an angle beyond π radians gives such), or the file has another size than the one that
-    is given.
+    Raises InputError, which names the frame, if two frames have the same file_path, if a focal
+    length is negative (as by an angle beyond π radians), or if the file has another size than
+    `size`.
     """
     width, height = (0, 0) if size is None else as_size(size)
     imported = _core.import_nerf(path_of("file", file), width, height, ignore_distortion)
@@ -78,8 +78,8 @@ def from_nerf(
 
 def from_bop(cls: type[Camera], file: Path, size: Size | None = None) -> dict[str, Camera]:
     """The cameras of a scene_camera.json of BOP, or of the scene's folder, by image id. Lengths are
-    millimetres, as in the file. Without `size` it is that of the data set's camera.json, which is
-    looked for in the scene's folder and the two above.
+    millimetres, as in the file. Without `size`, the size is read from the data set's camera.json in
+    the scene's folder or one of the two folders above.
     """
     width, height = (0, 0) if size is None else as_size(size)
     return _named(cls, _core.import_bop(path_of("file", file), width, height))
@@ -89,22 +89,21 @@ def from_sfm_data(
     cls: type[Camera], file: Path, *, ignore_distortion: bool = False
 ) -> dict[str, Camera]:
     """The cameras of AliceVision's (Meshroom's) sfmData as JSON, by the paths of their images below
-    the folder that all have in common. Views without a pose are left out with a ViewWarning; lens
-    distortion is as in from_colmap(). Meshroom's meshes have y and z the other way round than its
-    cameras.
+    their common folder. Views without a pose are left out with a ViewWarning; lens distortion is
+    handled as in from_colmap(). Meshroom's meshes have y and z reversed relative to its cameras.
     """
     return _named(cls, _core.import_sfm_data(path_of("file", file), ignore_distortion))
 
 
 def from_gltf(cls: type[Camera], file: Path, size: Size) -> dict[str, Camera]:
     """The cameras of a .gltf or .glb, by the names of their nodes. `size`, (width, height) in
-    pixels, must have the aspect ratio of a camera that has one.
+    pixels, must have the camera's aspect ratio, if the camera specifies it.
     """
     return _named(cls, _core.import_gltf(path_of("file", file), *as_size(size)))
 
 
-# Data sets: `K` 3×3 or (fx, fy, cx, cy), `size` (width, height) and `pixel_centre` replace what the
-# data set has.
+# Data sets: `K` 3×3 or (fx, fy, cx, cy), `size` (width, height) and `pixel_centre` replace the data
+# set's values.
 
 
 @takes_pixel_centre
@@ -119,15 +118,14 @@ def from_matrices(
     pixel_centre: float,
     names: Iterable[str] | None = None,
 ) -> dict[str, Camera]:
-    """Cameras of matrices, by `names` or by their numbers. What the arrays do not say has no
-    default.
+    """Cameras from matrices, by `names` or by their numbers. Conventions have no default.
 
-    K          3×3, or n×3×3 with one for each pose
+    K          3×3, or n×3×3, one for each pose
     poses      n×4×4 or n×3×4
-    direction  which way they lead
-    axes       x right in both; y down and z forward ("opencv"), or y up and z backward ("opengl")
+    direction  of the poses: "world-to-camera" or "camera-to-world"
+    axes       "opencv": x right, y down, z forward; "opengl": x right, y up, z backward
 
-    Exact: an inverse is exact, and each of its entries rounded once.
+    Exact: each entry of an inverse is exact, rounded once.
 
     >>> K = [[500, 0, 320], [0, 500, 240], [0, 0, 1]]
     >>> ahead = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, -4]]  # the eye is 4 units behind the origin
@@ -169,10 +167,12 @@ def from_tum(
     pixel_centre: float | None = None,
     ignore_distortion: bool = False,
 ) -> dict[str, Camera]:
-    """The cameras of a TUM RGB-D trajectory, or of the folder with its groundtruth.txt, by their
-    times; of a list of `images` (rgb.txt, depth.txt) by the names of these, each with the pose
-    nearest in time: those with none within 0.02 s are left out with a ViewWarning. "ros" is meant
-    for depth images, the others for colour. 640×480 pixels and pixel_centre 0 without others.
+    """The cameras of a TUM RGB-D trajectory, or of the folder with its groundtruth.txt, by time.
+
+    With a list of `images` (rgb.txt, depth.txt) they are named after the images, each with the pose
+    nearest in time; images without a pose within 0.02 s are left out with a ViewWarning. K "ros" is
+    meant for depth images, "freiburg1" to "freiburg3" for colour. Defaults: 640×480 pixels,
+    pixel_centre 0.
     """
     lens = as_text("K", K) if isinstance(K, str) else ""
     given = _given(None if lens else K, size, pixel_centre)
@@ -189,8 +189,8 @@ def from_7scenes(
     size: Size | None = None,
     pixel_centre: float | None = None,
 ) -> dict[str, Camera]:
-    """The cameras of a sequence of 7-Scenes (frame-XXXXXX.pose.txt), by "frame-XXXXXX". 640×480
-    pixels, focal lengths 585, (320, 240) and pixel_centre 0 without others.
+    """The cameras of a sequence of 7-Scenes (frame-XXXXXX.pose.txt), by "frame-XXXXXX". Defaults:
+    640×480 pixels, focal lengths 585, principal point (320, 240), pixel_centre 0.
     """
     given = _given(K, size, pixel_centre)
     return _named(cls, _core.import_7scenes(path_of("folder", folder), given))
@@ -205,9 +205,9 @@ def from_scannet(
     size: Size | None = None,
     pixel_centre: float | None = None,
 ) -> dict[str, Camera]:
-    """The cameras of a scene of ScanNet (pose/N.txt, intrinsic/), by their numbers. Frames that
-    were not tracked, with poses of -inf, are left out with a ViewWarning. 640×480 or 1296×968
-    pixels and pixel_centre 0 without others.
+    """The cameras of a scene of ScanNet (pose/N.txt, intrinsic/), by number. Untracked frames, with
+    poses of -inf, are left out with a ViewWarning. Defaults: 640×480 pixels (depth) or 1296×968
+    (colour), pixel_centre 0.
     """
     colour = one_of("stream", stream, ("depth", "colour")) == "colour"
     given = _given(K, size, pixel_centre)
@@ -222,8 +222,8 @@ def from_scannetpp(
     size: Size | None = None,
     pixel_centre: float | None = None,
 ) -> dict[str, Camera]:
-    """The cameras of ScanNet++'s iphone/pose_intrinsic_imu.json (aligned_pose, intrinsic), by their
-    frames. 1920×1440 pixels and pixel_centre 0 without others.
+    """The cameras of ScanNet++'s iphone/pose_intrinsic_imu.json (aligned_pose, intrinsic), by
+    frame. Defaults: 1920×1440 pixels, pixel_centre 0.
     """
     given = _given(K, size, pixel_centre)
     return _named(cls, _core.import_scannetpp(path_of("file", file), given))
@@ -237,8 +237,9 @@ def from_replica(
     size: Size | None = None,
     pixel_centre: float | None = None,
 ) -> dict[str, Camera]:
-    """The cameras of a scene of Replica as iMAP and NICE-SLAM have it (traj.txt; cam_params.json
-    beside it or in the folder above), by "frame000000", …. pixel_centre is 0 without another.
+    """The cameras of a scene of Replica in the layout of iMAP and NICE-SLAM (traj.txt;
+    cam_params.json in the same folder or the folder above), by "frame000000", …. Default:
+    pixel_centre 0.
     """
     given = _given(K, size, pixel_centre)
     return _named(cls, _core.import_replica(path_of("folder", folder), given))
@@ -253,10 +254,11 @@ def from_kitti(
     size: Size | None = None,
     pixel_centre: float | None = None,
 ) -> dict[str, Camera]:
-    """KITTI's rectified cameras, of calib.txt (which needs `size`) or calib_cam_to_cam.txt: these
-    themselves, by the names of their folders ("image_2", "image_02"), in the frame of camera 0; or,
-    with `poses` (poses/NN.txt), number `camera` of each frame, by "000000", …. pixel_centre is 0
-    without another.
+    """KITTI's rectified cameras, from calib.txt (which needs `size`) or calib_cam_to_cam.txt.
+
+    Without `poses`: the cameras in the frame of camera 0, by the names of their folders ("image_2",
+    "image_02"). With `poses` (poses/NN.txt): number `camera` of each frame, by "000000", ….
+    Default: pixel_centre 0.
     """
     number = None if camera is None else as_count("camera", camera, 0, 3)
     trajectory = None if poses is None else path_of("poses", poses)

@@ -30,8 +30,8 @@ Background = Union[float, Literal["inf", "nan"]]
 Normals = Literal["file", "vertex", "place"]
 normal_sources = ("file", "vertex", "place")
 
-#: The channels that fathom renders: the letters of their parts, and their type, or "" for the one
-#: that is asked for.
+#: The channels that fathom renders: the letters of their parts, and their type, or "" for the
+#: requested type.
 rendered = _core.channels()
 
 
@@ -110,7 +110,7 @@ def room_for(
 
 
 def check_apart(scene: _core.Scene, arrays: Mapping[str, npt.NDArray[Any]]) -> None:
-    """What is written must lie apart from what is read, and from each other."""
+    """Output arrays must not share memory with input arrays or with each other."""
     names = list(arrays)
     for i, name in enumerate(names):
         if scene.overlaps(arrays[name]):
@@ -141,7 +141,7 @@ def checked_out(
 
 
 def several_cameras(name: str, cameras: object) -> list[Camera]:
-    """What is in a sequence that may be one of cameras."""
+    """The elements of a sequence of cameras."""
     if isinstance(cameras, Mapping):
         raise TypeError(f"{name}: expected a Camera or a sequence of them, found a dict: take its values()")
     if isinstance(cameras, (str, os.PathLike)) or not isinstance(cameras, Iterable):
@@ -192,7 +192,7 @@ def stored_type(dtype: npt.DTypeLike) -> str:
 
 
 def background_value(background: Background, stored: str) -> float | None:
-    """The value to put in; None where the one that maps have anyway is asked for."""
+    """The background to write; None if it is the value that maps have by default."""
     value = math.inf if background == "inf" else math.nan if background == "nan" else as_number("background", background)
     if stored == "uint16":
         if value not in (0, math.inf):
@@ -202,7 +202,7 @@ def background_value(background: Background, stored: str) -> float | None:
 
 
 def require_room(cameras: list[Camera], names: list[str], stored: str) -> None:
-    """Raises MemoryError rather than have the system end the process."""
+    """Raises MemoryError early; otherwise the system might end the process."""
     pixels = float(cameras[0].width) * cameras[0].height
     if pixels > 2.0**44:
         raise ValueError(f"size: an image of {in_pixels(cameras[0].size)} has more than 2^44 pixels")
@@ -210,6 +210,6 @@ def require_room(cameras: list[Camera], names: list[str], stored: str) -> None:
         np.dtype(own or stored).itemsize * max(1, len(parts)) for parts, own in (rendered[name] for name in names)
     )
     needed = pixels * len(cameras) * bytes_of_pixel
-    if needed > 2.0**28:  # to ask what there is takes longer than a small map
+    if needed > 2.0**28:  # asking for the free memory takes longer than a small map
         maps = "" if len(cameras) == 1 else f"{len(cameras)} maps of "
         _core.require_bytes(f"{maps}{in_pixels(cameras[0].size)} pixels", needed)

@@ -1,4 +1,4 @@
-"""Cameras: made, imported, read and written."""
+"""Cameras: constructors, importers, and camera files."""
 
 from __future__ import annotations
 
@@ -49,19 +49,19 @@ def _importer(
 
 
 class Camera:
-    """A pinhole or orthographic camera. Every number is taken as the real number that it denotes; a
-    camera does not change.
+    """A pinhole or orthographic camera. Every number is exact: it means the real number that it
+    denotes. A camera is immutable.
 
-    width, height    of the image in pixels
+    width, height    image size in pixels
     fx, fy, skew     pixels (perspective) or pixels per scene unit (orthographic)
-    cx, cy           pixels
-    pixel_centre     the image coordinate of the top left pixel's centre, as cx and cy count: 0.5
-                     (COLMAP, OpenGL, NeRF) or 0 (OpenCV, BOP). It has no default, since half a
-                     pixel is the most common error.
+    cx, cy           principal point in pixels
+    pixel_centre     image coordinate of the top left pixel's centre in the convention of cx and cy:
+                     0.5 (COLMAP, OpenGL, NeRF) or 0 (OpenCV, BOP). Required, because half a pixel
+                     is the most common error.
     world_to_camera  4×4 or 3×4, [R | t]; x right, y down, z forward (OpenCV's axes). R need not be
                      a rotation.
-    near, far        the range of planar depth that counts, in scene units
-    name             what its image is called; it says nothing about what is seen
+    near, far        range of planar depths that are rendered, in scene units
+    name             name of the camera's image; it does not change the map
 
     >>> camera = Camera(640, 480, 500, 500, 320, 240, pixel_centre=0.5)
     >>> camera.K
@@ -143,14 +143,13 @@ class Camera:
         near: float = 0,
         far: float = math.inf,
     ) -> Camera:
-        """The camera of OpenCV's matrices.
+        """A camera from OpenCV's matrices.
 
         K     3×3: fx skew cx / 0 fy cy / 0 0 1, in pixels
         T     4×4 or 3×4, world to camera, x right, y down, z forward
         size  (width, height) in pixels
 
-        A K of cv2.calibrateCamera() has its first pixel's centre at 0; one that COLMAP has
-        exported, at 0.5.
+        K from cv2.calibrateCamera() has pixel_centre 0; K exported by COLMAP has 0.5.
 
         >>> K = [[500, 0, 320], [0, 500, 240], [0, 0, 1]]
         >>> Camera.from_opencv(K, np.eye(4), (640, 480), pixel_centre=0)
@@ -163,9 +162,9 @@ class Camera:
 
     @classmethod
     def from_opengl(cls, projection: npt.ArrayLike, modelview: npt.ArrayLike, size: Size) -> Camera:
-        """The camera of OpenGL's matrices, each 4×4 for column vectors (transpose what glGetFloatv
-        gives), for a viewport of `size` and clip depths from −1 to 1. Near and far are those of the
-        projection.
+        """A camera from OpenGL's matrices, each 4×4 for column vectors (transpose the result of
+        glGetFloatv), for a viewport of `size` and clip depths from −1 to 1. Near and far are taken
+        from the projection.
 
         Exact: entries that follow from a formula are computed exactly and rounded once.
         """
@@ -187,11 +186,11 @@ class Camera:
         lens: Lens | None = None,
         **keywords: Unpack[LensKeywords],
     ) -> Camera:
-        """The camera at `eye` that looks at `target` with `up` upwards in the image. World, scene
-        units.
+        """A camera at `eye` that looks at `target`, with `up` upwards in the image. Points are in
+        the world, in scene units.
 
         lens        a Lens, which several cameras can share
-        **keywords  its arguments instead: size, fov, focal, extent, projection, near, far
+        **keywords  instead, the arguments of Lens: size, fov, focal, extent, projection, near, far
 
         >>> Camera.look_at((0, 0, 3)).world_to_camera[2]
         array([ 0.,  0., -1.,  3.])
@@ -212,10 +211,10 @@ class Camera:
         lens: Lens | None = None,
         **keywords: Unpack[LensKeywords],
     ) -> list[Camera]:
-        """`count` cameras around `centre` at `distance`, in steps of 360°/count from `azimuth` on,
-        all of them at `elevation` degrees above the horizon. `up` is what points up in the world:
-        "x", "y", "z", "-x", "-y", "-z" or a vector of any length; at azimuth 0 the image's right is
-        +x without its part along `up` (+y where up is along x). The lens is as for look_at().
+        """`count` cameras around `centre` at `distance`, in steps of 360°/count starting at
+        `azimuth`, all at `elevation` degrees above the horizon. `up` is the world's up direction:
+        "x", "y", "z", "-x", "-y", "-z" or a vector of any length. At azimuth 0 the image's right is
+        +x minus its part along `up` (+y if `up` is along x). The lens is as for look_at().
 
         >>> len(Camera.orbit(12, distance=3))
         12
@@ -237,7 +236,7 @@ class Camera:
         lens: Lens | None = None,
         **keywords: Unpack[LensKeywords],
     ) -> Camera:
-        """The camera that sees the whole of a scene, with a margin, from a direction in degrees.
+        """A camera that sees the whole scene, with a margin, from a direction in degrees.
         The lens is as for look_at()."""
         view = _view(azimuth, elevation, up)
         chosen = lens_handle(lens, keywords)
@@ -255,7 +254,8 @@ class Camera:
         lens: Lens | None = None,
         **keywords: Unpack[LensKeywords],
     ) -> list[Camera]:
-        """As orbit(), around a scene, at the distance from which each camera sees all of it."""
+        """Like orbit(), around a scene, at a distance from which each camera sees the whole
+        scene."""
         view = _view(azimuth, elevation, up)
         chosen = lens_handle(lens, keywords)
         steps = as_count("count", count, 1, 1_000_000)
@@ -281,20 +281,21 @@ class Camera:
 
     @classmethod
     def from_json(cls, text: str) -> Camera:
-        """The camera of a camera file's text."""
+        """A camera from the text of a camera file."""
         return _only(cameras_from_json(text))
 
     @classmethod
     def read(cls, file: Path) -> Camera:
-        """The camera of a camera file with one; read_cameras() takes those with several."""
+        """Reads a camera file with one camera; read_cameras() reads files with several."""
         return _only(read_cameras(file))
 
     def to_json(self) -> str:
-        """Every number to 17 digits: from_json() gives the same camera, bit for bit."""
+        """The text of a camera file, every number with 17 digits: from_json() returns the same
+        camera, bit for bit."""
         return _core.camera_to_json(self._handle)
 
     def write(self, file: Path) -> None:
-        """Writes a camera file, as the program reads it."""
+        """Writes a camera file, which the program can read."""
         write_cameras(file, [self])
 
     # What it is
@@ -350,7 +351,7 @@ class Camera:
 
     @property
     def name(self) -> str:
-        """What its image is called; "" where it has no name."""
+        """Name of the camera's image; "" without a name."""
         return self._handle.name
 
     @property
@@ -366,11 +367,11 @@ class Camera:
 
     @property
     def camera_to_world(self) -> npt.NDArray[np.float64]:
-        """4×4, the inverse: each entry the exact one, rounded once."""
+        """4×4, the inverse of world_to_camera: each entry is exact, rounded once."""
         return np.array([*self._handle.camera_to_world, (0, 0, 0, 1)], np.float64)
 
     def with_size(self, width: int, height: int) -> Camera:
-        """The same camera with another image size; the principal point stays, in pixels."""
+        """The same camera with another image size and the same principal point in pixels."""
         return Camera(width, height, self.fx, self.fy, self.cx, self.cy,
                       pixel_centre=self.pixel_centre, skew=self.skew,
                       world_to_camera=self.world_to_camera, projection=self.projection,
@@ -426,7 +427,7 @@ def _only(cameras: Sequence[Camera]) -> Camera:
 
 
 def cameras_from_json(text: str, name: str = "camera") -> list[Camera]:
-    """The cameras of a camera file's text; `name` begins messages."""
+    """The cameras from the text of a camera file; `name` begins error messages."""
     if not isinstance(text, str):
         raise TypeError(f"text: expected a string, found {text!r}")
     try:
@@ -441,7 +442,7 @@ def cameras_from_json(text: str, name: str = "camera") -> list[Camera]:
 
 
 def read_cameras(file: Path) -> list[Camera]:
-    """The cameras of a camera file: one, or a list (a camera path). Raises InputError, which names
+    """Reads a camera file with one camera or a list (a camera path). Raises InputError, which names
     the file."""
     name = os.fsdecode(path_of("file", file))
     try:
@@ -455,8 +456,8 @@ def read_cameras(file: Path) -> list[Camera]:
 
 
 def write_cameras(file: Path, cameras: Iterable[Camera]) -> None:
-    """Writes a camera file. A single camera is an object, several are a list. A folder that is
-    missing is made. Raises OutputError where it cannot be written."""
+    """Writes a camera file: an object for a single camera, a list for several. Creates missing
+    folders. Raises OutputError if the file cannot be written."""
     path_of("file", file)
     text = _core.cameras_to_json([camera_handle(camera) for camera in cameras])
     make_folder_of(file)

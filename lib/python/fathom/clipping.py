@@ -14,7 +14,7 @@ from ._arguments import one_of
 if TYPE_CHECKING:
     import numpy as np
 
-#: What is taken as the number that it is; a str as Fraction reads it: "1/3", "0.1".
+#: Types taken as exact numbers; a str is read like by Fraction: "1/3", "0.1".
 Number = Union[int, float, Fraction, Decimal, str, "np.integer[Any]", "np.floating[Any]"]
 Point = tuple[Fraction, Fraction]
 #: The corners of a closed polyline; the first is not repeated.
@@ -22,7 +22,7 @@ Ring = list[Point]
 
 
 class Polygon(NamedTuple):
-    """An outline, counter-clockwise where y is upwards, and its holes, clockwise."""
+    """An outline, counter-clockwise if y points up, and its holes, clockwise."""
 
     outline: Ring
     holes: list[Ring]
@@ -39,23 +39,23 @@ def clip(
     *,
     algorithm: str = "weiler-atherton",
 ) -> list[Polygon]:
-    """Intersection, difference or union of two polygons, each given as its rings, outlines and holes, by the even-odd rule.
-    Numbers are taken as what they are, not rounded: int, float, Fraction, Decimal, NumPy's, "1/3".
+    """Intersection, difference or union of two polygons. Each polygon is a list of rings (outlines and holes), by the
+    even-odd rule. Exact: numbers (int, float, Fraction, Decimal, NumPy's, "1/3") are not rounded.
 
-    A ring is simple: it has three corners or more, not all on one line, and does not meet itself (no bowtie, no spike).
-    Corners may be repeated or lie on a straight edge. Rings of one polygon may touch, in points or along edges, and be
-    equal, but not cross. The two polygons may lie to each other as they like, and have no rings; parts of the result
-    that have no area are dropped.
+    A ring must be simple: it has at least three corners, not all on one line, and does not meet itself (no bowtie, no
+    spike). Corners may be repeated or lie on a straight edge. Rings of one polygon may be equal or touch, in points or
+    along edges, but must not cross. The position of the two polygons relative to each other is free, and a polygon may
+    have no rings. Parts of the result without area are dropped.
 
     operation  "intersection", "difference" (subject without window) or "union"
-    algorithm  "weiler-atherton", or "cgal" to have CGAL's Boolean operations judge it: equal regions are equal lists
+    algorithm  "weiler-atherton", or "cgal" for CGAL's Boolean operations as a check: equal regions give equal lists
 
     >>> square = [(0, 0), (2, 0), (2, 2), (0, 2)]
     >>> [piece.area for piece in clip([square], [[(1, 1), (Fraction(7, 3), 1), (1, 3)]])]
     [Fraction(11, 12)]
 
-    Raises InputError, which names the ring, for one that is not as above; ValueError for what are no rings of finite
-    numbers; TypeError for coordinates of other types.
+    Raises InputError, which names the ring, if a ring violates these rules; ValueError if the arguments are not rings of
+    finite numbers; TypeError for coordinates of other types.
     """
     one_of("operation", operation, ("intersection", "difference", "union"))
     one_of("algorithm", algorithm, ("weiler-atherton", "cgal"))
@@ -65,7 +65,7 @@ def clip(
 
 
 def area_of(rings: Iterable[Sequence[Sequence[Number]]]) -> Fraction:
-    """The signed area of rings: counter-clockwise ones count as positive."""
+    """The signed area of rings; counter-clockwise rings are positive."""
     twice = Fraction(0)
     for ring in rings:
         points = [(_exact("rings", x), _exact("rings", y)) for x, y in ring]

@@ -20,14 +20,15 @@ if TYPE_CHECKING:
 
 
 class DeepMap:
-    """The visible fragments of every pixel, as arrays of one element per fragment: those of a pixel follow each
-    other, nearest first, and pixels row by row.
+    """The visible fragments of every pixel, as arrays with one element per fragment: pixels row by row, and the fragments
+    of a pixel nearest first.
 
-    Z, ZBack  float32: planar depth of a fragment's nearest and of its farthest visible point, in scene units
-    area      float32: the fraction of the pixel where it is visible; A: over what the ones before it leave
-    id        uint32: of its triangle
-    offsets   uint64, H·W + 1 of them: the fragments of pixel (x, y) are offsets[y·W + x] to offsets[y·W + x + 1]
-    camera    the Camera that sees them
+    Z, ZBack  float32: planar depth of a fragment's nearest and farthest visible point, in scene units
+    area      float32: fraction of the pixel in which the fragment is visible
+    A         float32: area divided by the part of the pixel that nearer fragments leave free
+    id        uint32: number of the fragment's triangle
+    offsets   uint64, H·W + 1 numbers: the fragments of pixel (x, y) are offsets[y·W + x] to offsets[y·W + x + 1]
+    camera    the deep map's Camera
     """
 
     def __init__(self, arrays: dict[str, npt.NDArray[Any]], camera: Camera, _description: _core.Map) -> None:
@@ -42,26 +43,26 @@ class DeepMap:
 
     @property
     def counts(self) -> npt.NDArray[np.int64]:
-        """H×W: how many fragments each pixel has."""
+        """H×W: the number of fragments of each pixel."""
         return np.diff(self.offsets.astype(np.int64)).reshape(self.camera.height, self.camera.width)
 
     @property
     def metadata(self) -> dict[str, str]:
-        """The texts that its file has: fathom.camera, fathom.sources, …"""
+        """The texts of its file: fathom.camera, fathom.sources, …"""
         return dict(self._description.texts)
 
     def at(self, x: int, y: int) -> slice:
-        """Where the fragments of a pixel are: deep.Z[deep.at(3, 5)]."""
+        """The slice with the fragments of a pixel: deep.Z[deep.at(3, 5)]."""
         pixel = as_count("y", y, 0, self.camera.height - 1) * self.camera.width
         pixel += as_count("x", x, 0, self.camera.width - 1)
         return slice(int(self.offsets[pixel]), int(self.offsets[pixel + 1]))
 
     def write(self, file: Path, *, compression: str = "zips", threads: int = 0) -> None:
-        """Writes a deep EXR with channels A, Z, ZBack, area and id, as compositing programs read it. `compression` is
-        zips, rle or none.
+        """Writes a deep EXR with channels A, Z, ZBack, area and id, for compositing programs. `compression` is "zips",
+        "rle" or "none".
 
-        Raises ValueError unless the name ends in .exr, and for arrays that have been changed into what such a file
-        cannot say: NaN, a pixel's fragments in another order than nearest first, ZBack nearer than Z.
+        Raises ValueError unless the name ends in .exr, and if changed arrays do not fit such a file: NaN, fragments of a
+        pixel not nearest first, ZBack nearer than Z.
         """
         path = path_of("file", file)
         if not os.fsdecode(path).lower().endswith(".exr"):
@@ -110,7 +111,7 @@ class DeepMap:
 
 
 def render_deep(scene: Scene, camera: Camera, *, cull: Cull = "none", threads: int = 0) -> DeepMap:
-    """The visible fragments of every pixel, with their exact areas, each rounded once to float32.
+    """Renders the visible fragments of every pixel, with their exact areas; each number is rounded once to float32.
 
     >>> import fathom
     >>> scene = fathom.Scene()

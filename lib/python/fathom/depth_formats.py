@@ -1,4 +1,4 @@
-"""Depth formats: what a depth buffer stores, and how finely it tells depths apart."""
+"""Depth formats: the values that a depth buffer stores, and which depths it distinguishes."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ STORAGES: tuple[str, ...] = tuple(_core.storages)
 
 
 class DepthFormat:
-    """A map from planar depth to [0, 1], and a type that keeps the value.
+    """A mapping from planar depth to [0, 1], and the type that stores the value.
 
     mapping    one of MAPPINGS: "standard", "reversed", "infinite", "reversed-infinite", "opengl", "linear", "w", "log",
                "log-ulrich"
     storage    one of STORAGES: "unorm16", "unorm24", "unorm32", "float16", "float32", "float64"
     near, far  planar depths in scene units
-    c          the constant of "log"
+    c          constant C of mapping "log"
 
-    Stored values are the codes of a unorm storage, the bits of a float storage; greater values have greater ones.
+    A stored value is the code of a unorm storage or the bits of a float storage; both increase with the value.
 
     >>> z24 = DepthFormat("standard", "unorm24", near=0.1, far=100)
     >>> z24.encode([0.1, 1, 100]).tolist()
     [0, 15114608, 16777215]
-    >>> float(z24.bin_width(50.0).round(8))  # depths that differ by more than this are told apart
+    >>> float(z24.bin_width(50.0).round(8))  # depths that differ by more have different codes
     0.00148863
     """
 
@@ -44,40 +44,40 @@ class DepthFormat:
 
     @property
     def greatest(self) -> int:
-        """The stored value that means 1."""
+        """The stored value for 1."""
         return self._handle.greatest
 
     def encode(self, depths: npt.ArrayLike, *, clamp: bool = False) -> npt.NDArray[np.uint64]:
-        """The stored values nearest to the exact ones, ties to even. Depths outside near and far are an error, or
-        taken as the nearer of these."""
+        """The stored values nearest to the exact values, ties to even. A depth outside [near, far] raises InputError or,
+        with `clamp`, is moved to the nearer end."""
         return self._handle.encode(as_numbers("depths", depths), bool(clamp))
 
     def decode(self, stored: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """The depths that stored values mean, exact numbers rounded once; inf where that is infinite.
+        """The depths of stored values, exact, rounded once; inf for an infinite depth.
 
-        Raises InputError for what is above `greatest`: bits of floats beyond 1, of negative ones, of NaN."""
+        Raises InputError for values above `greatest`: the bits of floats beyond 1, of negative floats, of NaN."""
         return self._handle.decode(_stored(stored))
 
     def values(self, stored: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """The numbers in [0, 1] that stored values are, rounded once. Raises InputError as decode()."""
+        """The numbers in [0, 1] of stored values, rounded once. Raises InputError like decode()."""
         return self._handle.values(_stored(stored))
 
     def resolution(self, depths: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """The distances from the depth that the stored value of each depth means to those that the next nearer and
-        the next farther one mean; NaN where there is none."""
+        """For the stored value of each depth, the distances from its depth to the depths of the next nearer and the next
+        farther stored value; NaN without such a value."""
         numbers = as_numbers("depths", depths)
         return self._handle.to_nearer(numbers), self._handle.to_farther(numbers)
 
     def separation_behind(self, depths: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """How far behind each depth a surface has to be to be told apart from it; NaN where none is."""
+        """The distance behind each depth at which a surface gets another stored value; NaN if no surface does."""
         return self._handle.separation_behind(as_numbers("depths", depths))
 
     def bin_width(self, depths: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """The length of the interval of depths that are stored like each depth."""
+        """The length of the interval of depths with the same stored value as each depth."""
         return self._handle.bin_width(as_numbers("depths", depths))
 
     def codes_between(self, nearest: float, farthest: float) -> int:
-        """As how many different values depths between these two are stored."""
+        """The number of different stored values of the depths between these two."""
         return self._handle.codes_between(as_number("nearest", nearest), as_number("farthest", farthest))
 
     def __repr__(self) -> str:

@@ -1,4 +1,4 @@
-"""A reconstructed surface against the true one: the figures by which reconstructions are ranked."""
+"""Metrics that compare a reconstructed surface with the true surface."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 
 
 class Depth(NamedTuple):
-    """How the exact depths of the reconstruction agree with the true ones, over all views; lengths in scene units."""
+    """Agreement of the reconstruction's exact depths with the true depths, over all views; lengths in scene units."""
 
     views: int
-    #: Pixels that show both surfaces, or only one of them.
+    #: Pixels that show both surfaces, or only one surface.
     both: int
     only_truth: int
     only_reconstruction: int
-    #: Depth L1: the mean of |d − t| over the pixels that show both, as are the next seven.
+    #: Depth L1: the mean of |d − t| over the pixels that show both. The next seven figures are over the same pixels.
     l1: float
     rmse: float
     rmse_log: float
@@ -35,18 +35,18 @@ class Depth(NamedTuple):
     delta_1: float
     delta_2: float
     delta_3: float
-    #: Depth L1 with no surface as depth 0 and all views alike: over all pixels, as NICE-SLAM computes it; over those
-    #: that show the truth in views with more than 100 of them, as neural_slam_eval does.
+    #: Depth L1 with depth 0 for "no surface" and equal weights for all views: over all pixels, as NICE-SLAM computes it;
+    #: and over the pixels that show the truth, in views with more than 100 such pixels, as neural_slam_eval computes it.
     l1_of_all_pixels: float
     l1_of_truth_pixels: float
     views_of_truth: int
 
 
 class Distances(NamedTuple):
-    """Distances of points of one surface from the other, in scene units, each exact and rounded once; 0 if no point
-    is seen."""
+    """Distances of points on one surface from the other surface, in scene units, each exact, rounded once; 0 if no
+    point is seen."""
 
-    #: Points that were put on the surface, and those that a camera sees and that count.
+    #: Points put on the surface, and points that a camera sees; only the latter count.
     points: int
     seen: int
     mean: float
@@ -55,9 +55,9 @@ class Distances(NamedTuple):
     p90: float
     p99: float
     max: float
-    #: For each threshold, the share of the points that are nearer.
+    #: For each threshold, the fraction of the points that are nearer.
     shares: tuple[float, ...]
-    #: With `keep_points`, the points that count, (seen, 3), and their distances, (seen,); else None.
+    #: With `keep_points`, the points that count, (seen, 3), and their distances, (seen,); otherwise None.
     positions: npt.NDArray[np.float64] | None
     distances: npt.NDArray[np.float64] | None
 
@@ -76,12 +76,14 @@ class Evaluation(NamedTuple):
 def evaluate(reconstruction: Scene, truth: Scene, cameras: Camera | Iterable[Camera] = (), *,
              within: Iterable[float] = (), points: int = 200_000, keep_points: bool = False, cull: Cull = "none",
              threads: int = 0) -> Evaluation:
-    """Compares a reconstructed surface with the true one, in the same world and unit: Depth L1 and its like from exact
-    depth maps of every camera, and distances of `points` points on each surface from the other.
+    """Compares a reconstructed surface with the true surface, in the same world and unit: Depth L1 and related figures
+    from exact depth maps of every camera, and distances of points on each surface from the other surface.
 
-    Points stand in proportion to area, always the same ones. With cameras, those count that one of them sees of the
-    surface on which they are; without, all of them count and there are no depths. `within` are thresholds; `keep_points`
-    returns every point that counts with its distance.
+    cameras      points count if a camera sees them on their own surface; without cameras all points count, and there are
+                 no depth figures
+    within       thresholds in scene units, for the fraction of points that are nearer
+    points       number of points on each surface, distributed by area; always the same points
+    keep_points  return every point that counts, with its distance
 
     >>> import fathom
     >>> square = [(-1, -1, 2), (1, -1, 2), (1, 1, 2), (-1, 1, 2)]

@@ -27,16 +27,15 @@ class LensKeywords(TypedDict, total=False):
 
 
 class Lens:
-    """Image size, focal length, projection and range, which several cameras can share. A lens does
-    not change.
+    """Image size, focal length, projection and range, which several cameras can share. A lens is
+    immutable.
 
     size        (width, height) of the image in pixels
-    fov         the angle in degrees that the image's height spans: 40 where neither it nor `focal`
-                is given
-    focal       fx = fy in pixels, in its place
-    extent      orthographic cameras: the scene units that the image's height spans
+    fov         vertical field of view in degrees (default 40, unless `focal` is given)
+    focal       fx = fy in pixels, instead of `fov`
+    extent      height of the image in scene units, for orthographic cameras
     projection  "perspective" or "orthographic"
-    near, far   the range of planar depth that counts, in scene units
+    near, far   range of planar depths that are rendered, in scene units
 
     The principal point is the middle of the image. Camera.look_at(), orbit(), frame() and
     orbit_scene() accept a `lens`, or its arguments:
@@ -46,8 +45,8 @@ class Lens:
     >>> Camera.look_at((0, 0, 3), lens=wide) == Camera.look_at((0, 0, 3), size=(640, 480), fov=90)
     True
 
-    Raises TypeError or ValueError, which name the argument; ValueError for two of fov, focal and
-    extent, or one that is not for the projection.
+    Raises TypeError or ValueError, which name the argument; ValueError if two of fov, focal and
+    extent are given, or if one does not fit the projection.
     """
 
     __slots__ = ("_handle", "extent", "far", "focal", "fov", "near", "projection", "size")

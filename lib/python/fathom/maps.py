@@ -21,34 +21,36 @@ if TYPE_CHECKING:
     from ._arguments import HasScene as Scene
     from ._arguments import Numbers
 
-#: What id, face, object, material, group, part and label have where there is no surface.
+#: The value of id, face, object, material, group, part and label without a surface.
 NO_SURFACE = _core.no_surface
-#: What material, group, part and label have where a surface is visible that has none.
+#: The value of material, group, part and label if the visible triangle has no such name or label.
 NO_SEGMENT = _core.no_segment
-#: The channels that have it.
+#: The channels that can have this value.
 segment_channels = ("material", "group", "part", "label")
 
-#: Those that are one array with a last axis: N is N.X, N.Y, N.Z in files.
+#: The channels with several parts, which are one array with a last axis: N is N.X, N.Y, N.Z in
+#: files.
 parts_of = {name: parts for name, (parts, _) in rendered.items() if parts}
 
 quantities = ("Z", "distance", "disparity")
 
 
 class Map(dict[str, "npt.NDArray[Any]"]):
-    """The channels of a depth map, H×W arrays by name (H×W×3 for N, P, Nc and Ns, H×W×2 for bary), and what the map
-    carries so that it can be computed again. A stack, rendered with several cameras, has the number of the camera as
-    the first axis of its arrays: its view(i) is the map of camera i.
+    """The channels of a depth map: H×W arrays by name (H×W×3 for N, P, Nc and Ns, H×W×2 for bary),
+    with the camera and the sources. In a stack, rendered with several cameras, the first axis of
+    each array is the number of the camera; view(i) is the map of camera i.
 
-    camera    the Camera that it shows; None where that is not known, and of a stack
-    cameras   of a stack: all of them; else the one that it shows, if it is known
-    metadata  the texts of its file: fathom.camera, fathom.sources with their SHA-256, …
-    objects   the names of the objects that channel `object` numbers
-    tables    what numbers stand for, by channel: {"object": {0: "spot"}, "material": {0: "steel", 1: "oak"}}
-    scale     for uint16 codes: codes per scene unit
-    background  what depth channels have where there is no surface
+    camera      the map's Camera; None if it is unknown, or for a stack
+    cameras     all cameras of a stack; otherwise a list of the map's camera, if it is known
+    metadata    the texts of its file: fathom.camera, fathom.sources with their SHA-256, …
+    objects     the names of the objects that channel `object` numbers
+    tables      the names behind numbers, by channel:
+                {"object": {0: "spot"}, "material": {0: "steel", 1: "oak"}}
+    scale       codes per scene unit, for uint16 codes
+    background  value of depth channels without a surface
 
-    Map({"Z": depths}, camera, background=0) makes one of your own arrays; with scale=1000, of uint16 codes. copy() and
-    pickle keep all that a map carries.
+    Map({"Z": depths}, camera, background=0) makes a map from your own arrays; add scale=1000 for
+    uint16 codes. copy() and pickle keep everything.
     """
 
     def __init__(
@@ -86,8 +88,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
 
     @classmethod
     def read(cls, file: Path) -> Map:
-        """Reads EXR (also of other programs), NPZ, NPY, PFM, 16-bit PNG or a dense map of COLMAP's (.bin), which is
-        told by its content."""
+        """Reads EXR (also by other programs), NPZ, NPY, PFM, 16-bit PNG or a dense map of COLMAP
+        (.bin). The format is detected from the content."""
         return cls._of(_core.read_map(path_of("file", file)))
 
     @classmethod
@@ -105,17 +107,20 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         compression: str = "zip",
         threads: int = 0,
     ) -> None:
-        """Writes the map in the format that the file's suffix names. A folder that is missing is made.
+        """Writes the map; the suffix of the file selects the format. Creates missing folders.
 
         .exr, .npz        all channels, with camera and metadata
-        .npy, .pfm, .png  one channel, `channel` where the map has several: .npy also those of several parts, .png
-                          identifiers, codes of uint16 and, with `scale`, depths
-        .bin              a dense map of COLMAP's: Z, or Nc if it is the channel; 0 where no surface is
-        .tif              a GeoTIFF, for others to read: a band for each channel. The camera has to be orthographic and
-                          to look straight along the world's z axis
+        .npy, .pfm, .png  one channel, selected by `channel` if the map has several. .npy: also
+                          channels with several parts; .png: identifiers, codes of uint16 and, with
+                          `scale`, depths
+        .bin              a dense map of COLMAP: Z, or Nc if `channel` is Nc; 0 without a surface
+        .tif              a GeoTIFF for other programs, a band per channel. The camera must be
+                          orthographic and look straight along the world's z axis
 
-        scale  for .png of depths: codes of uint16 per scene unit, as stored_as("uint16", scale=…) makes them
-        names  what channels are called in an EXR: {"Z": "Y"} is for cv2.imread(), which shows R, G, B and Y alone
+        scale  codes of uint16 per scene unit for a .png of depths, as by stored_as("uint16",
+               scale=…)
+        names  names of channels in an EXR: {"Z": "Y"} is for cv2.imread(), which only reads R, G, B
+               and Y
         """
         if names is not None and not isinstance(names, Mapping):
             raise TypeError(f"names: expected a dict of names by the names of channels, found {names!r}")
@@ -143,7 +148,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         return [] if self.camera is None else [self.camera]
 
     def view(self, i: int) -> Map:
-        """Map i of a stack, with its camera and metadata. Its arrays are parts of the stack's: nothing is copied."""
+        """Map i of a stack, with its camera and metadata. Its arrays are views of the stack's
+        arrays, not copies."""
         if self._views is None:
             raise ValueError("view: the map is no stack")
         camera, description = self._views[as_count("i", i, 0, len(self._views) - 1)]
@@ -159,27 +165,28 @@ class Map(dict[str, "npt.NDArray[Any]"]):
 
     @property
     def tables(self) -> dict[str, dict[int, str]]:
-        """What the numbers of channels stand for, where they have names: tables["material"][n] is the name of material
-        n. What is visible and has none is NO_SEGMENT in the channel. Labels are numbers without names."""
+        """The names behind the numbers of a channel: tables["material"][n] is the name of material
+        n. A visible triangle without a name is NO_SEGMENT in the channel. Labels are numbers
+        without names."""
         named = {"object": self._description.object_names, **self._description.tables}
         return {channel: dict(enumerate(names)) for channel, names in named.items() if names}
 
     @property
     def background(self) -> float:
-        """What depth channels have where there is no surface; 0 of codes."""
+        """Value of depth channels without a surface; 0 for codes."""
         if self.scale is not None:
             return 0.0
         with _core.standard_arithmetic():  # Python reads decimals by binary64 arithmetic
             return float(self._description.texts.get(_core.background_text, "inf"))
 
     def _set_background(self, value: float) -> None:
-        """Of a map, or of each of a stack, just rendered; it says so in its metadata, as the program's maps do."""
+        """Sets the background of a newly rendered map or stack, and records it in the metadata."""
         if self._views is not None:
             for i in range(len(self._views)):
                 self.view(i)._set_background(value)
             self._description.texts = dict(self._views[0][1].texts)
             return
-        # Channels of several parts have no depths, and tell nothing of surfaces.
+        # Channels with several parts have no depths, and do not show where surfaces are.
         planes = [(name, array) for name, array in self.items() if array.ndim == 2]
         if planes:
             height, width = planes[0][1].shape
@@ -190,8 +197,9 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         return self._description.png_scale
 
     def mask(self) -> npt.NDArray[np.bool_]:
-        """True where there is a surface: by id, face or object where the map has one, else where Z, distance or
-        disparity is not the background, else by material, group, part or label."""
+        """H×W, True where the map has a surface: by id, face or object if the map has such a
+        channel; otherwise where Z, distance or disparity is not the background; otherwise by
+        material, group, part or label. ValueError without any of these channels."""
         for name in ("id", "face", "object"):
             if name in self:
                 return np.asarray(self._channel(name) != NO_SURFACE)
@@ -239,19 +247,20 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         return chosen
 
     def to_distance(self, camera: Camera | None = None) -> Map:
-        """Ray distances, of planar depths. Computed from the stored values in binary64: rounded twice. Render
-        channel `distance` for values that are rounded once."""
+        """Converts planar depths to ray distances, from the stored values in binary64, so they are
+        rounded twice. Render channel `distance` for values that are rounded once."""
         return self._converted("distance", camera, None, 0)
 
     def to_depth(self, camera: Camera | None = None) -> Map:
-        """Planar depths, of ray distances."""
+        """Converts ray distances to planar depths, from the stored values in binary64."""
         return self._converted("Z", camera, None, 0)
 
     def to_disparity(
         self, baseline: float, *, doffs: float = 0, camera: Camera | None = None, background: float = 0
     ) -> Map:
-        """Disparities in pixels of a rectified stereo pair, |fx|·baseline/Z − doffs. The baseline is in scene units.
-        `background` is theirs: 0, or inf for Middlebury's "unknown"."""
+        """Converts depths to disparities of a rectified stereo pair in pixels, |fx|·baseline/Z −
+        doffs. The baseline is in scene units. `background` is the disparity without a surface: 0,
+        or inf for Middlebury's "unknown"."""
         return self._converted("disparity", camera, as_number("baseline", baseline), as_number("doffs", doffs),
                                as_number("background", background))
 
@@ -264,7 +273,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         return Map._of(_core.convert_quantity(self._handle(), source, to, handle, baseline, doffs, background))
 
     def stored_as(self, dtype: npt.DTypeLike, *, channel: str = "", scale: float | None = None) -> Map:
-        """The map with one depth channel alone, stored as float32, float64 or uint16 codes of round(scale · depth)."""
+        """A map with only one depth channel, stored as float32, float64 or uint16 codes of
+        round(scale · depth)."""
         try:
             name = one_of("dtype", np.dtype(dtype).name, ("float32", "float64", "uint16"))
         except TypeError:
@@ -273,8 +283,9 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         return Map._of(_core.with_storage(self._handle(), as_text("channel", channel), name, factor))
 
     def points(self, camera: Camera | None = None, *, frame: str = "world") -> Numbers:
-        """N×3 float64 points, one for each pixel with a surface at a finite depth, row by row, in scene units, of Z
-        (or distance) and the camera; or those of channel P, which are exact numbers rounded once, for the world."""
+        """N×3 float64 points in scene units, row by row, one for each pixel with a surface at a
+        finite depth. They are computed from Z (or distance) and the camera; in the world from
+        channel P, if the map has it, whose values are exact, rounded once."""
         one_of("frame", frame, ("world", "camera"))
         # Positions in the world need no camera.
         needs_camera = frame == "camera" or "P" not in self
@@ -283,7 +294,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
 
     def write_points(self, file: Path, camera: Camera | None = None, *, frame: str = "world",
                      dtype: npt.DTypeLike = "float64") -> None:
-        """Writes the points as PLY, with normals and identifiers where the map has these."""
+        """Writes the points as PLY, with normals and identifiers if the map has them."""
         path = path_of("file", file)
         name = one_of("dtype", np.dtype(dtype).name, ("float32", "float64"))
         one_of("frame", frame, ("world", "camera"))
@@ -293,8 +304,9 @@ class Map(dict[str, "npt.NDArray[Any]"]):
                                 name == "float64")
 
     def add_cryptomatte(self, scene: Scene, camera: Camera | None = None, *, cull: str = "none", threads: int = 0) -> None:
-        """Adds Cryptomatte's channels by object, CryptoObject00.R and so on, with exact coverage, each rounded once to
-        float32, and the manifest among the metadata. What compositing programs read is the EXR of it."""
+        """Adds Cryptomatte's channels by object, CryptoObject00.R and so on, with exact coverage,
+        each rounded once to float32, and the manifest to the metadata. Write the map as EXR for
+        compositing programs."""
         if self._views is not None:
             raise ValueError("map: it is a stack: add Cryptomatte's channels to maps by view(i)")
         view = self._camera(camera)
@@ -312,7 +324,7 @@ _State = tuple[dict[str, str], list[str], dict[str, list[str]], Union[float, Non
 
 
 def _state_of(description: _core.Map) -> _State:
-    """All that a description has, as objects of Python's."""
+    """The contents of a description, as Python objects."""
     return description.texts, description.object_names, description.tables, description.png_scale
 
 
@@ -332,7 +344,7 @@ def _map_of_state(
     state: _State,
     views: list[tuple[Camera, _State]] | None,
 ) -> Map:
-    """What pickle calls."""
+    """Called by pickle."""
     of_views = None if views is None else [(each, _description_of(of_view)) for each, of_view in views]
     return Map(channels, camera, _description_of(state), of_views)
 
@@ -367,14 +379,14 @@ def _grouped(planes: dict[str, npt.NDArray[Any]]) -> dict[str, npt.NDArray[Any]]
 
 
 def _native(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """In this machine's order of bytes; float16 as float32, which has all of its numbers."""
+    """In this machine's byte order; float16 as float32, which can represent all its numbers."""
     if array.dtype == np.float16:
         return array.astype(np.float32)
     return array if array.dtype.isnative else array.astype(array.dtype.newbyteorder("="))
 
 
 def _planes(channels: dict[str, npt.NDArray[Any]]) -> list[tuple[str, npt.NDArray[Any]]]:
-    """The channels as files have them."""
+    """The channels as in files: parts separately."""
     planes: list[tuple[str, npt.NDArray[Any]]] = []
     for name, value in channels.items():
         array = _native(as_array(f"map: channel {as_text('map: channels', name)}", value))
@@ -387,12 +399,12 @@ def _planes(channels: dict[str, npt.NDArray[Any]]) -> list[tuple[str, npt.NDArra
 
 
 def read_map(file: Path) -> Map:
-    """Map.read()."""
+    """Reads a map: the same as Map.read()."""
     return Map.read(file)
 
 
 def as_map(name: str, value: object) -> Map:
-    """A Map, a dict of arrays, or one array, which is Z."""
+    """A Map from a Map, a dict of arrays, or a single array, which is taken as Z."""
     if isinstance(value, Map):
         return value
     if isinstance(value, dict):
@@ -416,14 +428,17 @@ def compare(
     truth_background: float | None = None,
     other_background: float | None = None,
 ) -> _core.MapComparison:
-    """How two maps of one view differ, channel by channel: which pixels show a surface in one only, and the absolute,
-    relative and ulp differences of the others. Arrays are taken for Z.
+    """Compares two maps of the same view, channel by channel: pixels that show a surface in only
+    one map, and the absolute, relative and ulp differences of the other pixels. An array is taken
+    as Z.
 
-    tolerance_…  two numbers agree where one of the three allows it
-    metrics      True: each depth channel has depth_metrics (abs_rel, sq_rel, rmse, rmse_log, mae, delta_1 to delta_3),
-                 each of disparities disparity_metrics (epe, rmse, bad_0_5, bad_1, bad_2); "disparity": all of them are
-                 disparities
-    …_background the value that stands for "no surface"; else it is what the map says, or found out and noted
+    tolerance_ulp, tolerance_absolute, tolerance_relative  two numbers agree if one of the three
+             tolerances allows it
+    metrics  True: depth channels get depth_metrics (abs_rel, sq_rel, rmse, rmse_log, mae, delta_1
+             to delta_3), disparity channels disparity_metrics (epe, rmse, bad_0_5, bad_1, bad_2);
+             "disparity": all channels are disparities
+    truth_background, other_background  value of "no surface" (default: the value that the map
+             records; otherwise it is detected, with a note)
 
     >>> truth = np.array([[1, 2], [3, np.inf]], np.float32)
     >>> found = compare(truth, np.array([[1, 2], [3.5, np.inf]], np.float32))

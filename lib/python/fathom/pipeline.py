@@ -1,5 +1,5 @@
-"""The graphics pipeline of the textbooks: pictures, one primitive followed through all stages, each stage by itself.
-By itself it promises nothing exact; docs/pipeline.md says what each stage computes."""
+"""The graphics pipeline of the textbooks: render pictures, follow a primitive through all stages, run single stages.
+Its results are rounded, not exact; docs/pipeline.md describes each stage."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ if TYPE_CHECKING:
 
     from .scene import Scene
 
-    #: What an option takes: a word of the command, a number, a list of numbers, or True for a flag.
+    #: The value of an option: a word of the command line, a number, a list of numbers, or True for a flag.
     Option = Union[str, float, bool, Sequence[float]]
 
 Precision = Literal["binary32", "binary64"]
 
 
 class Picture(NamedTuple):
-    """What render() gives.
+    """The result of render().
 
-    map         channels Z (float32, along the view, scene units) and id (uint32), as the pipeline computed them; its
-                camera has the near and far that were clipped with, so that an exact map can be rendered for it
-    picture     uint8, of shape height×width×3, sRGB as written to PNG
-    statistics  what `fathom render --engine pipeline --stats` writes: counts of triangles, fragments, …
+    map         channels Z (float32, planar depth in scene units) and id (uint32), as the pipeline computed them; its
+                camera has the near and far of the clipping, so that an exact map can be rendered with it
+    picture     uint8, height×width×3, sRGB as in a PNG
+    statistics  the figures of `fathom render --engine pipeline --stats`: counts of triangles, fragments, …
     """
 
     map: Map
@@ -43,17 +43,17 @@ class Picture(NamedTuple):
 
 
 def render(scene: Scene, camera: Camera, **options: Option) -> Picture:
-    """Renders a picture as a graphics pipeline does.
+    """Renders a picture like a graphics pipeline.
 
-    scene    with the lines and points of its files, which are drawn as such
-    camera   without near and far, the pipeline clips with ones that contain the scene
-    options  those of `fathom render --engine pipeline`, with _ in place of -: shading="phong", antialias="msaa:4",
+    scene    lines and points of its files are also drawn
+    camera   without near and far, the pipeline clips with values that contain the scene
+    options  the options of `fathom render --engine pipeline`, with _ instead of -: shading="phong", antialias="msaa:4",
              light=(1, 1, 2), viewport=(0, 0, 320, 240), scan="scan-line", hidden_surface="painter", blend=True,
              depth_format="unorm24", mapping="opengl", precision="binary64", cull="back", background=(1, 1, 1), …
 
-    Rounded  every value, as the options say; nothing is exact.
-    Raises   UsageError for options that mean nothing or do not go together, InputError for a scene, a camera or a
-             texture that cannot be used. A viewport that stretches the picture is a ViewWarning.
+    Rounded  every value, in the precision of the options; nothing is exact.
+    Raises   UsageError for unknown options or options that exclude each other, InputError for a scene, a camera or a
+             texture that cannot be used. Warns (ViewWarning) if the viewport stretches the picture.
 
     >>> import numpy as np, fathom
     >>> scene = fathom.Scene()
@@ -88,17 +88,17 @@ def trace(
     draw: bool = False,
     **options: Option,
 ) -> Answer:
-    """Follows a triangle, a line or a point through the stages: what enters each and what leaves it.
+    """Follows a triangle, a line or a point through the stages, with the input and output of each.
 
-    number     in the scene, as in channel id: triangles first, then the lines and points of each object
-    pixel      (x, y): also the sample at its centre ("sample") and all that the output merger does there, fragment by
-               fragment of the whole scene ("output_merger": what was in the pixel, the tests, what is written)
+    number     number in the scene, as in channel id: triangles first, then the lines and points of each object
+    pixel      (x, y): adds the sample at the pixel's centre ("sample") and the output merger's steps there, for every
+               fragment of the whole scene ("output_merger": the pixel's previous contents, the tests, the result)
     fragments  list all fragments ("fragment_list")
-    draw       draw it: answer.svg, which a notebook shows
+    draw       draw the steps: answer.svg, which a notebook shows
     options    as for render(); with hidden_surface="painter" also the order and its splits ("painter")
 
-    Returns  a dict, as `fathom pipeline trace --json` prints it: numbers are floats.
-    Raises   UsageError if there is no such primitive; as render().
+    Returns  a dict, as printed by `fathom pipeline trace --json`; numbers are floats.
+    Raises   UsageError for a primitive that does not exist; otherwise as render().
 
     >>> import numpy as np, fathom
     >>> scene = fathom.Scene()
@@ -127,7 +127,7 @@ def trace(
 
 
 def stages() -> dict[str, tuple[str, str]]:
-    """The stages of run(), in the order of the data: the keys that each takes, and those that it adds.
+    """The stages of run(), in the order of the data: the keys that each stage takes, and the keys that it adds.
 
     >>> list(stages())[:4]
     ['primitive-assembly', 'vertex-transform', 'clipping', 'perspective-division']
@@ -138,14 +138,14 @@ def stages() -> dict[str, tuple[str, str]]:
 
 
 def run(stage: str, record: Mapping[str, Any], *, precision: Precision = "binary32") -> Answer:
-    """Runs one stage by itself, as `fathom pipeline run STAGE` does.
+    """Runs a single stage, like `fathom pipeline run STAGE`.
 
     stage      one of stages()
-    record     a dict of what the stage takes; docs/pipeline.md has every key
-    precision  what the stage rounds to: binary32 or binary64
+    record     a dict with the stage's inputs; docs/pipeline.md lists every key
+    precision  precision to which the stage rounds: binary32 or binary64
 
-    Returns  the record with the stage's results, so that it can be given to the next stage.
-    Raises   InputError for a record that lacks something or cannot be used.
+    Returns  the record with the stage's results added, as input for the next stage.
+    Raises   InputError for a record that lacks a key or cannot be used.
 
     >>> record = run("perspective-division", {"clip": [(3, 1, 2, 8)]})
     >>> record["ndc"]

@@ -1,4 +1,4 @@
-"""What can be asked about a scene and a camera beside a map: each answer is exact."""
+"""Exact answers about a scene and a camera, in addition to maps."""
 
 from __future__ import annotations
 
@@ -25,24 +25,24 @@ class CoveringTriangle(NamedTuple):
     #: Its number in the scene, as in channel `id`.
     id: int
     object: int
-    #: Its number within its object's mesh, and that of its face within its file.
+    #: Its number within its object's mesh, and the number of its face within its file.
     triangle: int
     face: int
     front_facing: bool
-    #: The planar depth at the centre, exactly, in scene units.
+    #: The exact planar depth at the centre, in scene units.
     depth: Fraction
-    #: Whether it can be visible: it is in front, within near and far, and not culled.
+    #: Whether it can be visible: it is in front of the camera, within near and far, and not culled.
     counts: bool
     #: The signs of the edge functions: 1 inside, 0 on the edge.
     edges: tuple[int, int, int]
-    #: The arithmetic that settles which way it faces, and then each sign of `edges`: an interval by CGAL, or dyadic
-    #: numbers where the interval does not settle it. The depth is always computed with dyadic numbers.
+    #: The arithmetic that settles its orientation, and then each sign of `edges`: an interval by CGAL, or dyadic numbers
+    #: if the interval does not settle the sign. The depth is always computed with dyadic numbers.
     decided_by: tuple[str, str, str, str]
 
 
 def probe(scene: Scene, camera: Camera, x: int, y: int, *, cull: Cull = "none") -> list[CoveringTriangle]:
     """Every triangle that covers the centre of the pixel in column `x` and row `y` from the top left: nearest first,
-    ties by number, and last those that do not count. The first one that counts is visible.
+    ties by number, and last the triangles that do not count. The first triangle that counts is visible.
 
     >>> import fathom
     >>> scene = fathom.Scene()
@@ -70,13 +70,13 @@ def _fraction(m: int, e: int, n: int, f: int) -> Fraction:
 
 
 class Areas(NamedTuple):
-    """Areas in pixels, each exact number rounded once to float64, by the numbers of triangles or objects."""
+    """Areas in pixels, exact, rounded once to float64; index i is triangle or object i."""
 
-    #: Where it is the visible one.
+    #: Area in which it is visible.
     visible: npt.NDArray[np.float64]
-    #: Where it would be visible if there were nothing else.
+    #: Area in which it would be visible without all other triangles or objects.
     unoccluded: npt.NDArray[np.float64]
-    #: visible / unoccluded; NaN where there is no unoccluded area.
+    #: visible / unoccluded; NaN without unoccluded area.
     ratio: npt.NDArray[np.float64]
 
 
@@ -86,7 +86,7 @@ class VisibleAreas(NamedTuple):
 
 
 def visible(scene: Scene, camera: Camera, *, cull: Cull = "none", threads: int = 0) -> VisibleAreas:
-    """The exact visible area of every triangle and every object, in pixels of the image, whatever its size."""
+    """The exact visible area of every triangle and every object, in pixels of the image."""
     triangles, objects = _core.visible(scene_handle(scene), camera_handle(camera), one_of("cull", cull, culls),
                                        as_threads(threads))
     return VisibleAreas(Areas(*triangles), Areas(*objects))
@@ -101,7 +101,7 @@ class Disagreement(NamedTuple):
 
 
 class Verification(NamedTuple):
-    #: Pixels that were computed again, and how many of them differ.
+    #: Number of pixels that were computed again, and number of pixels that differ.
     verified: int
     differing: int
     first: Disagreement | None
@@ -109,8 +109,8 @@ class Verification(NamedTuple):
 
 def verify(map: Map, scene: Scene, camera: Camera | None = None, *, pixels: int = 1000, cull: Cull = "none",
            threads: int = 0) -> Verification:
-    """Computes up to `pixels` pixels of a rendered map again by exact arithmetic alone, and compares every channel bit
-    for bit. Which pixels, is always the same for an image size. The map's background must be inf."""
+    """Computes up to `pixels` pixels of a rendered map again, only with exact arithmetic, and compares every channel bit
+    for bit. The choice of pixels depends only on the image size. The map's background must be inf."""
     if not isinstance(map, Map):
         raise TypeError(f"map: expected a Map, found {map!r}")
     if not map.scale and not np.isposinf(map.background):

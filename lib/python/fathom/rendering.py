@@ -42,42 +42,44 @@ def render(
     """Renders the exact depth map of a mesh: every value is the exact number, rounded once.
 
     vertices      N×3, float64 or float32, in the world
-    faces         M×3 triangles; integers of any type, numbers of vertices from 0
-    K             3×3, fx skew cx / 0 fy cy / 0 0 1, in pixels; or a stack of n, n×3×3
+    faces         M×3 triangles: vertex numbers from 0, integers of any type
+    K             3×3, fx skew cx / 0 fy cy / 0 0 1, in pixels; or a stack, n×3×3
     T             4×4 or 3×4, world to camera, x right, y down, z forward (OpenCV); or a stack of n
     size          (width, height) in pixels
-    pixel_centre  the image coordinate of the first pixel's centre, as K counts: 0.5 (COLMAP,
-                  OpenGL) or 0 (OpenCV, BOP). There is no default: half a pixel is the most common
+    pixel_centre  image coordinate of the first pixel's centre in K's convention: 0.5 (COLMAP,
+                  OpenGL) or 0 (OpenCV, BOP). Required, because half a pixel is the most common
                   error.
-    channels      what to render, ("Z", "id") or "Z,id": Z (planar depth), A (coverage), Zlow (exact
-                  depth minus Z), distance (along the ray), id, face, object (numbers of what is
-                  visible; NO_SURFACE where nothing is), material, group, part and label (of a
-                  Scene; NO_SEGMENT where what is visible has none), N (normal) and P (position),
-                  both in the world, bary (weights of a triangle's second and third corner), Nc
-                  (normal in the camera frame), Ns (the corners' normals interpolated, in the world)
-    near, far     the range of planar depth that counts, in scene units
-    cull          "back" or "front" leaves out triangles that face so
-    dtype         of Z and distance: float32, float64, or uint16 for codes round(scale · depth), 0
-                  for no surface
-    background    what Z and distance have where there is no surface (and where a depth is beyond
-                  the greatest number of the type): inf, nan, 0 or any other number
-    normals       of Ns: "file" (where there are none, as "vertex"), "vertex": sums over the
-                  triangles at each vertex, weighted by area, or "place": over those at all vertices
-                  that lie at one place
-    threads       to work in; 0: all. Results never depend on it.
-    out           arrays to write to, by channel, such as an earlier call has returned: saves the
-                  time in which the system provides memory. They must fit, and are what is returned.
+    channels      channels to render, as ("Z", "id") or "Z,id": Z (planar depth), A (coverage), Zlow
+                  (exact depth minus Z), distance (along the ray), id, face, object (numbers of the
+                  visible triangle, face and object; NO_SURFACE without a surface), material, group,
+                  part, label (of a Scene; NO_SEGMENT if the visible triangle has no such name or
+                  label), N (normal) and P (position), both in the world, bary (weights of the
+                  triangle's second and third corner), Nc (normal in the camera frame), Ns
+                  (interpolated normals of the corners, in the world)
+    near, far     range of planar depths that are rendered, in scene units
+    cull          "back" or "front" leaves out triangles that face this way
+    dtype         type of Z and distance: float32, float64, or uint16 for codes
+                  round(scale · depth), 0 for no surface
+    background    value of Z and distance without a surface (and for a depth beyond the greatest
+                  number of the type): inf, nan, 0 or any other number
+    normals       normals that Ns interpolates: "file" (like "vertex" if the file has no normals),
+                  "vertex" (sums over the triangles at each vertex, weighted by area) or "place"
+                  (sums over the triangles at all vertices at the same place)
+    threads       number of threads; 0: all. Results never depend on it.
+    out           arrays to write to, by channel, for example the result of an earlier call: saves
+                  the time for allocating memory. Their shapes and types must fit; the same arrays
+                  are returned.
 
-    Returns a dict: H×W arrays by the names of channels, H×W×3 for N, P, Nc and Ns, H×W×2 for bary;
-    with n cameras, n of each, n×H×W(×3). Arrays of vertices and faces that fit (see
-    Scene.add_mesh()) are not copied. Other Python threads run meanwhile, and Ctrl-C ends it.
+    Returns a dict of arrays by channel: H×W, H×W×3 for N, P, Nc and Ns, H×W×2 for bary; with n
+    cameras n×H×W(×3). Arrays of vertices and faces that fit (see Scene.add_mesh()) are not copied.
+    Other Python threads run meanwhile, and Ctrl-C ends the call.
 
-    Warns (ViewWarning) of a suspicious view: nothing in front of the camera, a matrix from
-    camera to world, one that is no rotation, a principal point far from the middle, an eye inside a
-    solid, metres beside millimetres.
+    Warns (ViewWarning) if the view is suspicious: nothing is in front of the camera, the matrix is
+    camera to world or no rotation, the principal point is far from the middle, the eye is inside a
+    solid, or metres are mixed with millimetres.
 
-    Raises TypeError, ValueError or IndexError, which name the argument; MemoryError; OutputError
-    where a depth has no code.
+    Raises TypeError, ValueError or IndexError, which name the argument; MemoryError; OutputError if
+    a depth has no code.
 
     >>> corners = np.array([(-1, -1, 4), (1, -1, 4), (0, 1, 4)], float)
     >>> K = np.array([[4, 0, 2], [0, 4, 2], [0, 0, 1]], float)
@@ -102,7 +104,7 @@ def cameras_of(
     near: float,
     far: float,
 ) -> Camera | list[Camera]:
-    """One camera, or as many as K or T is a stack of; the other may be a single matrix for all."""
+    """One camera; or a list, if K or T is a stack. The other may be a single matrix for all."""
     require_one_matrix("T", T)
     intrinsics, poses = as_array("K", K), as_array("T", T)
     counts = {len(stack) for stack in (intrinsics, poses) if stack.ndim == 3}

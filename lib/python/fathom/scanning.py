@@ -1,4 +1,4 @@
-"""Scan conversion: lines, polygons and triangles to pixels, as `fathom scan` does it."""
+"""Scan conversion: lines, polygons and triangles to pixels, like `fathom scan`."""
 
 from __future__ import annotations
 
@@ -57,32 +57,32 @@ def scan(
     trace: bool = False,
     draw: bool = False,
 ) -> Answer:
-    """Rasterizes a case by an algorithm of the textbooks. Arguments and answer are those of `fathom scan`; docs/scan.md
-    has every algorithm's keys, answer and trace.
+    """Rasterizes a case by an algorithm of the textbooks. Arguments and answer are the same as for `fathom scan`;
+    docs/scan.md describes every algorithm's keys, answer and trace.
 
     algorithm   lines: explicit, dda, bresenham, midpoint, diamond-exit, line-forms; polygons: even-odd, non-zero,
                 inside, convexity, tessellate; points: convex-hull; triangles: edge-function, scan-line, edge-values;
                 grids: flood
-    line        (x0, y0, x1, y1): pixels; places for diamond-exit
+    line        (x0, y0, x1, y1) in whole pixels; for diamond-exit and line-forms any coordinates
     polygon     a list of rings, each of shape N×2; triangle: 3×2; points: N×2
-    width, height   of the window in pixels, which limits the answer
-    attributes, w   a list of numbers for each corner, and each corner's w: values at the pixels, perspective with w
+    width, height  size of the window in pixels; the answer is limited to it
+    attributes, w  a list of numbers for each corner, and each corner's w, to interpolate at the pixels (perspective if w
+                is given)
     arithmetic  exact, float64 or float32
-    ties        of lines half way between two pixels: greater (default), even, stay
-    edges       of triangles, to whom centres on an edge belong: top-left (default), closed
-    subpixel_bits   triangles are snapped to 2^N positions a pixel, 0 to 16; None: not at all
-    runs        "runs" [y, x_begin, x_end] in place of "pixels"
-    trace       add the steps under "trace"
+    ties        pixel of a line half way between two pixels: greater (default), even, stay
+    edges       triangles that own a centre on an edge: top-left (default), closed
+    subpixel_bits  snap triangles to 2^N positions per pixel, 0 to 16; None: no snapping
+    runs        return "runs" [y, x_begin, x_end] instead of "pixels"
+    trace       add the steps as "trace"
     draw        draw the steps: answer.svg, which a notebook shows
 
     Frame    the window in pixels, y down; pixel (x, y) has its centre at (x + ½, y + ½).
-    Returns  a dict: "pixels" is an int64 array of shape N×2 (x, y), "runs" of N×3; other numbers are Fractions with
-             arithmetic="exact", else floats. "values" of edge-values in float64 or float32 is an array of shape
+    Returns  a dict: "pixels" is an int64 array of shape N×2 (x, y), "runs" of shape N×3. Other numbers are Fractions with
+             arithmetic="exact", otherwise floats. "values" of edge-values in float64 or float32 is an array of shape
              height×width×3.
-    Exact    with arithmetic="exact": coordinates are taken as the numbers that they are, which have to be numbers of
-             binary64.
-    Raises   InputError for a case that cannot be done, UsageError for options that do not go together, ValueError and
-             TypeError for arguments that are no numbers.
+    Exact    with arithmetic="exact": coordinates are exact numbers and must be representable in binary64.
+    Raises   InputError for a case that the algorithm cannot process, UsageError for options that exclude each other,
+             ValueError and TypeError for arguments that are not numbers.
     Source   [Bre65], [Van84], [Pin88], [FvDFH90] in docs/bibliography.md
 
     >>> answer = scan("midpoint", line=(0, 0, 8, 3), trace=True)

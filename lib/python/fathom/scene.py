@@ -30,16 +30,16 @@ if TYPE_CHECKING:
 
 
 class Object(NamedTuple):
-    """A mesh that is placed in the world: channel `object` holds its number."""
+    """A mesh placed in the world; channel `object` contains its number."""
 
     name: str
     mesh: int
-    #: The file that it comes from.
+    #: The file that it was read from.
     source: str
 
 
 class Origin(NamedTuple):
-    """Where a triangle of a scene, numbered as channel `id` does, comes from."""
+    """The object, mesh triangle and face behind a triangle number of channel `id`."""
 
     object: int
     #: Its number within its object's mesh.
@@ -49,8 +49,8 @@ class Origin(NamedTuple):
 
 
 class Scene:
-    """Meshes and the objects that place them. Triangles are numbered from 0 over all objects in
-    their order.
+    """Meshes and the objects that place them. Triangles are numbered from 0, through all objects in
+    order.
 
     >>> import numpy as np
     >>> scene = Scene()
@@ -70,13 +70,13 @@ class Scene:
 
     @classmethod
     def read(cls, *files: Path, threads: int = 0) -> Scene:
-        """Reads meshes (OBJ, PLY, STL, OFF, glTF/GLB, and what assimp reads where the program
-        fathom-formats is installed) and scene files (JSON), in this order, into one scene. What a
-        reader notices is a warning."""
+        """Reads meshes (OBJ, PLY, STL, OFF, glTF/GLB; with the program fathom-formats also the
+        formats of assimp) and scene files (JSON) into one scene, in the given order. Tolerated
+        faults are warnings; InputError names the file."""
         if not files:
             raise TypeError("read: expected a file")
         scene = cls()
-        import shutil  # which takes a while, and is not needed elsewhere
+        import shutil  # slow to import, and not needed elsewhere
 
         paths = [path_of("files", file) for file in files]
         formats = shutil.which("fathom-formats") or ""
@@ -97,16 +97,16 @@ class Scene:
         """Adds a mesh, and an object that places it. Returns the number of the mesh, for
         add_instance().
 
-        vertices   N×3; float64, or float32 and integers, taken as the exact numbers that they are
-        faces      M×3 triangles; integers of any type, numbers of vertices from 0
-        pose       4×4 or 3×4, mesh to world; the identity where it is left out
-        name       of the object; "mesh 0", "mesh 1", … where it is left out
+        vertices   N×3 in the mesh's own frame; float64, float32 or integers, taken as exact numbers
+        faces      M×3 triangles: vertex numbers from 0, integers of any type
+        pose       4×4 or 3×4, mesh to world (default: the identity)
+        name       name of the object (default: "mesh 0", "mesh 1", …)
         labels     an integer for each face, or one for all, for channel `label`. Negative: no label
-        materials  a name for each face, or one for all, numbered in channel `material` by first
-                   appearance in the scene; None and "" are none
+        materials  a name for each face, or one for all; channel `material` numbers them by first
+                   appearance in the scene. None and "" mean no material
 
-        Arrays in C order, of float64 and of int32 or uint32, are not copied: what is changed in
-        them later is changed in the scene, and must not be while something is rendered.
+        Arrays in C order, of float64 and of int32 or uint32, are not copied: later changes to them
+        change the scene. Do not change them during a render.
         """
         placed = None if pose is None else pose_of("pose", pose)
         called = as_text("name", name)
@@ -123,7 +123,8 @@ class Scene:
         return mesh
 
     def add_instance(self, mesh: int, pose: npt.ArrayLike | None = None, *, name: str = "") -> int:
-        """Places a mesh once more. `pose` is as in add_mesh(). Returns the number of the object."""
+        """Places a mesh again; `pose` and `name` are as in add_mesh(). Returns the number of the
+        object."""
         number = as_count("mesh", mesh, 0, self.mesh_count - 1) if self.mesh_count else _no_mesh()
         placed = None if pose is None else pose_of("pose", pose)
         objects = self._handle.object_count
@@ -136,38 +137,38 @@ class Scene:
 
     @property
     def triangle_count(self) -> int:
-        """In all objects."""
+        """Number of triangles in all objects."""
         return self._handle.triangle_count
 
     @property
     def objects(self) -> list[Object]:
-        """In the order of their numbers."""
+        """The objects in the order of their numbers."""
         return [Object(*each) for each in self._handle.objects()]
 
     @property
     def tables(self) -> dict[str, dict[int, str]]:
-        """What the numbers in channels `material`, `group` and `part` stand for, as Map.tables has
-        it."""
+        """The names behind the numbers of channels `material`, `group` and `part`, as in
+        Map.tables."""
         found = {channel: self._handle.names(channel) for channel in ("material", "group", "part")}
         return {channel: dict(enumerate(names)) for channel, names in found.items() if names}
 
     @property
     def bounds(self) -> tuple[tuple[float, ...], tuple[float, ...]] | None:
-        """The smallest box of the world, (lower, upper), that holds all triangles, rounded
-        outwards; None where there are none."""
+        """The smallest box that contains all triangles, (lower, upper) in the world, rounded
+        outwards; None without triangles."""
         box = self._handle.bounds()
         return None if box is None else (tuple(box[0]), tuple(box[1]))
 
     def vertices(self, mesh: int = 0) -> npt.NDArray[np.float64]:
-        """N×3, of a mesh, in its own frame; not a copy, and not to be written to."""
+        """The vertices of a mesh: N×3, in its own frame. Not a copy; do not write to it."""
         return self._handle.vertices(as_count("mesh", mesh, 0, self.mesh_count - 1))
 
     def faces(self, mesh: int = 0) -> npt.NDArray[np.uint32]:
-        """M×3, likewise."""
+        """The faces of a mesh: M×3 vertex numbers from 0. Not a copy; do not write to it."""
         return self._handle.faces(as_count("mesh", mesh, 0, self.mesh_count - 1))
 
     def origin(self, triangle: int) -> Origin:
-        """Where a triangle comes from, by its number in channel `id`."""
+        """The origin of a triangle, by its number in channel `id`."""
         number = as_count("triangle", triangle, 0, self.triangle_count - 1)
         return Origin(*self._handle.origin(number))
 
@@ -185,9 +186,8 @@ class Scene:
         threads: int = 0,
         out: Mapping[str, npt.NDArray[Any]] | None = None,
     ) -> Map:
-        """Renders the scene as a camera sees it, or as many of one image size do: see
-        fathom.render(), whose other arguments these are. One camera gives arrays of H×W, a sequence
-        of n cameras arrays of n×H×W."""
+        """Renders the scene: H×W arrays for one camera, n×H×W arrays for a sequence of n cameras of
+        one image size. The other arguments, results and errors are as in fathom.render()."""
         try:
             rendered = render_cameras(self._handle, camera, channels, cull, dtype, scale,
                                       background, engine, threads, normals, out)
@@ -201,7 +201,7 @@ class Scene:
         return result
 
     def _check(self) -> None:
-        """Raises an exception that names the argument at fault, if one is."""
+        """Raises an exception that names the faulty argument, if one is faulty."""
         for mesh in range(self.mesh_count):
             check_elements(self.vertices(mesh), self.faces(mesh))
 

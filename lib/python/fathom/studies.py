@@ -1,4 +1,4 @@
-"""Studies of depth precision, as tables: what `fathom study` writes as CSV, plots and pages."""
+"""Studies of depth precision, as tables; `fathom study` writes the same results as CSV, plots and pages."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ if TYPE_CHECKING:
     from .scene import Scene
 
 
-#: Studies that would not look at it. All others use it, or refuse it themselves.
+#: Studies that would ignore a separation. All other studies use it, or refuse it themselves.
 _without_separation = ("clipping", "depth-resolution", "indistinguishable")
 
 
 class Description(NamedTuple):
-    """What a study is about, and whether it can be made of a scene."""
+    """The subject of a study, and whether it takes a scene."""
 
     description: str
     takes_scene: bool
 
 
 def names() -> dict[str, Description]:
-    """The studies that there are. docs/studies.md has their options and defaults.
+    """All studies, by name. docs/studies.md describes their options and defaults.
 
     >>> names()["depth-resolution"]
     Description(description='The step of every depth format against depth, near and far', takes_scene=False)
@@ -48,13 +48,13 @@ def names() -> dict[str, Description]:
 class Study:
     """The results of a study.
 
-    name     as `fathom study --list` has it
-    tables   structured arrays by name, one element a row: counts are int64, other numbers float64 (as are counts of
-             which some may be missing; NaN where a cell is empty), answers bool, all else text. Columns have these
-             types whatever the rows, none among them, so that np.concatenate() joins tables of several runs. The CSV
-             files of the same name hold their numbers with fewer digits
+    name     the study's name, as in `fathom study --list`
+    tables   structured arrays by name, one element per row. Counts are int64; other numbers, and counts that may be
+             missing, are float64 (NaN for an empty cell); yes or no is bool; everything else is text. The types do not
+             depend on the rows, even without rows, so np.concatenate() joins the tables of several runs. The CSV files of
+             the same names have fewer digits
     summary  the figures of summary.json
-    files    the contents of all files by name, index.html and pictures among them
+    files    the contents of all files by name, including index.html and pictures
     """
 
     def __init__(
@@ -69,7 +69,7 @@ class Study:
         }
 
     def write(self, folder: Path) -> None:
-        """Writes the files to a folder, which is made if it is missing."""
+        """Writes the files to a folder, which is created if it is missing."""
         path_of("folder", folder)
         make_folder(folder)
         for name, content in self.files.items():
@@ -94,13 +94,13 @@ def run(
     """Runs a study and returns its tables.
 
     name        one of names()
-    scene       what to study, for those that take a scene; without it each has its own
-    camera      sees the scene; without it, one that frames it in 640×360 pixels
-    near, far, separation, samples
-                in scene units; None for the study's defaults
-    plots       whether gnuplot draws plots, which are then among the files
+    scene       scene to study, for studies that take a scene (default: the study's own scene)
+    camera      camera for the scene (default: a camera that frames it in 640×360 pixels)
+    near, far, separation  in scene units (default: the study's values)
+    samples     number of samples (default: the study's value)
+    plots       also draw plots with gnuplot; they are added to the files
 
-    Raises UsageError for what means nothing to the study. Ctrl-C ends it.
+    Raises UsageError for an argument that the study does not take. Ctrl-C ends the study.
 
     >>> steps = run("depth-resolution", near=0.1, far=1000, samples=3).tables["steps"]
     >>> at_far = steps[(steps["storage"] == "unorm24") & (steps["depth"] == 1000)]
@@ -146,7 +146,7 @@ def _array(kind: str, cells: Sequence[Any]) -> npt.NDArray[Any]:
 
 
 def _kind_of(cells: Sequence[Any]) -> str:
-    """The type of a column that does not say it."""
+    """The type of a column without a declared type."""
     kinds = {type(cell) for cell in cells}
     if kinds == {int}:
         return "int64"

@@ -1,8 +1,8 @@
-"""For test suites: assert_depth(), and a fixture of pytest's that keeps reports.
+"""For test suites: assert_depth(), and a pytest fixture that keeps reports.
 
-pytest finds the fixture `assert_depth` by itself, wherever the module was installed or built with its metadata: by pip,
-from the Debian package, or for `scripts/python -m pytest`. Elsewhere, `pytest_plugins = ["fathom.testing"]` in a
-conftest.py gives it to the tests.
+pytest finds the fixture `assert_depth` automatically if the module was installed or built with its metadata: by pip, from
+the Debian package, or for `scripts/python -m pytest`. Otherwise put `pytest_plugins = ["fathom.testing"]` into a
+conftest.py.
 """
 
 from __future__ import annotations
@@ -37,11 +37,11 @@ def assert_depth(
     channel: str = "",
     report: _files.Path | None = None,
 ) -> Validation:
-    """Fails with an AssertionError, which says what is wrong with a map in one line, unless every pixel of it is
-    explained by the model and nothing is wrong with it on the whole. The arguments are those of fathom.validate().
+    """Raises AssertionError, with the cause in one line, unless the model explains every pixel of the map and the map has
+    no fault. The arguments are the same as for fathom.validate().
 
-    report  a folder for report.txt, map.exr, camera.json and classes.npy, written where the map fails. Where they
-            cannot be written, the AssertionError says why
+    report  folder for report.txt, map.exr, camera.json and classes.npy, written if the map fails. If they cannot be
+            written, the AssertionError contains the reason
     """
     __tracebackhide__ = True
     found = validate(map, scene, camera, model, channel=channel)
@@ -64,13 +64,13 @@ def keep_report(folder: Path, map: Any, camera: Camera, found: Validation) -> Pa
     try:
         same_size = found.camera.size == camera.size
         Map(planes, camera if same_size else None).write(folder / "map.exr")
-    except Exception as error:  # the rest is worth having
+    except Exception as error:  # keep the other files
         (folder / "map.txt").write_text(f"no map.exr: {error}\n", encoding="utf-8")
     return folder
 
 
 def _kept_or_why_not(folder: object, map: Any, camera: Camera, found: Validation) -> str:
-    """In words. No failure to keep a report hides what is wrong with the map."""
+    """Keeps a report, and describes where or why not. A failure here does not hide the fault of the map."""
     if not isinstance(folder, (str, os.PathLike)):
         return f"no report: expected the name of a folder, found {folder!r}"
     try:
@@ -80,19 +80,18 @@ def _kept_or_why_not(folder: object, map: Any, camera: Camera, found: Validation
         return f"no report in {os.fspath(folder)}: {' '.join(why.split())}"
 
 
-#: Names of folders are cut to this: file systems have 255 bytes.
+#: Maximum length of a folder's name; file systems allow 255 bytes.
 _longest = 120
 
 
 def _folder_name(text: str) -> str:
-    """What can be part of a path. Where that is another text, a hash makes it another name than that of any other."""
+    """The text as part of a path. If characters had to be replaced, a hash keeps different texts apart."""
     name = re.sub(r"[^\w.-]+", "-", text).encode()[:_longest].decode(errors="ignore").strip(".-")
     return name if name == text else f"{name}-{hashlib.sha256(text.encode()).hexdigest()[:12]}".lstrip("-")
 
 
 def _folder_of(node: str) -> Path:
-    """The folder of a test, of the id that pytest gives it: for tests/test_a.py::TestB::test_c[1] it is
-    tests/test_a/TestB/test_c-1."""
+    """The folder of a test, from its pytest id: tests/test_a/TestB/test_c-1 for tests/test_a.py::TestB::test_c[1]."""
     path, _, parameters = node.partition("[")
     file, *names = path.split("::")
     folders = [*re.sub(r"\.py$", "", file).split("/"), *names]
@@ -113,8 +112,8 @@ else:
 
     @pytest.fixture(name="assert_depth")
     def assert_depth_fixture(request: pytest.FixtureRequest) -> Iterator[Callable[..., Validation]]:
-        """fathom.testing.assert_depth(), which keeps a report for each map that fails, in a folder named after the
-        test: FILE/CLASS/TEST, and FILE/CLASS/TEST/2 for a second one of the same test."""
+        """fathom.testing.assert_depth() with a report for each map that fails, in a folder named after the test:
+        FILE/CLASS/TEST, and FILE/CLASS/TEST/2 for a second map in the same test."""
         folder = Path(request.config.getoption("--fathom-reports")) / _folder_of(request.node.nodeid)
         failures = 0
 

@@ -1,4 +1,4 @@
-"""Why another renderer's map differs from the exact one, pixel by pixel."""
+"""Explains, pixel by pixel, why another renderer's map differs from the exact map."""
 
 from __future__ import annotations
 
@@ -16,24 +16,23 @@ if TYPE_CHECKING:
 
     from .scene import Scene
 
-#: The names of the classes, by the numbers that arrays of classes hold.
+#: The names of the classes, indexed by the numbers in arrays of classes.
 CLASSES: tuple[str, ...] = tuple(_core.class_names)
 
 _unexplained = CLASSES.index("unexplained")
 
 
 class Validation:
-    """What was found out about a map.
+    """The result of validate().
 
-    model     the name of the model that it was judged by: another than the named one where a finding says so
-    camera    the Camera that sees it: the one that was given, unless the map has another size
+    model     name of the model by which the map was judged; it differs from the requested model if a finding reports so
+    camera    the map's Camera: the given camera, unless the map has another size
     classes   H×W uint8: for each pixel, the number of its class in CLASSES
-    findings  what is wrong: each has kind, text, pixels, estimates (name, value, deviation, unit), alternatives and
-              evidence
-    notes     conventions that were recognised, in which nothing is wrong
-    cause     one line that says what is wrong; empty where nothing is
-    verdict   "every pixel is explained", or "failed: " and what is wrong
-    least, greatest  H×W: between which depths the model allows the visible surface; NaN where there is none
+    findings  the faults: each has kind, text, pixels, estimates (name, value, deviation, unit), alternatives and evidence
+    notes     conventions that were recognised and are not faults
+    cause     the fault in one line; empty without a fault
+    verdict   "every pixel is explained", or "failed: " and the fault
+    least, greatest  H×W: range of depths that the model allows for the visible surface; NaN without a surface
     """
 
     def __init__(self, found: dict[str, Any]) -> None:
@@ -49,12 +48,12 @@ class Validation:
 
     @property
     def is_good(self) -> bool:
-        """Whether every pixel is explained and nothing is wrong."""
+        """Whether every pixel is explained and no fault was found."""
         return not self.cause
 
     @property
     def counts(self) -> dict[str, int]:
-        """Pixels of each class that there is."""
+        """Number of pixels of each class that occurs."""
         numbers = np.bincount(self.classes.ravel(), minlength=len(CLASSES))
         return {name: int(count) for name, count in zip(CLASSES, numbers) if count}
 
@@ -63,7 +62,7 @@ class Validation:
         return int((self.classes == _unexplained).sum())
 
     def report(self) -> str:
-        """All of it in words, for people."""
+        """The whole result as text."""
         lines = [self.verdict, f"model: {self.model}"]
         lines += [f"{count:>10} pixels {name}" for name, count in self.counts.items()]
         for title, found in (("wrong", self.findings), ("noted", self.notes)):
@@ -84,18 +83,18 @@ def validate(
     *,
     channel: str = "",
 ) -> Validation:
-    """Judges a map that another renderer has drawn of a scene, with this camera.
+    """Explains how another renderer's map of a scene differs from the exact map.
 
-    map      a Map, or an H×W array of planar depths in scene units; how it marks the background is found out. A map
-             of another size than the camera's is judged as what explains it: rows and columns exchanged, up to eight
-             of them missing or added, the whole view larger or smaller
-    camera   near and far as the renderer had them, where it has a depth buffer
-    model    what the renderer computes with, such as "gl-unorm24", "vtk-float32", "float32-ray": `fathom validate
-             --help` lists them; "auto" for the one that fits best. Where the named model leaves pixels unexplained and
-             another does not, a finding of kind "model" names the other
-    channel  of a Map of several
+    map      a Map, or an H×W array of planar depths in scene units; its background value is detected. If its size is not
+             the camera's, the reason is found: rows and columns exchanged, up to eight of them missing or added, the
+             whole view larger or smaller
+    camera   the renderer's camera; with the renderer's near and far if it has a depth buffer
+    model    the renderer's arithmetic, such as "gl-unorm24", "vtk-float32", "float32-ray" (`fathom validate --help` lists
+             all); "auto": the model that fits best. If the named model leaves pixels unexplained and another model does
+             not, a finding of kind "model" names the other model
+    channel  the channel to judge, if the Map has several
 
-    A pixel has a class only where the bounds of the model prove it. See docs/validation.md.
+    A pixel gets a class only if the bounds of the model prove it. See docs/validation.md.
 
     >>> import fathom
     >>> scene = fathom.Scene()
