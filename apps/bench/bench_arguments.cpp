@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "apps/options/channel_list.h"
+#include "apps/options/map_arguments.h"
 #include "fathom/failures/errors.h"
 #include "fathom/failures/unknown_name.h"
 #include "validation/bench/parts/ideas.h"

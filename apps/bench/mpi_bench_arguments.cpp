@@ -1,6 +1,6 @@
 #include "apps/bench/mpi_bench_arguments.h"
 
-#include "apps/options/channel_list.h"
+#include "apps/options/map_arguments.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/command.h"
 

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "apps/camera/camera_command.h"
-#include "apps/options/lens_options.h"
+#include "apps/options/camera_options.h"
 #include "apps/shell/command.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "apps/camera/camera_command.h"
-#include "apps/options/lens_options.h"
+#include "apps/options/camera_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/command.h"
 #include "apps/shell/failures.h"

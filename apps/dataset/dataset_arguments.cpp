@@ -1,6 +1,6 @@
 #include "apps/dataset/dataset_arguments.h"
 
-#include "apps/options/cull_option.h"
+#include "apps/options/scene_options.h"
 #include "apps/shell/command.h"
 #include "apps/shell/values.h"
 

@@ -6,7 +6,7 @@
 #include "apps/dataset/layouts.h"
 #include "apps/dataset/views.h"
 #include "apps/options/camera_options.h"
-#include "apps/options/channel_list.h"
+#include "apps/options/map_arguments.h"
 #include "apps/options/output_names.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/values.h"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "apps/options/channel_list.h"
+#include "apps/options/map_arguments.h"
 #include "apps/render/render_limits.h"
 #include "apps/shell/failures.h"
 #include "fathom/camera/camera_files.h"

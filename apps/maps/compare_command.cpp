@@ -6,7 +6,7 @@
 
 #include "apps/maps/comparison_report.h"
 #include "apps/maps/map_commands.h"
-#include "apps/options/map_argument.h"
+#include "apps/options/map_arguments.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/output_file.h"

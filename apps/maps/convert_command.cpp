@@ -6,7 +6,7 @@
 
 #include "apps/maps/map_commands.h"
 #include "apps/maps/map_view.h"
-#include "apps/options/map_argument.h"
+#include "apps/options/map_arguments.h"
 #include "apps/options/storage_options.h"
 #include "apps/shell/command.h"
 #include "apps/shell/failures.h"

@@ -4,7 +4,7 @@
 
 #include "apps/maps/info.h"
 #include "apps/maps/map_commands.h"
-#include "apps/options/map_argument.h"
+#include "apps/options/map_arguments.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "apps/maps/map_commands.h"
-#include "apps/options/map_argument.h"
+#include "apps/options/map_arguments.h"
 #include "apps/shell/command.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"

@@ -15,7 +15,7 @@
 #include "apps/mpi/tiles_together.h"
 #include "apps/mpi/together.h"
 #include "apps/mpi/waiting_chunks.h"
-#include "apps/options/channel_list.h"
+#include "apps/options/map_arguments.h"
 #include "apps/render/map_additions.h"
 #include "apps/render/render_report.h"
 #include "apps/shell/failures.h"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "apps/mpi/ranks.h"
-#include "apps/options/motion_options.h"
 #include "apps/options/scene_options.h"
 #include "fathom/fast/some_tiles.h"
 #include "fathom/scene/scene.h"

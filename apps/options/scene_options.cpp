@@ -1,17 +1,61 @@
 #include "apps/options/scene_options.h"
 
-#include <algorithm>
-#include <filesystem>
-#include <optional>
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <system_error>
+
+#include "apps/shell/companion.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
+#include "fathom/files/sha256.h"
 #include "fathom/image/map_files.h"
 #include "fathom/scene/read_scene.h"
 
 namespace fathom::app {
 namespace {
+
+/// Whether it came to an end does not matter: whoever needs what it provides looks for that.
+void run_to_its_end(char* program) {
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+  // A mesh may stand on standard input.
+  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  char* const arguments[] = {program, nullptr};
+  pid_t child = -1;
+  const int error = ::posix_spawn(&child, program, &actions, nullptr, arguments, environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  while (error == 0 && ::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+/// Where fathom-formats lies: beside this program. Where it is not there, the program that the
+/// environment names in FATHOM_PROVIDE_FORMATS is run first, to put it there: scripts/fathom names
+/// one that installs what it needs and builds it. What that program says goes to standard error.
+std::filesystem::path formats_program() {
+  std::filesystem::path path = companion_path("fathom-formats");
+  std::error_code error;
+  if (std::filesystem::exists(path, error)) return path;
+  if (char* const provider = std::getenv("FATHOM_PROVIDE_FORMATS")) run_to_its_end(provider);
+  return path;
+}
+
+std::filesystem::path parse_folder(const std::string& text) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(text, error)) {
+    throw UsageError("'" + text + "' is no folder");
+  }
+  return text;
+}
 
 /// A map is a common mistake, since maps carry their camera, but no scene.
 void refuse_map(const std::string& file) {
@@ -23,7 +67,33 @@ void refuse_map(const std::string& file) {
                    "' takes the camera that a map carries");
 }
 
+Cull parse_cull(const std::string& text) {
+  return parse_word<Cull>(text,
+                          {{"back", Cull::back}, {"front", Cull::front}, {"none", Cull::none}});
+}
+
 }  // namespace
+
+void ReadLimits::add_to(Command& command) {
+  command.flag("--outside-files", outside_files,
+               "Allow glTF assets to name files outside their folder");
+  command.option(
+      "--confine", "DIR", into(confine, parse_folder),
+      "Allow scene files and glTF to open files only below this folder (default: anywhere)");
+  command.option("--max-expansion", "N", into(max_expansion, parse_count),
+                 "Limit a mesh in memory to 64 MiB plus N times the bytes of its files (default "
+                 "64); raise it for glTF and scene files that reuse the same data many times");
+}
+
+ReadOptions ReadLimits::read_options() const {
+  ReadOptions options;
+  options.outside_files = outside_files;
+  options.confine = confine;
+  options.max_expansion = max_expansion;
+  options.formats_program = formats_program;
+  options.map_large_files = true;  // shell/signals.h handles SIGBUS
+  return options;
+}
 
 int parse_thread_count(const std::string& text) {
   const std::uint32_t count = parse_count(text);
@@ -80,6 +150,38 @@ Scene SceneOptions::read(const Console& console, const Extras& extras) const {
   for (const std::string& file : files) note_input(file);
   for (const Source& source : scene.sources) note_input(source.path);
   return scene;
+}
+
+void MotionOptions::add_to(Command& command) {
+  command.option("--motion", "FILE", file,
+                 "Keyframes of moving objects (JSON; see pipeline.md in the documentation); the "
+                 "default camera frames the scene without motion");
+  command.option("--time", "T", into(time, parse_number),
+                 "Time at which to place the objects of --motion (default 0)");
+}
+
+MovingScene MotionOptions::moving(Scene scene) const {
+  const text::InputFile input{std::filesystem::path(file)};
+  note_input(file);
+  Motion motion = read_motion(input.text(), file);
+  scene.sources.push_back({file, text::sha256(input.bytes()), ""});
+  return {std::move(scene), std::move(motion)};
+}
+
+Scene MotionOptions::placed(Scene scene) const {
+  if (is_given()) return moving(std::move(scene)).take(time_or_start());
+  if (time) throw UsageError("--time needs --motion, a file that says how objects move");
+  return scene;
+}
+
+void MotionOptions::describe(DepthMap& map, double at) const {
+  if (is_given()) map.texts["fathom.time"] = fmt::format("{}", at);
+}
+
+void add_cull_option(Command& command, Cull& cull) {
+  command.option(
+      "--cull", "NAME", into(cull, parse_cull),
+      "Leave out triangles that show their back or front: back, front or none (default)");
 }
 
 }  // namespace fathom::app

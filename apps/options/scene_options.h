@@ -1,15 +1,31 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/options/read_limits.h"
 #include "apps/shell/command.h"
+#include "fathom/image/depth_map.h"
 #include "fathom/mesh_files/read_options.h"
+#include "fathom/scene/motion.h"
 #include "fathom/scene/scene.h"
+#include "fathom/triangle/options.h"
 
 namespace fathom::app {
+
+/// `--outside-files --confine --max-expansion`: what files of others may make a command open, and
+/// how much memory they may fill. Every command that reads a scene takes them.
+struct ReadLimits {
+  bool outside_files = false;
+  std::filesystem::path confine;
+  std::uint64_t max_expansion = ReadOptions().max_expansion;
+
+  void add_to(Command& command);
+  /// With the limits, and with the program that reads foreign formats; all else by default.
+  [[nodiscard]] ReadOptions read_options() const;
+};
 
 /// "obj", "ply", … ; fails with UsageError.
 MeshFormat parse_mesh_format(const std::string& text);
@@ -41,5 +57,28 @@ struct SceneOptions {
   /// With the format, the threads and the folder that were asked for.
   [[nodiscard]] ReadOptions read_options() const;
 };
+
+/// `--motion FILE --time T`: objects that move, and when they are looked at.
+struct MotionOptions {
+  std::string file;  ///< empty: nothing moves
+  std::optional<double> time;
+
+  void add_to(Command& command);
+
+  [[nodiscard]] bool is_given() const { return !file.empty(); }
+  /// 0 where no time is given.
+  [[nodiscard]] double time_or_start() const { return time.value_or(0); }
+  /// The scene with its motion, whose file becomes one of its sources.
+  /// Fails    as read_motion and MovingScene.
+  [[nodiscard]] MovingScene moving(Scene scene) const;
+  /// The scene at the time; as it is where nothing moves.
+  /// Fails    also UsageError for a time without a motion.
+  [[nodiscard]] Scene placed(Scene scene) const;
+  /// The text fathom.time, without which the map could not be computed again.
+  void describe(DepthMap& map, double at) const;
+};
+
+/// `--cull`
+void add_cull_option(Command& command, Cull& cull);
 
 }  // namespace fathom::app

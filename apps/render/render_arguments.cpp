@@ -4,9 +4,9 @@
 #include <limits>
 #include <memory>
 
-#include "apps/options/channel_list.h"
-#include "apps/options/cull_option.h"
+#include "apps/options/map_arguments.h"
 #include "apps/options/pipeline_words.h"
+#include "apps/options/scene_options.h"
 #include "apps/shell/command.h"
 #include "apps/shell/output_place.h"
 #include "apps/shell/values.h"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "apps/options/camera_options.h"
-#include "apps/options/motion_options.h"
 #include "apps/options/pipeline_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/options/storage_options.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <exception>
 
-#include "apps/options/channel_list.h"
+#include "apps/options/map_arguments.h"
 #include "apps/shell/max_memory.h"
 #include "fathom/camera/world_from_image.h"
 

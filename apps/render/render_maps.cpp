@@ -4,7 +4,6 @@
 #include <limits>
 #include <optional>
 
-#include "apps/options/motion_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/render/map_additions.h"
 #include "apps/render/render_limits.h"

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "apps/options/channel_list.h"
 #include "apps/options/depth_format_options.h"
+#include "apps/options/map_arguments.h"
 #include "apps/shell/failures.h"
 #include "fathom/depth_buffer/depth_buffer.h"
 #include "fathom/failures/errors.h"

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "apps/options/camera_options.h"
-#include "apps/options/read_limits.h"
+#include "apps/options/scene_options.h"
 #include "apps/shell/command.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/options/camera_options.h"
-#include "apps/options/cull_option.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/progress.h"

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "apps/options/camera_options.h"
-#include "apps/options/cull_option.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/command.h"
 #include "apps/shell/failures.h"

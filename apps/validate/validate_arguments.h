@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/options/read_limits.h"
+#include "apps/options/scene_options.h"
 #include "apps/shell/command.h"
 #include "apps/shell/values.h"
 

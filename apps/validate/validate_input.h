@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/options/read_limits.h"
+#include "apps/options/scene_options.h"
 #include "apps/shell/console.h"
 #include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"

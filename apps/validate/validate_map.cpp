@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/options/map_argument.h"
+#include "apps/options/map_arguments.h"
 #include "apps/shell/progress.h"
 #include "apps/validate/validate_input.h"
 #include "apps/validate/validate_report.h"

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/options/camera_options.h"
-#include "apps/options/cull_option.h"
 #include "apps/options/pipeline_options.h"
 #include "apps/options/pipeline_words.h"
 #include "apps/options/scene_options.h"

@@ -1,6 +1,6 @@
 #include "apps/textbook/pipeline/pipeline_plan.h"
 
-#include "apps/options/channel_list.h"
+#include "apps/options/map_arguments.h"
 #include "fathom/failures/errors.h"
 #include "fathom/render_by_pipeline.h"
 

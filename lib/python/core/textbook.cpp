@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/options/cull_option.h"
 #include "apps/options/pipeline_options.h"
 #include "apps/options/pipeline_words.h"
+#include "apps/options/scene_options.h"
 #include "apps/shell/program.h"
 #include "apps/shell/values.h"
 #include "apps/textbook/drawing/clip_drawing.h"

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "fathom/image/channel_table.h"
+#include "fathom/image/depth_map.h"
 
 namespace fathom::app {
 
@@ -15,5 +18,11 @@ std::string text_of(const std::vector<Channel>& channels);
 
 /// How many channels of a file these are: N and P become three, bary two.
 std::size_t count_parts(const std::vector<Channel>& channels);
+
+/// Reads the map that a command was given, within --max-memory; no output may take its place.
+/// Fails    InputError.
+DepthMap read_map_argument(const std::string& file);
+/// The same of a file that has been read already.
+DepthMap read_map_argument(std::span<const std::byte> bytes, const std::string& file);
 
 }  // namespace fathom::app

@@ -1,13 +1,29 @@
-#include "apps/options/channel_list.h"
+#include "apps/options/map_arguments.h"
 
 #include <algorithm>
 #include <optional>
 
+#include "apps/shell/known_files.h"
+#include "apps/shell/max_memory.h"
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
+#include "fathom/image/map_files.h"
 #include "fathom/image/missing_channel.h"
 
 namespace fathom::app {
+namespace {
+
+MapMemory allowed_memory() {
+  MapMemory memory{.allowance = memory_allowance()};
+  if (max_memory()) {
+    memory.of_small_file.reset();
+  } else {
+    memory.of_small_file->remedy = "--max-memory SIZE allows more";
+  }
+  return memory;
+}
+
+}  // namespace
 
 std::vector<Channel> parse_channels(const std::string& list) {
   std::vector<Channel> channels;
@@ -37,6 +53,16 @@ std::size_t count_parts(const std::vector<Channel>& channels) {
     count += std::max<std::size_t>(1, description_of(channel).parts.size());
   }
   return count;
+}
+
+DepthMap read_map_argument(const std::string& file) {
+  note_input(file);
+  return read_map(file, allowed_memory());
+}
+
+DepthMap read_map_argument(std::span<const std::byte> bytes, const std::string& file) {
+  note_input(file);
+  return read_map(bytes, file, allowed_memory());
 }
 
 }  // namespace fathom::app
