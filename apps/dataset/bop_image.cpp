@@ -4,21 +4,69 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
-#include "apps/dataset/counted_mask.h"
 #include "apps/shell/failures.h"
 #include "fathom/area/visible_areas.h"
 #include "fathom/failures/errors.h"
+#include "fathom/image/depth_map.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/mask_picture.h"
+#include "fathom/image/samples.h"
 #include "fathom/render.h"
 
 namespace fathom::app {
+
+/// A mask, 1 or 0 for each pixel, row by row from the top, with what BOP counts of it.
+struct CountedMask {
+  std::vector<std::uint8_t> mask;
+  std::uint64_t count = 0;
+  /// Of the pixels that it has.
+  long first_column = 0, first_row = 0, last_column = -1, last_row = -1;
+
+  /// x, y, and the differences of the last and the first column and row, as BOP has boxes, in an image
+  /// whose corner is at this column and row.
+  [[nodiscard]] std::array<long, 4> box(long column, long row) const {
+    return {first_column - column, first_row - row, last_column - first_column,
+            last_row - first_row};
+  }
+};
+
 namespace {
+
+/// Where an object is seen, or, without one, any surface.
+CountedMask mask_of(const Samples<std::uint32_t>& objects, std::uint32_t width,
+                    std::optional<std::uint32_t> object) {
+  CountedMask result;
+  result.mask.resize(objects.size());
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (object ? objects[i] != *object : objects[i] == no_surface) continue;
+    const auto column = static_cast<long>(i % width), row = static_cast<long>(i / width);
+    if (result.count++ == 0) result.first_column = column, result.first_row = row;
+    result.mask[i] = 1;
+    result.first_column = std::min(result.first_column, column);
+    result.last_column = std::max(result.last_column, column);
+    result.last_row = row;
+  }
+  return result;
+}
+
+/// The middle ninth of a mask three times as wide and as high as this.
+std::vector<std::uint8_t> middle_of(const std::vector<std::uint8_t>& mask, std::uint32_t width,
+                                    std::uint32_t height) {
+  std::vector<std::uint8_t> middle;
+  middle.reserve(std::size_t{width} * height);
+  for (std::size_t y = height; y < 2 * std::size_t{height}; ++y) {
+    const auto row = mask.begin() + static_cast<long>(y * 3 * width + width);
+    middle.insert(middle.end(), row, row + width);
+  }
+  return middle;
+}
 
 using Json = nlohmann::ordered_json;
 using Mask = std::vector<std::uint8_t>;

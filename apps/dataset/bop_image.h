@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/dataset/codes_beyond.h"
+#include "apps/dataset/views.h"
 #include "apps/jobs/job.h"
 #include "fathom/fast/render_memory.h"
 #include "fathom/scene/bop_scene.h"

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "apps/dataset/bop_image.h"
-#include "apps/dataset/layouts.h"
+#include "apps/dataset/dataset_command.h"
 #include "apps/render/render_limits.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"

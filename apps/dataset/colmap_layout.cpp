@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "apps/camera/import_sources.h"
-#include "apps/dataset/layouts.h"
+#include "apps/dataset/dataset_command.h"
 #include "apps/dataset/views.h"
 #include "apps/options/output_names.h"
 #include "apps/shell/failures.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "apps/dataset/layouts.h"
+#include "apps/dataset/dataset_command.h"
 #include "apps/dataset/views.h"
 #include "apps/options/camera_options.h"
 #include "apps/options/map_arguments.h"

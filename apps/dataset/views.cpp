@@ -1,10 +1,121 @@
 #include "apps/dataset/views.h"
 
-#include "apps/dataset/view_maker.h"
+#include <fmt/format.h>
+
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "apps/options/map_arguments.h"
 #include "apps/render/render_limits.h"
+#include "apps/render/render_report.h"
+#include "apps/shell/failures.h"
 #include "fathom/camera/camera_files.h"
+#include "fathom/fast/render_memory.h"
+#include "fathom/render.h"
+#include "fathom/scene/scene.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::app {
+namespace {
+
+/// Makes the map of each camera of a path, for the tasks of a job.
+class ViewMaker {
+ public:
+  /// Fails    InputError where memory does not hold a map of one of the cameras.
+  ViewMaker(Scene scene, std::vector<Camera> cameras, MapPlan plan);
+
+  /// What the map of a camera depends on, for the key of its task.
+  [[nodiscard]] std::string inputs_of(std::size_t camera) const;
+  /// `name` is the map's for messages.
+  [[nodiscard]] std::shared_ptr<const DepthMap> make(std::size_t camera, const std::string& name);
+  /// About so many bytes does a map of this camera take.
+  [[nodiscard]] std::size_t memory_of(std::size_t camera) const;
+
+  [[nodiscard]] const MapPlan& plan() const { return plan_; }
+  /// Warns of what is probably not meant by the cameras whose maps have been made, and of depths that
+  /// lie beyond their codes.
+  void warn(const Console& console) const;
+
+ private:
+  Scene scene_;
+  std::vector<Camera> cameras_;
+  MapPlan plan_;
+  std::string inputs_;
+  RenderMemory memory_;
+  CameraWarnings warnings_;
+  CodesBeyond codes_beyond_;
+};
+
+/// What decides about the bytes of all maps: their sources, and how they are rendered and stored.
+std::string description_of(const Scene& scene, const MapPlan& plan) {
+  std::string text = "maps 1\n";
+  for (const Source& source : scene.sources) {
+    text += fmt::format("source {} {} {}\n", source.sha256, source.reader, source.path);
+  }
+  const RenderOptions& rendering = plan.rendering;
+  text +=
+      fmt::format("channels {} cull {} depth {} {:a} normals {}\n", text_of(rendering.channels),
+                  static_cast<int>(rendering.cull), static_cast<int>(rendering.depth_encoding.type),
+                  rendering.depth_encoding.scale, static_cast<int>(rendering.normals));
+  text += fmt::format("format {} compression {}", static_cast<int>(plan.format),
+                      static_cast<int>(plan.writing.compression));
+  if (rendering.depth_encoding.beyond_is_none) text += " beyond none";
+  if (plan.storage.background) text += fmt::format(" background {:a}", *plan.storage.background);
+  for (const ChannelName& name : plan.storage.channel_names) {
+    text += fmt::format(" {}={}", name.channel, name.in_file);
+  }
+  return text + "\n";
+}
+
+ViewMaker::ViewMaker(Scene scene, std::vector<Camera> cameras, MapPlan plan)
+    : scene_(std::move(scene)), cameras_(std::move(cameras)), plan_(std::move(plan)) {
+  inputs_ = description_of(scene_, plan_);
+  plan_.rendering.kept = &memory_;
+  check_cameras(cameras_, plan_, "a map");
+}
+
+std::string ViewMaker::inputs_of(std::size_t camera) const {
+  return inputs_ + to_json(cameras_[camera]);
+}
+
+std::size_t ViewMaker::memory_of(std::size_t camera) const {
+  const std::size_t of_value = plan_.rendering.depth_encoding.type == DepthEncoding::Type::binary64
+                                   ? sizeof(double)
+                                   : sizeof(float);
+  return std::size_t{cameras_[camera].width} * cameras_[camera].height * of_value *
+         count_parts(plan_.rendering.channels);
+}
+
+std::shared_ptr<const DepthMap> ViewMaker::make(std::size_t camera, const std::string& name) {
+  RenderStatistics statistics;
+  RenderOptions options = plan_.rendering;
+  options.statistics = &statistics;
+  DepthMap map = about_output(name, [&] { return render(scene_, cameras_[camera], options); });
+  warnings_.note(scene_, cameras_[camera], statistics.pixels_with_surface);
+  codes_beyond_.note(map);
+  return std::make_shared<const DepthMap>(
+      plan_.storage.dressed(std::move(map), name, std::numeric_limits<double>::infinity()));
+}
+
+void ViewMaker::warn(const Console& console) const {
+  warnings_.tell(console);
+  codes_beyond_.tell(console);
+}
+
+}  // namespace
+
+void CodesBeyond::note(const DepthMap& map) {
+  if (map.codes_beyond.value_or(0) == 0) return;
+  pixels_ += *map.codes_beyond;
+  ++maps_;
+}
+
+void CodesBeyond::tell(const Console& console) const {
+  if (pixels_ == 0) return;
+  console.warn(fmt::format("{} in {} lie beyond the last code and are stored as 0",
+                           text::counted(pixels_, "pixel"), text::counted(maps_, "map")));
+}
 
 void make_views(const DatasetArguments& arguments, const Views& views, const Console& console) {
   const ThreadLimit limit(arguments.render.scene.threads);

@@ -1,15 +1,28 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "apps/dataset/dataset_arguments.h"
+#include "apps/dataset/dataset_command.h"
 #include "apps/render/render_plan.h"
+#include "apps/shell/console.h"
 #include "fathom/camera/camera.h"
 #include "fathom/image/depth_map.h"
 
 namespace fathom::app {
+
+/// Counts the pixels whose depths lie beyond the codes of their maps.
+class CodesBeyond {
+ public:
+  void note(const DepthMap& map);
+  /// Warns of them, where there are any.
+  void tell(const Console& console) const;
+
+ private:
+  std::uint64_t pixels_ = 0, maps_ = 0;
+};
 
 /// A file that each camera has in a layout.
 struct FileOfView {

@@ -1,15 +1,26 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "apps/maps/file_kind.h"
 #include "fathom/camera/camera.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/scene/scene.h"
 
 /// What `fathom info` says of a file.
 namespace fathom::app {
+
+enum class FileKind { mesh, scene, camera, map };
+
+/// Told by the content of a file. JSON with `meshes` is a scene file unless it is glTF, which has
+/// `asset`. What is none of them is taken for a mesh, or for a camera if it looks like JSON: the
+/// reader says what is wrong with it.
+FileKind kind_of(std::string_view content);
+
+/// A line of `fathom info` with the first names of a list, and how many more there are; nothing for
+/// an empty list.
+std::string name_line(const std::string& what, const std::vector<std::string>& names);
 
 enum class AnswerForm { text, json };
 

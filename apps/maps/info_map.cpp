@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "apps/maps/info.h"
-#include "apps/maps/name_lists.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
 #include "fathom/image/surface.h"

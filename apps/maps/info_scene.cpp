@@ -8,7 +8,6 @@
 #include <set>
 
 #include "apps/maps/info.h"
-#include "apps/maps/name_lists.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/scene/bounds.h"
 #include "fathom/scene/scene_segments.h"

@@ -161,10 +161,10 @@ void MotionOptions::add_to(Command& command) {
 }
 
 MovingScene MotionOptions::moving(Scene scene) const {
-  const text::InputFile input{std::filesystem::path(file)};
+  const files::InputFile input{std::filesystem::path(file)};
   note_input(file);
   Motion motion = read_motion(input.text(), file);
-  scene.sources.push_back({file, text::sha256(input.bytes()), ""});
+  scene.sources.push_back({file, files::sha256(input.bytes()), ""});
   return {std::move(scene), std::move(motion)};
 }
 

@@ -1,12 +1,53 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/validate/colour_pairs.h"
+#include "validation/colour/colour_comparison.h"
+#include "validation/vtk/vtk_colours.h"
 
+/// Which picture of the pipeline's is held beside which of VTK's.
 namespace fathom::app {
+
+struct ColourPair {
+  const char* name;
+  const char* file;  ///< the end of the name of its picture
+  /// With highlights or without.
+  bool glossy;
+  pipeline::Shading ours;
+  validation::LightModel our_model;
+  validation::VtkShading theirs;
+  validation::LightModel their_model;
+};
+
+/// Those that show the same by their formulas first.
+inline constexpr std::array colour_pairs{
+    // Without highlights, which ours has from the centre of the face and VTK's from each fragment.
+    ColourPair{"flat, VTK flat, matte", "flat-matte", false, pipeline::Shading::flat,
+               validation::LightModel::face, validation::VtkShading::flat,
+               validation::LightModel::derived_normal},
+    ColourPair{"phong, VTK Phong", "phong", true, pipeline::Shading::phong,
+               validation::LightModel::interpolated_normal, validation::VtkShading::phong,
+               validation::LightModel::interpolated_normal},
+    ColourPair{"phong, VTK Gouraud", "phong-beside-gouraud", true, pipeline::Shading::phong,
+               validation::LightModel::interpolated_normal, validation::VtkShading::gouraud,
+               validation::LightModel::interpolated_normal},
+    // Each by a formula of its own.
+    ColourPair{"flat, VTK flat, glossy", "flat", true, pipeline::Shading::flat,
+               validation::LightModel::face, validation::VtkShading::flat,
+               validation::LightModel::derived_normal},
+    ColourPair{"gouraud, VTK Gouraud", "gouraud", true, pipeline::Shading::gouraud,
+               validation::LightModel::corners, validation::VtkShading::gouraud,
+               validation::LightModel::interpolated_normal}};
+
+/// Of a pair's surfaces. Highlights are Phong's, as VTK's are.
+pipeline::Material material_of(const ColourPair& pair);
+
+/// The pipeline's picture, in binary64 and with its usual grid.
+validation::GreyPicture drawn_by_pipeline(const validation::LitScene& scene,
+                                          pipeline::Shading shading);
 
 /// A scene and a pair of pictures of it, or why there are none.
 struct ColourCase {

@@ -1,5 +1,3 @@
-#include "apps/validate/validate_against.h"
-
 #include <functional>
 #include <memory>
 #include <string>
@@ -8,7 +6,8 @@
 
 #include "apps/shell/failures.h"
 #include "apps/shell/progress.h"
-#include "apps/validate/scenes_to_draw.h"
+#include "apps/validate/validate_input.h"
+#include "apps/validate/validate_modes.h"
 #include "apps/validate/validate_report.h"
 #include "fathom/attribution/attribute_and_name.h"
 #include "fathom/attribution/model/named_models.h"

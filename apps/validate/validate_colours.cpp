@@ -1,12 +1,11 @@
-#include "apps/validate/validate_colours.h"
-
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/shell/progress.h"
 #include "apps/validate/colour_report.h"
-#include "apps/validate/scenes_to_draw.h"
+#include "apps/validate/validate_input.h"
+#include "apps/validate/validate_modes.h"
 #include "apps/validate/validate_report.h"
 #include "fathom/failures/errors.h"
 #include "validation/peers/colour_drawing.h"

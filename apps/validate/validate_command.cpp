@@ -6,12 +6,8 @@
 #include <memory>
 
 #include "apps/shell/program.h"
-#include "apps/validate/validate_against.h"
 #include "apps/validate/validate_arguments.h"
-#include "apps/validate/validate_colours.h"
-#include "apps/validate/validate_faults.h"
-#include "apps/validate/validate_map.h"
-#include "apps/validate/validate_render.h"
+#include "apps/validate/validate_modes.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/failures/errors.h"
 #include "validation/scenes/validation_scenes.h"

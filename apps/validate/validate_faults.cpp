@@ -1,5 +1,3 @@
-#include "apps/validate/validate_faults.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -14,7 +12,8 @@
 #include "apps/shell/output_place.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
-#include "apps/validate/scenes_to_draw.h"
+#include "apps/validate/validate_input.h"
+#include "apps/validate/validate_modes.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/failures/errors.h"
 #include "fathom/text/counted.h"

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "apps/options/scene_options.h"
 #include "apps/shell/console.h"
+#include "apps/validate/validate_arguments.h"
 #include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
+#include "validation/scenes/validation_scenes.h"
 
 /// What a map is compared with, as files: read, and kept from being an output's place.
 namespace fathom::app {
@@ -19,5 +22,16 @@ Camera read_camera(const std::string& file, const Console& console);
 /// Fails    UsageError where there is none; InputError.
 Scene read_files(const std::vector<std::string>& files, const ReadLimits& limits,
                  const Console& console);
+
+/// How each scene is made: anew in every process that draws it.
+struct SceneToMake {
+  std::string name;
+  std::function<validation::ValidationScene()> make;
+};
+
+/// The scene of SCENE…, else those of --scene, else all of ours. What is returned refers to the
+/// arguments and the console.
+/// Fails    UsageError where --scene names one that there is not.
+std::vector<SceneToMake> scenes_of(const ValidateArguments& arguments, const Console& console);
 
 }  // namespace fathom::app

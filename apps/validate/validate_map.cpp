@@ -1,5 +1,3 @@
-#include "apps/validate/validate_map.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "apps/options/map_arguments.h"
 #include "apps/shell/progress.h"
 #include "apps/validate/validate_input.h"
+#include "apps/validate/validate_modes.h"
 #include "apps/validate/validate_report.h"
 #include "fathom/attribution/judgement.h"
 #include "fathom/attribution/model/named_models.h"

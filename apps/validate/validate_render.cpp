@@ -1,11 +1,10 @@
-#include "apps/validate/validate_render.h"
-
 #include <filesystem>
 #include <utility>
 
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
-#include "apps/validate/scenes_to_draw.h"
+#include "apps/validate/validate_input.h"
+#include "apps/validate/validate_modes.h"
 #include "fathom/attribution/other_map.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/world_from_image.h"

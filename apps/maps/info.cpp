@@ -1,10 +1,15 @@
-#include "apps/maps/file_kind.h"
+#include "apps/maps/info.h"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "apps/shell/values.h"
 #include "fathom/image/recognise_map.h"
 #include "fathom/text/parse_json.h"
+#include "fathom/text/printable.h"
 #include "fathom/text/text_cursor.h"
 
 namespace fathom::app {
@@ -26,6 +31,16 @@ FileKind kind_of(std::string_view content) {
   if (json.contains("asset")) return FileKind::mesh;
   if (json.contains("meshes")) return FileKind::scene;
   return FileKind::camera;
+}
+
+std::string name_line(const std::string& what, const std::vector<std::string>& names) {
+  if (names.empty()) return "";
+  constexpr std::size_t most = 50;
+  const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(most, names.size()));
+  std::string text =
+      fmt::format("  {:<10} {}", what, text::printable(joined({names.begin(), end}, ", ")));
+  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
+  return text + "\n";
 }
 
 }  // namespace fathom::app

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "apps/shell/console.h"
+#include "apps/validate/validate_arguments.h"
+
+/// What `fathom validate` does by its options, one source for each.
+namespace fathom::app {
+
+/// `validate --against`: has renderers draw scenes and compares every map with the truth. Returns
+/// the exit status, as ValidationReport::finish().
+int validate_against(const ValidateArguments& arguments, const Console& console);
+
+/// `validate --map`: compares a map that another renderer made with the truth. Returns the exit
+/// status, as ValidationReport::finish().
+int validate_map(const ValidateArguments& arguments, const Console& console);
+
+/// `validate --render`: only draws, and writes what the renderer drew as a map of ours. Returns the
+/// exit status.
+int validate_render(const ValidateArguments& arguments, const Console& console);
+
+/// `validate --colour`: has VTK draw lit scenes and holds its pictures and the pipeline's against
+/// what the formulas allow each (validation/colour). Returns the exit status: answer_is_no where a
+/// pixel is unexplained, unusable_input where VTK did not draw or a scene cannot be compared.
+int validate_colours(const ValidateArguments& arguments, const Console& console);
+
+/// `validate --faults --against …`: faults of the catalogue in maps of real renderers. Prints what is
+/// not found or wrongly named, writes faults.json and faults.md, and returns the exit status:
+/// answer_is_no where something is found in a right map, or a fault that is large enough is not
+/// found and rightly named; unusable_input where a renderer did not draw.
+int validate_faults(const ValidateArguments& arguments, const Console& console);
+
+}  // namespace fathom::app
