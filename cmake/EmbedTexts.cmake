@@ -1,5 +1,5 @@
 # Writes text files into a C++ source file: a std::string_view for each, named after it.
-#   cmake -DHEADER=validation/report/page.h -DNAMESPACE=fathom::validation::page
+#   cmake -DHEADER=apps/validate/report/page.h -DNAMESPACE=fathom::validation::page
 #         "-DFILES=style.css;body.html" -DOUTPUT=page.cpp -P EmbedTexts.cmake
 cmake_minimum_required(VERSION 3.22)
 # Texts are longer than C++ asks of every compiler, and no longer than those take that are used.

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "apps/bench/parts/ideas.h"
 #include "apps/options/map_arguments.h"
 #include "fathom/failures/errors.h"
 #include "fathom/failures/unknown_name.h"
-#include "validation/bench/parts/ideas.h"
 
 namespace fathom::app {
 namespace {

@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "apps/bench/processors.h"
+#include "apps/bench/renderers.h"
 #include "apps/shell/command.h"
 #include "apps/shell/values.h"
 #include "fathom/image/channel_table.h"
-#include "validation/bench/processors.h"
-#include "validation/bench/renderers.h"
-#include "validation/bench/scenes.h"
+#include "validation/scenes/scenes.h"
 
 namespace fathom::app {
 

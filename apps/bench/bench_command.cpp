@@ -10,13 +10,13 @@
 #include "apps/bench/json_report.h"
 #include "apps/bench/machine_line.h"
 #include "apps/bench/parts_command.h"
+#include "apps/bench/renderers.h"
+#include "apps/bench/report.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/program.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/failures/errors.h"
-#include "validation/bench/renderers.h"
-#include "validation/bench/report.h"
 
 namespace fathom::app {
 namespace {

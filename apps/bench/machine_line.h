@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "validation/bench/machine.h"
+#include "apps/bench/machine.h"
 
 namespace fathom::app {
 

@@ -2,7 +2,7 @@
 
 #include "apps/mpi/mpi_arguments.h"
 #include "apps/shell/values.h"
-#include "validation/bench/generated/generated_scene.h"
+#include "validation/scenes/generated/generated_scene.h"
 
 namespace fathom::app {
 

@@ -8,12 +8,12 @@
 
 #include "apps/bench/json_report.h"
 #include "apps/bench/machine_line.h"
+#include "apps/bench/parts/ideas.h"
+#include "apps/bench/parts/parts_report.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/fast/render_fast.h"
-#include "validation/bench/parts/ideas.h"
-#include "validation/bench/parts/parts_report.h"
 
 namespace fathom::app {
 namespace {

@@ -17,10 +17,10 @@
 #include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
+#include "apps/study/study.h"
 #include "fathom/failures/errors.h"
 #include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
-#include "validation/studies/study.h"
 
 namespace fathom::app {
 namespace {

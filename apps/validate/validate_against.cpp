@@ -6,6 +6,8 @@
 
 #include "apps/shell/failures.h"
 #include "apps/shell/progress.h"
+#include "apps/validate/faults/fault_study.h"
+#include "apps/validate/report/predicted_fights.h"
 #include "apps/validate/validate_input.h"
 #include "apps/validate/validate_modes.h"
 #include "apps/validate/validate_report.h"
@@ -13,9 +15,7 @@
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/attribution/other_scene.h"
 #include "fathom/failures/errors.h"
-#include "validation/faults/fault_study.h"
 #include "validation/peers/drawing.h"
-#include "validation/report/predicted_fights.h"
 
 namespace fathom::app {
 namespace {

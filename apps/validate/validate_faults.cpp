@@ -12,13 +12,13 @@
 #include "apps/shell/output_place.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
+#include "apps/validate/faults/fault_report.h"
 #include "apps/validate/validate_input.h"
 #include "apps/validate/validate_modes.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/failures/errors.h"
 #include "fathom/text/counted.h"
 #include "validation/child/in_child.h"
-#include "validation/faults/fault_report.h"
 #include "validation/peers/drawing.h"
 
 namespace fathom::app {

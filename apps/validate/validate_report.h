@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "apps/shell/output_file.h"
+#include "apps/validate/report/comparison.h"
+#include "apps/validate/report/validation_case.h"
 #include "apps/validate/validate_arguments.h"
-#include "validation/report/comparison.h"
-#include "validation/report/validation_case.h"
 
 namespace fathom::app {
 

@@ -10,7 +10,7 @@
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/camera/camera_making.h"
 #include "tests/attribution/float_rasterizer.h"
-#include "validation/bench/shapes.h"
+#include "validation/scenes/shapes.h"
 
 /// A renderer that is what its model says has no unexplained pixel; one with a fault has, and the
 /// fault is named.

@@ -15,7 +15,7 @@
 #include "fathom/camera/camera_making.h"
 #include "tests/attribution/float_rasterizer.h"
 #include "tests/attribution/halfs.h"
-#include "validation/bench/shapes.h"
+#include "validation/scenes/shapes.h"
 
 /// Maps that were drawn by a camera that is a little off, or changed afterwards: the fault is named,
 /// and how large it is.

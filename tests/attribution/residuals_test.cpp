@@ -8,7 +8,7 @@
 #include <string>
 
 #include "fathom/attribution/model/named_models.h"
-#include "validation/bench/shapes.h"
+#include "validation/scenes/shapes.h"
 
 /// Held against depths of one plane that are computed here: from the ray of a pixel, its lens
 /// undone by bisection, and the plane.

@@ -8,7 +8,7 @@
 #include "fathom/attribution/other_map.h"
 #include "fathom/attribution/truth.h"
 #include "fathom/camera/camera_making.h"
-#include "validation/bench/shapes.h"
+#include "validation/scenes/shapes.h"
 
 /// Right maps of a sphere, made from its exact depths.
 namespace fathom::test {

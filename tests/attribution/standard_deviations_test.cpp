@@ -12,7 +12,7 @@
 #include "fathom/attribution/model/named_models.h"
 #include "tests/attribution/float_rasterizer.h"
 #include "tests/effort.h"
-#include "validation/bench/shapes.h"
+#include "validation/scenes/shapes.h"
 
 /// Meshes of two triangles and of a few: what is measured of a fault is no farther from the truth
 /// than its standard deviation says. Every corner is rounded to binary32, once, and its triangles share that.

@@ -5,18 +5,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "apps/study/antialiasing/curve.h"
+#include "apps/study/antialiasing/judged_scenes.h"
+#include "apps/study/antialiasing/methods.h"
+#include "apps/study/antialiasing/nyquist.h"
+#include "apps/study/antialiasing/temporal.h"
+#include "apps/study/effort.h"
+#include "apps/study/exact_picture.h"
+#include "apps/study/pipeline_scenes.h"
 #include "fathom/failures/errors.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/render.h"
 #include "tests/effort.h"
-#include "validation/studies/antialiasing/curve.h"
-#include "validation/studies/antialiasing/judged_scenes.h"
-#include "validation/studies/antialiasing/methods.h"
-#include "validation/studies/antialiasing/nyquist.h"
-#include "validation/studies/antialiasing/temporal.h"
-#include "validation/studies/effort.h"
-#include "validation/studies/exact_picture.h"
-#include "validation/studies/pipeline_scenes.h"
 
 namespace fathom::studies {
 namespace {

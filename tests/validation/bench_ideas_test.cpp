@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "apps/bench/parts/ideas.h"
+#include "apps/bench/parts/parts_report.h"
 #include "fathom/failures/errors.h"
-#include "validation/bench/parts/ideas.h"
-#include "validation/bench/parts/parts_report.h"
-#include "validation/bench/shapes.h"
-#include "validation/bench/simple_camera.h"
+#include "validation/scenes/shapes.h"
+#include "validation/scenes/simple_camera.h"
 
 namespace fathom::bench {
 namespace {

@@ -11,14 +11,14 @@
 
 #include "fathom/render.h"
 #include "fathom/scene/framing.h"
-#include "validation/bench/made/city.h"
-#include "validation/bench/made/machine_part.h"
-#include "validation/bench/made/scan.h"
-#include "validation/bench/made/text_page.h"
-#include "validation/bench/made/tree.h"
-#include "validation/bench/made/value_noise.h"
-#include "validation/bench/scenes.h"
-#include "validation/bench/shapes.h"
+#include "validation/scenes/made/city.h"
+#include "validation/scenes/made/machine_part.h"
+#include "validation/scenes/made/scan.h"
+#include "validation/scenes/made/text_page.h"
+#include "validation/scenes/made/tree.h"
+#include "validation/scenes/made/value_noise.h"
+#include "validation/scenes/scenes.h"
+#include "validation/scenes/shapes.h"
 
 /// scan, city, tree, text and cad have what they are there for.
 namespace fathom::bench {

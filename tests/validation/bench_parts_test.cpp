@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "apps/bench/parts/closed_edges.h"
+#include "apps/bench/parts/edge_kernels.h"
+#include "apps/bench/parts/exact_picture.h"
+#include "apps/bench/parts/plain_loops.h"
+#include "apps/bench/parts/snapped_scene.h"
+#include "apps/bench/parts/tile_drawing.h"
 #include "fathom/pipeline/render_pipeline.h"
-#include "validation/bench/parts/closed_edges.h"
-#include "validation/bench/parts/edge_kernels.h"
-#include "validation/bench/parts/exact_picture.h"
-#include "validation/bench/parts/plain_loops.h"
-#include "validation/bench/parts/snapped_scene.h"
-#include "validation/bench/parts/tile_drawing.h"
 
 namespace fathom::bench {
 namespace {

@@ -1,8 +1,8 @@
 // The study of blending: its judge by hand, and its figures.
 #include <gtest/gtest.h>
 
-#include "validation/studies/blending/blended.h"
-#include "validation/studies/pipeline_scenes.h"
+#include "apps/study/blending/blended.h"
+#include "apps/study/pipeline_scenes.h"
 
 namespace fathom::studies {
 namespace {

@@ -5,9 +5,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "apps/study/clipping/beside_cgal.h"
+#include "apps/study/clipping/clipping.h"
 #include "fathom/failures/errors.h"
-#include "validation/studies/clipping/beside_cgal.h"
-#include "validation/studies/clipping/clipping.h"
 
 namespace fathom::studies {
 namespace {

@@ -1,4 +1,4 @@
-#include "validation/report/comparison.h"
+#include "apps/validate/report/comparison.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "apps/validate/report/comparison_html.h"
+#include "apps/validate/report/read_report.h"
 #include "fathom/failures/errors.h"
 #include "tests/apps/test_folder.h"
-#include "validation/report/comparison_html.h"
-#include "validation/report/read_report.h"
 
 /// What changed between two reports, from report.json files to verdicts.
 namespace fathom::validation {

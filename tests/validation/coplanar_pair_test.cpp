@@ -1,12 +1,12 @@
 // Two nearly coplanar surfaces of the study `z-fighting`.
 
-#include "validation/studies/z_fighting/coplanar_pair.h"
+#include "apps/study/z_fighting/coplanar_pair.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "validation/studies/z_fighting/fights_by_angle.h"
+#include "apps/study/z_fighting/fights_by_angle.h"
 
 namespace fathom::studies {
 namespace {

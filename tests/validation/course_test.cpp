@@ -9,6 +9,16 @@
 #include <optional>
 #include <set>
 
+#include "apps/study/antialiasing/curve.h"
+#include "apps/study/antialiasing/temporal.h"
+#include "apps/study/course/aliasing.h"
+#include "apps/study/course/back_faces.h"
+#include "apps/study/course/demo.h"
+#include "apps/study/course/exercises.h"
+#include "apps/study/course/gallery.h"
+#include "apps/study/course/quadrangles.h"
+#include "apps/study/course/shared_edges.h"
+#include "apps/study/pipeline_scenes.h"
 #include "fathom/pipeline/geometry/back_face_culling.h"
 #include "fathom/pipeline/geometry/primitive_assembly.h"
 #include "fathom/pipeline/rasterization/grid_samples.h"
@@ -17,16 +27,6 @@
 #include "fathom/pipeline/scan/line.h"
 #include "fathom/render.h"
 #include "fathom/scene/motion.h"
-#include "validation/studies/antialiasing/curve.h"
-#include "validation/studies/antialiasing/temporal.h"
-#include "validation/studies/course/aliasing.h"
-#include "validation/studies/course/back_faces.h"
-#include "validation/studies/course/demo.h"
-#include "validation/studies/course/exercises.h"
-#include "validation/studies/course/gallery.h"
-#include "validation/studies/course/quadrangles.h"
-#include "validation/studies/course/shared_edges.h"
-#include "validation/studies/pipeline_scenes.h"
 
 namespace fathom::studies {
 namespace {

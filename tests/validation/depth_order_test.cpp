@@ -1,7 +1,7 @@
 // The experiment of the study `indistinguishable`, held to what is published and to the ideal
 // model.
 
-#include "validation/studies/indistinguishable/depth_order.h"
+#include "apps/study/indistinguishable/depth_order.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "apps/study/sampling.h"
 #include "fathom/depth_format/encode.h"
-#include "validation/studies/sampling.h"
 
 namespace fathom::studies {
 namespace {

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "apps/validate/faults/fault_report.h"
+#include "apps/validate/faults/fault_study.h"
 #include "fathom/attribution/model/named_models.h"
 #include "tests/effort.h"
-#include "validation/faults/fault_report.h"
-#include "validation/faults/fault_study.h"
 
 /// The catalogue's faults in the map of an ideal renderer, which rounds depths to binary32 and
 /// nothing else: all that are large enough are found and rightly named. (`fathom validate --faults`

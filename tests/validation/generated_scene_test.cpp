@@ -1,4 +1,4 @@
-#include "validation/bench/generated/generated_scene.h"
+#include "validation/scenes/generated/generated_scene.h"
 
 #include <gtest/gtest.h>
 

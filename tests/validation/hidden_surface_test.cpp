@@ -6,17 +6,17 @@
 #include <map>
 #include <optional>
 
+#include "apps/study/course/mesh_texts.h"
+#include "apps/study/hidden_surface/bsp_tree.h"
+#include "apps/study/hidden_surface/comparison.h"
+#include "apps/study/hidden_surface/eye_scene.h"
+#include "apps/study/hidden_surface/warnock.h"
+#include "apps/study/pipeline_scenes.h"
+#include "apps/study/scene_files.h"
+#include "apps/study/study_scene.h"
 #include "fathom/failures/errors.h"
 #include "fathom/scene/framing.h"
 #include "tests/effort.h"
-#include "validation/studies/course/mesh_texts.h"
-#include "validation/studies/hidden_surface/bsp_tree.h"
-#include "validation/studies/hidden_surface/comparison.h"
-#include "validation/studies/hidden_surface/eye_scene.h"
-#include "validation/studies/hidden_surface/warnock.h"
-#include "validation/studies/pipeline_scenes.h"
-#include "validation/studies/scene_files.h"
-#include "validation/studies/study_scene.h"
 
 namespace fathom::studies {
 namespace {

@@ -1,4 +1,4 @@
-#include "validation/report/junit.h"
+#include "apps/validate/report/junit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "apps/validate/report/cause.h"
+#include "apps/validate/report/ctest_lines.h"
+#include "apps/validate/report/report_json.h"
+#include "apps/validate/report/xml.h"
+#include "apps/validate/report/z_fighting.h"
 #include "tests/apps/run_program.h"
 #include "tests/apps/test_folder.h"
-#include "validation/report/cause.h"
-#include "validation/report/ctest_lines.h"
-#include "validation/report/report_json.h"
-#include "validation/report/xml.h"
-#include "validation/report/z_fighting.h"
 
 /// The XML that CI services and CTest read, read back by Python.
 namespace fathom::validation {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "validation/studies/lines/line_drift.h"
-#include "validation/studies/lines/step_costs.h"
+#include "apps/study/lines/line_drift.h"
+#include "apps/study/lines/step_costs.h"
 
 namespace fathom::studies {
 namespace {

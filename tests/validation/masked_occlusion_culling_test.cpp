@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "apps/bench/masked_occlusion_culling/masked_buffer.h"
 #include "fathom/attribution/world_mesh.h"
 #include "fathom/render.h"
-#include "validation/bench/made/city.h"
-#include "validation/bench/masked_occlusion_culling/masked_buffer.h"
-#include "validation/bench/scenes.h"
-#include "validation/bench/shapes.h"
+#include "validation/scenes/made/city.h"
+#include "validation/scenes/scenes.h"
+#include "validation/scenes/shapes.h"
 
 /// Masked Occlusion Culling draws what we draw, so that comparing times is fair. Built where a clone
 /// of it is (FATHOM_MASKED_OCCLUSION_CULLING).

@@ -2,11 +2,11 @@
 
 #include <vector>
 
+#include "apps/bench/measurement.h"
+#include "apps/bench/processors.h"
+#include "apps/bench/renderers.h"
+#include "apps/bench/resident_memory.h"
 #include "fathom/failures/errors.h"
-#include "validation/bench/measurement.h"
-#include "validation/bench/processors.h"
-#include "validation/bench/renderers.h"
-#include "validation/bench/resident_memory.h"
 #include "validation/child/in_child.h"
 
 namespace fathom::bench {

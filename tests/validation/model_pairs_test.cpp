@@ -8,11 +8,11 @@
 #include <tuple>
 #include <vector>
 
+#include "apps/validate/faults/fault_study.h"
 #include "fathom/attribution/cause.h"
 #include "fathom/attribution/judgement.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/attribution/other_scene.h"
-#include "validation/faults/fault_study.h"
 #include "validation/peers/drawing.h"
 
 /// Maps of real renderers, each judged by every model: where the model is not the renderer's, nothing but

@@ -9,9 +9,9 @@
 
 #include "fathom/attribution/world_mesh.h"
 #include "fathom/render.h"
-#include "validation/bench/shapes.h"
 #include "validation/colour/colour_comparison.h"
 #include "validation/embree/embree_tracer.h"
+#include "validation/scenes/shapes.h"
 #include "validation/vtk/vtk_colours.h"
 #include "validation/vtk/vtk_depth_maps.h"
 #include "validation/vtk/vtk_renderer.h"

@@ -1,11 +1,11 @@
-#include "validation/bench/report.h"
+#include "apps/bench/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "validation/bench/measurement_fields.h"
+#include "apps/bench/measurement_fields.h"
 #include "validation/child/read_fields.h"
 #include "validation/child/write_fields.h"
 

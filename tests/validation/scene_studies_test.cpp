@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "apps/study/antialiasing/coverage_by_samples.h"
+#include "apps/study/mitigation/mitigation.h"
+#include "apps/study/subpixel/snapped_raster.h"
+#include "apps/study/subpixel/subpixel.h"
+#include "apps/study/z_fighting/layers.h"
+#include "apps/study/z_fighting/scene_fights.h"
+#include "apps/study/z_fighting/scene_study.h"
 #include "fathom/failures/errors.h"
-#include "validation/studies/antialiasing/coverage_by_samples.h"
-#include "validation/studies/mitigation/mitigation.h"
-#include "validation/studies/subpixel/snapped_raster.h"
-#include "validation/studies/subpixel/subpixel.h"
-#include "validation/studies/z_fighting/layers.h"
-#include "validation/studies/z_fighting/scene_fights.h"
-#include "validation/studies/z_fighting/scene_study.h"
 
 namespace fathom::studies {
 namespace {

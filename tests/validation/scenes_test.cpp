@@ -1,4 +1,4 @@
-#include "validation/bench/scenes.h"
+#include "validation/scenes/scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "fathom/render.h"
-#include "validation/bench/shapes.h"
+#include "validation/scenes/shapes.h"
 
 namespace fathom::bench {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "apps/study/study.h"
 #include "tests/effort.h"
-#include "validation/studies/study.h"
 
 namespace fathom::studies {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "validation/studies/results.h"
+#include "apps/study/results.h"
 
 namespace fathom::studies {
 namespace {

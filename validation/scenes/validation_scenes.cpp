@@ -10,9 +10,9 @@
 #include "fathom/failures/errors.h"
 #include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
-#include "validation/bench/scenes.h"
-#include "validation/bench/shapes.h"
-#include "validation/bench/simple_camera.h"
+#include "validation/scenes/scenes.h"
+#include "validation/scenes/shapes.h"
+#include "validation/scenes/simple_camera.h"
 
 namespace fathom::validation {
 namespace {

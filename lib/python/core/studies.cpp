@@ -10,12 +10,12 @@
 #include <variant>
 #include <vector>
 
+#include "apps/study/study.h"
+#include "apps/study/table.h"
 #include "entry_points.h"
 #include "fathom/failures/errors.h"
 #include "running.h"
 #include "scene.h"
-#include "validation/studies/study.h"
-#include "validation/studies/table.h"
 
 namespace py = pybind11;
 

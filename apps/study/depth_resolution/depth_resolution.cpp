@@ -1,0 +1,168 @@
+#include "apps/study/depth_resolution/depth_resolution.h"
+
+#include <map>
+
+#include "apps/study/depth_resolution/format_steps.h"
+#include "apps/study/formats.h"
+#include "apps/study/page_texts.h"
+#include "apps/study/results.h"
+#include "apps/study/sampling.h"
+#include "fathom/failures/errors.h"
+
+namespace fathom::studies {
+namespace {
+
+/// A step with its format: a row of steps.csv.
+struct StepOfFormat {
+  DepthFormat format;
+  Step at;
+};
+
+Table steps_table(const std::vector<FormatSteps>& all) {
+  using Row = StepOfFormat;
+  std::vector<Row> rows;
+  for (const FormatSteps& m : all) {
+    for (const Step& step : m.steps) rows.push_back({m.format, step});
+  }
+  return {rows,
+          {{"mapping", mapping_of},
+           {"storage", storage_of},
+           {"near", [](const Row& r) { return r.format.near; }},
+           {"far", [](const Row& r) { return r.format.far; }},
+           {"depth", [](const Row& r) { return r.at.depth; }},
+           {"step", [](const Row& r) { return r.at.step; }},
+           {"relative_step", [](const Row& r) { return r.at.step / r.at.depth; }},
+           {"bin_width", [](const Row& r) { return r.at.bin_width; }}}};
+}
+
+Table best_table(const std::vector<BestMapping>& rows) {
+  using Row = BestMapping;
+  return {rows,
+          {{"storage", [](const Row& r) { return name_of(r.storage); }},
+           {"depth", &Row::depth},
+           {"best_mapping", [](const Row& r) { return name_of(r.mapping); }},
+           {"step", &Row::step}}};
+}
+
+Table ranges_table(const std::vector<BestRange>& rows) {
+  using Row = BestRange;
+  return {rows,
+          {{"storage", [](const Row& r) { return name_of(r.storage); }},
+           {"mapping", [](const Row& r) { return name_of(r.mapping); }},
+           {"from_depth", &Row::from},
+           {"to_depth", &Row::to}}};
+}
+
+Table moved_table(const std::vector<MovedStep>& rows) {
+  using Row = MovedStep;
+  return {rows,
+          {{"moved", [](const Row& r) { return r.moved == Moved::near ? "near" : "far"; }},
+           {"mapping", mapping_of},
+           {"storage", storage_of},
+           {"near", [](const Row& r) { return r.format.near; }},
+           {"far", [](const Row& r) { return r.format.far; }},
+           {"depth", &Row::depth},
+           {"step", &Row::step}}};
+}
+
+Table formats_table(const std::vector<FormatSteps>& rows) {
+  using Row = FormatSteps;
+  return {rows,
+          {{heading("format"), [](const Row& r) { return label_of(r.format); }},
+           {"mapping", mapping_of},
+           {"storage", storage_of},
+           {Column("codes").page("codes"), &Row::codes},
+           {Column("share_of_codes_nearer_than_2_near").percent("up to 2·near", ".2f"),
+            &Row::share_below_2},
+           {Column("share_of_codes_nearer_than_10_near").percent("up to 10·near", ".2f"),
+            &Row::share_below_10},
+           {"step_at_near", [](const Row& r) { return r.steps.front().step; }},
+           {"step_at_far", [](const Row& r) { return r.steps.back().step; }},
+           {Column("greatest_relative_step").page("greatest relative step", ".3g"),
+            &Row::greatest_relative},
+           {Column("greatest_relative_step_at").page("at depth", ".4g"), &Row::greatest_at}}};
+}
+
+/// Near a stored 0 the steps of float formats are subnormal numbers, which would squeeze the rest
+/// of a plot: what is finer than 10⁻¹⁷ of the depth is left out there, not in the figures.
+template <class Row>
+bool is_coarse_enough(const Row& row) {
+  return row.step > 1e-17 * row.depth;
+}
+
+Plot steps_plot(const std::vector<FormatSteps>& all, Storage storage) {
+  const std::string name(name_of(storage));
+  Plot plot{.name = "steps-" + name,
+            .title = "Distance between neighbouring codes, " + name,
+            .x_label = "depth (scene units)",
+            .y_label = "step (scene units)",
+            .logarithmic_x = true,
+            .logarithmic_y = true};
+  for (const FormatSteps& m : all) {
+    // opengl is standard in the ideal model.
+    if (m.format.storage != storage || m.format.mapping == Mapping::opengl) continue;
+    plot.series.push_back(series_of(std::string(name_of(m.format.mapping)),
+                                    rows_where(m.steps, is_coarse_enough<Step>), &Step::depth,
+                                    &Step::step));
+  }
+  return plot;
+}
+
+/// A line for each format that is shown, in the order of their names.
+Plot moved_plot(const std::vector<MovedStep>& rows, Moved moved) {
+  const std::string name = moved == Moved::near ? "near" : "far";
+  Plot plot{
+      .name = "step-by-" + name,
+      .title = "Step at depth " + text_of(rows.front().depth, ".4g") + " when " + name + " moves",
+      .x_label = name + " (scene units)",
+      .y_label = "step (scene units)",
+      .logarithmic_x = true,
+      .logarithmic_y = true};
+  std::map<std::string, std::vector<MovedStep>> lines;
+  for (const MovedStep& r : rows) {
+    const bool is_shown = r.format.storage != Storage::unorm16 &&
+                          r.format.mapping != Mapping::opengl &&
+                          !takes_infinite_far(r.format.mapping);
+    if (r.moved == moved && is_shown && is_coarse_enough(r)) {
+      lines[label_of(r.format)].push_back(r);
+    }
+  }
+  for (const auto& [label, line] : lines) {
+    plot.series.push_back(series_of(label, line, &MovedStep::place, &MovedStep::step));
+  }
+  return plot;
+}
+
+}  // namespace
+
+std::vector<StudyFile> study_depth_resolution(const StudyOptions& options,
+                                              const std::function<void(double)>& tick) {
+  const double near = options.near.value_or(0.1), far = options.far.value_or(1000);
+  require_meaningful({Mapping::standard, Storage::unorm16, near, far});
+  if (near < 1e-300 || far > 1e300) {
+    throw UsageError("near and far of this study lie between 1e-300 and 1e300");
+  }
+  const std::vector<double> depths = logarithmic_samples(near, far, options.samples.value_or(121));
+  require_gnuplot(options);
+  const std::vector<FormatSteps> all =
+      measure_formats(near, far, depths, [&](double share) { tick(0.8 * share); });
+  const std::vector<BestMapping> best = best_mappings(all);
+  const std::vector<MovedStep> moved = move_near_and_far(near, far);
+
+  Results results("depth-resolution", page_texts::depth_resolution, options);
+  results.figure("near", near);
+  results.figure("far", far);
+  results.figure("samples", depths.size());
+  results.table(formats_table(all), {.json = "formats", .page = "formats"});
+  results.table(ranges_table(best_ranges(best)), {.json = "best"});
+  results.table(steps_table(all), {.csv = "steps"});
+  results.table(best_table(best), {.csv = "best"});
+  results.table(moved_table(moved), {.csv = "near-far"});
+  for (const Storage storage : all_storages) results.plot(steps_plot(all, storage));
+  results.plot(moved_plot(moved, Moved::near));
+  results.plot(moved_plot(moved, Moved::far));
+  tick(1);
+  return results.files();
+}
+
+}  // namespace fathom::studies

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/study/html.h"
+#include "apps/study/table.h"
+
+namespace fathom::studies {
+
+/// The page of a study: a little Markdown, and what is there for its placeholders.
+///
+///   # Title                     the first block; blocks are separated by empty lines
+///   ## Heading
+///   A paragraph.
+///   {{name}}                    in any text: a value
+///   {{plot:name}} Caption       NAME.png, linked to NAME.svg, and its command; left out where nothing
+///                               was drawn
+///   {{picture:name}} Caption    NAME.png, its pixels kept sharp; the caption names the command
+///                               that draws it
+///   {{pictures:a,b,c}} Caption  several in a row
+///   `text`                      in paragraphs and captions: code
+///   {{text:name}} Caption       text in letters of one width
+///   {{table:name}}              left out where it has no row
+///   {{if:plot:name}}            also of a table or a value: what follows, up to {{else}} or
+///                               {{end}}, is there if that is; blocks of their own, not nested
+class Page {
+ public:
+  explicit Page(std::string_view markdown) : markdown_(markdown) {}
+
+  void add_value(const std::string& name, const std::string& text) { values_[name] = text; }
+  /// Every plot, table and text that is added has to have its place.
+  void add_plot(const std::string& name, bool is_drawn);
+  void add_table(const std::string& name, const Table& table);
+  void add_text(const std::string& name, const std::string& text);
+  /// A picture may have none. `width`: in the page; 0: as it is.
+  void add_picture(const std::string& name, std::uint32_t width = 0) {
+    parts_["picture:" + name] = name;
+    widths_[name] = width;
+  }
+
+  /// The page, and at its end, where given, a section with this heading and paragraph.
+  /// Fails    std::logic_error where page and parts do not belong together.
+  [[nodiscard]] std::string html(const std::string& last_heading = "",
+                                 const std::string& last_paragraph = "") const;
+
+ private:
+  void add_part(const std::string& placeholder, const std::string& content);
+  [[nodiscard]] std::string block(const std::string& block) const;
+  [[nodiscard]] std::string with_values(const std::string& text) const;
+  [[nodiscard]] const std::string& part(const std::string& placeholder) const;
+  /// The pictures of a list with commas.
+  [[nodiscard]] std::vector<ShownPicture> pictures(const std::string& names) const;
+  [[nodiscard]] bool has(const std::string& placeholder) const;
+
+  std::string markdown_;
+  std::map<std::string, std::string> values_;
+  /// Placeholder without braces → content: HTML of a table, text, or the name of files. Empty where
+  /// there is nothing to show.
+  std::map<std::string, std::string> parts_;
+  std::map<std::string, std::uint32_t> widths_;
+};
+
+}  // namespace fathom::studies

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/validate/faults/fault_study.h"
+
+/// What the catalogue's faults led to, as tables.
+namespace fathom::validation {
+
+/// A fault of one size in one renderer's map of one scene.
+struct FaultCase {
+  const Fault* fault = nullptr;
+  std::string scene, renderer;
+  /// Why there is no map, in one line; empty where there is one.
+  std::string failure;
+  FaultResult result;
+};
+
+/// A right map, and what is said of it: nothing should be.
+struct RightCase {
+  std::string scene, renderer, failure, said;
+};
+
+struct FaultStudy {
+  std::vector<RightCase> right;
+  std::vector<FaultCase> faults;
+
+  /// Nothing is found in right maps, and all faults are found and rightly named whose effect is
+  /// three times the model's bound or more.
+  [[nodiscard]] bool is_good() const;
+};
+
+/// A fault's effect from which on it has to be found and rightly named, in half widths of what the
+/// model allows.
+inline constexpr double effect_to_be_named = 3;
+
+/// A line for each right map of which something is said and each fault that is not rightly named.
+std::string lines_of(const FaultStudy& study);
+/// A row for each fault, a column for each renderer: the least effect from which on it is always
+/// found and rightly named; and what comparing pictures sees of it.
+std::string to_markdown(const FaultStudy& study);
+std::string to_json(const FaultStudy& study);
+
+}  // namespace fathom::validation

@@ -1,0 +1,148 @@
+#include "apps/validate/report/junit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "apps/validate/report/cause.h"
+#include "apps/validate/report/xml.h"
+#include "apps/validate/report/z_fighting.h"
+#include "fathom/attribution/worst_pixels.h"
+
+namespace fathom::validation {
+namespace {
+
+using attribution::PixelClass;
+
+/// What is wrong with a test case: `element` is failure or error.
+struct Complaint {
+  std::string element, type, message, details;
+};
+
+constexpr std::size_t listed_pixels = 8;
+
+std::string details_of(const ValidationCase& c) {
+  std::string text;
+  for (const attribution::Finding& f : c.attribution.findings) {
+    text += finding_line(f) + "\n";
+  }
+  for (const std::size_t i :
+       attribution::worst_pixels(*c.truth, c.other, c.attribution, listed_pixels)) {
+    text += attribution::name_of(c.attribution.classes[i]) + " " + pixel_text(c, i) + "\n";
+  }
+  return text;
+}
+
+std::optional<Complaint> complaint_about(const ValidationCase& c, const ResultChange* change) {
+  if (!c.is_done()) return Complaint{"error", "not drawn", cause_of(c), ""};
+  if (!c.is_good()) {
+    const auto& findings = c.attribution.findings;
+    return Complaint{"failure", findings.empty() ? "unexplained" : findings.front().kind,
+                     verdict_of(c), details_of(c)};
+  }
+  if (change == nullptr) return std::nullopt;
+  if (change->verdict == Verdict::incomparable) {
+    return Complaint{"error", "not comparable", change->obstacle, ""};
+  }
+  if (change->verdict != Verdict::worse) return std::nullopt;
+  std::string details;
+  for (const std::string& clause : change->worse) details += clause + "\n";
+  return Complaint{"failure", "worse", "worse than the baseline: " + change->worse.front(),
+                   details};
+}
+
+XmlElement properties_of(const ValidationCase& c) {
+  XmlElement properties{.name = "properties"};
+  const auto add = [&](const std::string& name, const std::string& value) {
+    properties.elements.push_back({"property", {{"name", name}, {"value", value}}, {}, ""});
+  };
+  if (!c.version.empty()) add("version", c.version);
+  if (!c.file.empty()) add("map", c.file);
+  if (!c.is_done()) return properties;
+  const attribution::Attribution& a = c.attribution;
+  for (std::size_t k = 0; k < attribution::pixel_class_count; ++k) {
+    const auto pixel_class = static_cast<PixelClass>(k);
+    add(attribution::name_of(pixel_class) + " pixels",
+        pixel_class == PixelClass::z_fight ? z_fight_count_text(c) : std::to_string(a.counts[k]));
+  }
+  if (c.predicted_fights) {
+    add("z-fight pixels by the format alone", std::to_string(*c.predicted_fights));
+  }
+  add("median relative bound", fmt::format("{:.3g}", a.median_relative_width));
+  add("greatest relative error", fmt::format("{:.3g}", a.errors.greatest_relative));
+  return properties;
+}
+
+std::string seconds_text(double seconds) {
+  return fmt::format("{:.3f}", seconds);
+}
+
+XmlElement test_case(const ValidationCase& c, const std::optional<Complaint>& complaint) {
+  XmlElement element{
+      .name = "testcase",
+      .attributes = {{"classname", "fathom.validate." + c.scene},
+                     {"name", c.renderer + (c.variant.empty() ? "" : " ") + c.variant}}};
+  if (c.seconds) element.attributes.emplace_back("time", seconds_text(*c.seconds));
+  element.elements.push_back(properties_of(c));
+  if (complaint) {
+    element.elements.push_back({complaint->element,
+                                {{"message", complaint->message}, {"type", complaint->type}},
+                                {},
+                                complaint->details});
+  }
+  return element;
+}
+
+/// The test cases of a scene, or all scenes, and their sums.
+struct Suite {
+  XmlElement element;
+  std::size_t tests = 0, failures = 0, errors = 0;
+  double seconds = 0;
+
+  void count(const ValidationCase& c, const std::optional<Complaint>& complaint) {
+    ++tests;
+    if (complaint) ++(complaint->element == "error" ? errors : failures);
+    seconds += c.seconds.value_or(0);
+  }
+  [[nodiscard]] XmlElement finished() const {
+    XmlElement done = element;
+    done.attributes.insert(done.attributes.end(), {{"tests", std::to_string(tests)},
+                                                   {"failures", std::to_string(failures)},
+                                                   {"errors", std::to_string(errors)}});
+    if (seconds > 0) done.attributes.emplace_back("time", seconds_text(seconds));
+    return done;
+  }
+};
+
+Suite suite_called(const std::string& element, const std::string& name) {
+  return {.element = {.name = element, .attributes = {{"name", name}}}};
+}
+
+Suite& suite_of(std::vector<Suite>& suites, const std::string& scene) {
+  for (Suite& suite : suites) {
+    if (suite.element.attributes.front().second == scene) return suite;
+  }
+  return suites.emplace_back(suite_called("testsuite", scene));
+}
+
+}  // namespace
+
+std::string to_junit(const std::vector<ValidationCase>& cases, const Comparison* comparison) {
+  Suite all = suite_called("testsuites", "fathom validate");
+  std::vector<Suite> suites;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const ValidationCase& c = cases[i];
+    // A comparison begins with this run's results, in their order.
+    const auto complaint =
+        complaint_about(c, comparison != nullptr ? &comparison->changes[i] : nullptr);
+    Suite& suite = suite_of(suites, c.scene);
+    suite.element.elements.push_back(test_case(c, complaint));
+    suite.count(c, complaint);
+    all.count(c, complaint);
+  }
+  for (const Suite& suite : suites) all.element.elements.push_back(suite.finished());
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + to_xml(all.finished());
+}
+
+}  // namespace fathom::validation
