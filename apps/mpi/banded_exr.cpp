@@ -5,7 +5,7 @@
 
 #include <cerrno>
 #include <exception>
-#include <optional>
+#include <utility>
 
 #include "apps/shell/standard_streams.h"
 #include "fathom/files/byte_order.h"
@@ -59,6 +59,25 @@ class ExrFile {
 };
 
 }  // namespace
+
+void WaitingChunks::add(files::Bytes chunk) {
+  const std::uint64_t size = chunk.size();
+  bytes_ += size;
+  if (bytes_ <= most_bytes_) {
+    chunks_.push_back({std::move(chunk), 0, 0});
+    return;
+  }
+  if (!file_) file_.emplace();
+  chunks_.push_back({{}, file_->append(chunk), size});
+}
+
+files::Bytes WaitingChunks::take() {
+  Chunk& chunk = chunks_.at(next_++);
+  if (chunk.size == 0) return std::exchange(chunk.bytes, {});
+  files::Bytes bytes(chunk.size);
+  file_->read(chunk.offset, bytes);
+  return bytes;
+}
 
 void write_banded_exr(const Ranks& ranks, const std::filesystem::path& path, const Bytes& beginning,
                       std::span<const int> of_chunks, std::uint32_t rows_of_chunk,

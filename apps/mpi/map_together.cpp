@@ -14,7 +14,6 @@
 #include "apps/mpi/image_rows.h"
 #include "apps/mpi/tiles_together.h"
 #include "apps/mpi/together.h"
-#include "apps/mpi/waiting_chunks.h"
 #include "apps/options/map_arguments.h"
 #include "apps/render/map_additions.h"
 #include "apps/render/render_report.h"

@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "apps/mpi/job_together.h"
+#include "apps/mpi/tiles_together.h"
 #include "apps/mpi/traffic.h"
 #include "apps/render/render_outputs.h"
 #include "apps/render/render_report.h"

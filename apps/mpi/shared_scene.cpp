@@ -1,16 +1,16 @@
 #include "apps/mpi/shared_scene.h"
 
-#include <algorithm>
 #include <array>
-#include <filesystem>
 #include <limits>
 #include <numeric>
 #include <utility>
 
-#include "apps/mpi/picked_triangles.h"
 #include "apps/mpi/together.h"
+#include "apps/mpi/triangle_messages.h"
 #include "apps/render/render_limits.h"
+#include "apps/render/render_report.h"
 #include "apps/shell/known_files.h"
+#include "fathom/camera/camera_files.h"
 #include "fathom/failures/errors.h"
 #include "fathom/render.h"
 
@@ -188,6 +188,28 @@ std::string SharedScene::description() const {
   }
   for (const std::uint64_t number : first_numbers_) text += std::to_string(number) + " ";
   return text;
+}
+
+SharedScene open_scene(const Ranks& ranks, const RenderArguments& arguments,
+                       const SharedScene::Kept& kept, const Console& console) {
+  std::optional<SharedScene> opened;
+  together(ranks, [&] { opened.emplace(arguments.scene, kept, console); });
+  opened->check_files(ranks, console);
+  require_same<InputError>(ranks, opened->description(), "the ranks read different files");
+  return std::move(*opened);
+}
+
+std::vector<Camera> cameras_of(const Ranks& ranks, const RenderArguments& arguments,
+                               const std::vector<Channel>& channels, SharedScene& scene,
+                               const Console& console) {
+  std::vector<Camera> cameras;
+  together(ranks, [&] {
+    cameras = arguments.camera.get(scene.outline(), console);
+    scene.place(arguments.motion);
+    warn_of_missing_segments(scene.triangles(), channels, console);
+  });
+  require_same<InputError>(ranks, to_json(cameras), "the ranks have different cameras");
+  return cameras;
 }
 
 }  // namespace fathom::app

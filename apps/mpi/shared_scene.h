@@ -9,10 +9,14 @@
 
 #include "apps/mpi/ranks.h"
 #include "apps/options/scene_options.h"
+#include "apps/render/render_arguments.h"
+#include "apps/shell/console.h"
+#include "fathom/camera/camera.h"
 #include "fathom/fast/some_tiles.h"
 #include "fathom/scene/scene.h"
 #include "fathom/scene/streamed_scene.h"
 #include "fathom/scene/triangle_source.h"
+#include "fathom/triangle/channels.h"
 
 namespace fathom::app {
 
@@ -88,5 +92,17 @@ class SharedScene {
   std::optional<StreamedScene> streamed_;
   std::vector<std::uint64_t> first_numbers_;
 };
+
+/// Both are called by all ranks.
+
+/// Fails    as SharedScene; InputError where the ranks read different files.
+SharedScene open_scene(const Ranks& ranks, const RenderArguments& arguments,
+                       const SharedScene::Kept& kept, const Console& console);
+/// The cameras that are asked for; places what moves, and warns of segments that channels ask for and
+/// the scene has not.
+/// Fails    as CameraOptions::get(); InputError where the ranks have different cameras.
+std::vector<Camera> cameras_of(const Ranks& ranks, const RenderArguments& arguments,
+                               const std::vector<Channel>& channels, SharedScene& scene,
+                               const Console& console);
 
 }  // namespace fathom::app

@@ -11,6 +11,7 @@
 // How to read this file: draw() is the whole story. Each rank has a part of the triangles and takes it
 // in rounds. It finds the tiles of the image that they may touch, draws its own tiles, and sends the
 // triangles that touch others to the ranks that draw these (sort-middle [MCEF94]).
+
 namespace fathom::app {
 
 TilesTogether::TilesTogether(const JobTogether& job, const Camera& camera, MapTraffic& traffic)

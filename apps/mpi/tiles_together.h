@@ -5,13 +5,28 @@
 #include <vector>
 
 #include "apps/mpi/image_rows.h"
-#include "apps/mpi/job_together.h"
+#include "apps/mpi/mpi_arguments.h"
+#include "apps/mpi/rank_memory.h"
+#include "apps/mpi/ranks.h"
+#include "apps/mpi/shared_scene.h"
 #include "apps/mpi/traffic.h"
 #include "apps/mpi/triangle_mail.h"
+#include "apps/render/render_plan.h"
+#include "apps/shell/console.h"
 #include "fathom/fast/some_tiles.h"
 #include "fathom/files/file_bytes.h"
 
 namespace fathom::app {
+
+/// What a run is asked for, and what all its maps are made from.
+struct JobTogether {
+  const MpiArguments& arguments;
+  const Ranks& ranks;
+  const Console& console;
+  const MapPlan& plan;
+  const SharedScene& scene;
+  const RankMemory& memory;
+};
 
 /// The tiles of an image, drawn by all ranks: each has some of them.
 class TilesTogether {
