@@ -34,7 +34,8 @@ class Answer(dict[str, Any]):
             file.write(self.svg)
 
 
-_fraction = re.compile(r"-?\d+(/\d+)?")
+# Patterns are compiled when they are used first: importing stays quick.
+_fraction = r"-?\d+(/\d+)?"
 
 
 def answer_of(text: str, svg: str = "") -> Answer:
@@ -46,7 +47,7 @@ def answer_of(text: str, svg: str = "") -> Answer:
 
 
 def _exact(value: Any, key: str = "") -> Any:
-    if isinstance(value, str) and key != "name" and _fraction.fullmatch(value):
+    if isinstance(value, str) and key != "name" and re.fullmatch(_fraction, value):
         return Fraction(value)
     if isinstance(value, list):
         return [_exact(each) for each in value]
@@ -89,11 +90,11 @@ def _binary64(name: str, value: Any) -> int | float:
     raise ValueError(f"{name}: {value} is not a number of binary64; round it with float()")
 
 
-_option = re.compile(r"--([a-z][a-z-]*)")
+_option = r"--([a-z][a-z-]*)"
 
 
 def as_arguments(error: Exception) -> Exception:
     """The same error with the options of the command as arguments of Python."""
     text = re.sub(r"; see '[^']*--help'$", "", str(error))
-    text = _option.sub(lambda match: match.group(1).replace("-", "_"), text)
+    text = re.sub(_option, lambda match: match.group(1).replace("-", "_"), text)
     return (UsageError if isinstance(error, UsageError) else InputError)(text)

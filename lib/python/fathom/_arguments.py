@@ -17,6 +17,13 @@ if TYPE_CHECKING:
 
     Numbers = npt.NDArray[np.float64]
 
+    class HasScene(Protocol):
+        """A fathom.Scene, for the modules on which that builds."""
+
+        @property
+        def _handle(self) -> _core.Scene: ...
+
+
 Rows = tuple[tuple[float, ...], ...]
 Function = TypeVar("Function", bound=Callable[..., Any])
 Size = Union[tuple[int, int], Sequence[int]]
@@ -125,13 +132,6 @@ def one_of(name: str, value: object, allowed: Iterable[str]) -> str:
     if not isinstance(value, str) or value not in names:
         raise ValueError(f"{name}: expected {', '.join(map(repr, names))}, found {value!r}")
     return value
-
-
-class HasScene(Protocol):
-    """A fathom.Scene, for the modules on which that builds."""
-
-    @property
-    def _handle(self) -> _core.Scene: ...
 
 
 def scene_handle(scene: object) -> _core.Scene:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
+from typing import TYPE_CHECKING, Any, Literal, Union
 
 import numpy as np
 
@@ -35,20 +35,6 @@ normal_sources = ("file", "vertex", "place")
 rendered = _core.channels()
 
 
-class Rendered(NamedTuple):
-    """The arrays of a map, or of a stack of maps."""
-
-    arrays: dict[str, npt.NDArray[Any]]
-    #: Each camera, with the description of its map.
-    views: list[tuple[Camera, _core.Map]]
-    #: Whether a sequence of cameras was given.
-    is_stack: bool
-    #: The value for pixels without a surface; None if the arrays already contain it.
-    background: float | None
-    #: Suspicious views.
-    notes: list[str]
-
-
 def render_cameras(
     scene: _core.Scene,
     camera: Camera | Sequence[Camera],
@@ -56,12 +42,13 @@ def render_cameras(
     cull: str,
     dtype: npt.DTypeLike,
     scale: float,
-    background: Background,
     engine: str,
     threads: int,
     normals: str,
     out: Mapping[str, npt.NDArray[Any]] | None,
-) -> Rendered:
+) -> tuple[dict[str, npt.NDArray[Any]], list[tuple[Camera, _core.Map]], list[str]]:
+    """Arrays by channel, of H×W for one camera and n×H×W for a sequence; each camera with the
+    description of its map; notes on suspicious views."""
     names = channel_names(channels)
     stored = stored_type(dtype)
     options = _core.RenderOptions(
@@ -73,7 +60,6 @@ def render_cameras(
         as_threads(threads),
         one_of("normals", normals, normal_sources),
     )
-    nothing = background_value(background, stored)
     is_stack = not isinstance(camera, Camera)
     cameras = [camera] if isinstance(camera, Camera) else list_of_cameras(camera)
     require_room(cameras, names, stored)
@@ -88,7 +74,7 @@ def render_cameras(
     else:
         description, notes = _core.render_one(scene, handles[0], options, places)
         descriptions = [description]
-    return Rendered(arrays, list(zip(cameras, descriptions)), is_stack, nothing, notes)
+    return arrays, list(zip(cameras, descriptions)), notes
 
 
 def room_for(
@@ -191,8 +177,9 @@ def stored_type(dtype: npt.DTypeLike) -> str:
     return name
 
 
-def background_value(background: Background, stored: str) -> float | None:
+def background_value(background: Background, dtype: npt.DTypeLike) -> float | None:
     """The background to write; None if it is the value that maps have by default."""
+    stored = stored_type(dtype)
     value = math.inf if background == "inf" else math.nan if background == "nan" else as_number("background", background)
     if stored == "uint16":
         if value not in (0, math.inf):

@@ -28,13 +28,14 @@ from ._arguments import (
 from ._files import Path, make_folder_of, path_of
 from ._importing import intrinsics_of
 from ._warnings import warn
-from .lens import Lens, LensKeywords, Projection, lens_handle, projections
+from .lens import Lens, Projection, lens_handle, projections
 
 if TYPE_CHECKING:
     import numpy.typing as npt
     from typing_extensions import Concatenate, ParamSpec, Unpack
 
     from ._arguments import HasScene as Scene
+    from .lens import LensKeywords
 
     Arguments = ParamSpec("Arguments")
 

@@ -11,19 +11,21 @@ from ._arguments import Size, as_number, as_size, one_of
 
 Projection = Literal["perspective", "orthographic"]
 
+if TYPE_CHECKING:
+
+    class LensKeywords(TypedDict, total=False):
+        """The arguments of Lens, for functions that also accept them directly."""
+
+        size: Size
+        fov: float | None
+        focal: float | None
+        extent: float | None
+        projection: Projection
+        near: float
+        far: float
+
+
 projections = ("perspective", "orthographic")
-
-
-class LensKeywords(TypedDict, total=False):
-    """The arguments of Lens, for functions that also accept them directly."""
-
-    size: Size
-    fov: float | None
-    focal: float | None
-    extent: float | None
-    projection: Projection
-    near: float
-    far: float
 
 
 class Lens:

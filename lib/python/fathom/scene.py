@@ -18,15 +18,14 @@ from ._arguments import (
     vertices_of,
 )
 from ._files import Path, path_of
-from ._render import Background, Cull, Normals, Rendered, render_cameras
+from ._render import Background, Cull, Normals, background_value, render_cameras
 from ._warnings import warn
+from .camera import Camera
 from .maps import Map
 
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
-
-    from .camera import Camera
 
 
 class Object(NamedTuple):
@@ -188,16 +187,17 @@ class Scene:
     ) -> Map:
         """Renders the scene: H×W arrays for one camera, n×H×W arrays for a sequence of n cameras of
         one image size. The other arguments, results and errors are as in fathom.render()."""
+        nothing = background_value(background, dtype)
         try:
-            rendered = render_cameras(self._handle, camera, channels, cull, dtype, scale,
-                                      background, engine, threads, normals, out)
+            arrays, views, notes = render_cameras(self._handle, camera, channels, cull, dtype,
+                                                  scale, engine, threads, normals, out)
         except _core.InputError:
             self._check()
             raise
-        result = _map_of(rendered)
-        if rendered.background is not None:
-            result._set_background(rendered.background)
-        warn(rendered.notes)
+        result = Map(arrays, *views[0]) if isinstance(camera, Camera) else _stack(arrays, views)
+        if nothing is not None:
+            result._set_background(nothing)
+        warn(notes)
         return result
 
     def _check(self) -> None:
@@ -210,13 +210,12 @@ class Scene:
                 f"{self.triangle_count} triangles)")
 
 
-def _map_of(rendered: Rendered) -> Map:
-    camera, description = rendered.views[0]
-    if not rendered.is_stack:
-        return Map(rendered.arrays, camera, description)
-    stack = Map(rendered.arrays, _views=rendered.views)
-    stack._description.png_scale = description.png_scale
-    stack._description.tables = description.tables
+def _stack(
+    arrays: dict[str, npt.NDArray[Any]], views: list[tuple[Camera, _core.Map]]
+) -> Map:
+    stack = Map(arrays, _views=views)
+    _, first = views[0]
+    stack._description.png_scale, stack._description.tables = first.png_scale, first.tables
     return stack
 
 
