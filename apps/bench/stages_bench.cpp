@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/fast/fast_output.h"
 #include "fathom/fast/frame.h"
 #include "fathom/render.h"
 #include "validation/scenes/scenes.h"
@@ -93,7 +94,7 @@ void draw_tiles(benchmark::State& state, const std::string& scene) {
   Stages stages(scene);
   const ImageObjects objects = stages.transform();
   const std::vector<Bins> bins = stages.sort(objects);
-  const Tile::Context context = stages.frame.context(stages.workers.local());
+  const DrawContext context = stages.frame.context(stages.workers.local());
   const auto tile = std::make_unique<Tile>();
   for (auto _ : state) {
     for (std::uint32_t i = 0; i < stages.frame.grid.count(); ++i) {
@@ -110,7 +111,7 @@ void resolve(benchmark::State& state, const std::string& scene) {
   const Camera& camera = stages.bench.camera;
   const ImageObjects objects = stages.transform();
   const std::vector<Bins> bins = stages.sort(objects);
-  const Tile::Context context = stages.frame.context(stages.workers.local());
+  const DrawContext context = stages.frame.context(stages.workers.local());
   std::vector<std::unique_ptr<Tile>> tiles;
   for (std::uint32_t i = 0; i < stages.frame.grid.count(); ++i) {
     tiles.push_back(std::make_unique<Tile>());

@@ -9,6 +9,9 @@
 #include <limits>
 #include <map>
 
+#include "fathom/fast/bins.h"
+#include "fathom/fast/packed_tile.h"
+#include "fathom/fast/visible_triangles.h"
 #include "fathom/triangle/sampling.h"
 #include "tests/inputs/soup.h"
 
@@ -60,6 +63,7 @@ struct TileScene {
   DepthRange range = depth_range(camera);
   FastSwitches switches;
   ExactSetups exact_setups{{0, camera.width - 1, 0, camera.height - 1}};
+  VisibleTriangles visible;
   ImageObjects objects;
   std::vector<ProjectedTriangle> projected;
   /// The triangles that are not seen edge-on.
@@ -76,8 +80,8 @@ struct TileScene {
   }
   TileScene(const TileScene&) = delete;
   TileScene& operator=(const TileScene&) = delete;
-  [[nodiscard]] Tile::Context context() {
-    return {referee, statistics, range, true, switches, nullptr, exact_setups};
+  [[nodiscard]] DrawContext context() {
+    return {referee, statistics, range, true, switches, nullptr, exact_setups, visible};
   }
 };
 
@@ -184,7 +188,7 @@ TEST(Tile, KnowsFrontFacesWhereItForgetsOthers) {
     tile.begin_back_faces();
     tile.draw(x.objects[0], std::span(x.drawn).subspan(front), x.context());
     for (int packed = 0; packed < 2; ++packed, tile.pack()) {
-      for (std::size_t i = 0; i < std::size_t{Tile::size} * Tile::size; ++i) {
+      for (std::size_t i = 0; i < Tile::samples; ++i) {
         if (!tile.shows_surface(i)) continue;
         const bool is_known = Tile::place_of(tile.tags()[i]) < tile.end_of_front();
         ASSERT_EQ(is_known, tile.surface_at(i).number() < front) << front << ' ' << i;
@@ -213,7 +217,7 @@ TEST(Tile, PackedIsWithinItsPlaceWhereTheListIsFull) {
     tile.pack();
     EXPECT_LE(tile.bytes(), Tile::most_packed_bytes);
     files::Bytes saved;
-    tile.save(saved);
+    save(tile, saved);
     EXPECT_LE(saved.size(), Tile::most_packed_bytes);
   }
 }
@@ -221,7 +225,7 @@ TEST(Tile, PackedIsWithinItsPlaceWhereTheListIsFull) {
 /// How many surfaces of a tile are shown by one sample alone.
 std::size_t shown_once(const Tile& tile) {
   std::map<std::uint32_t, int> samples;
-  for (std::size_t i = 0; i < std::size_t{Tile::size} * Tile::size; ++i)
+  for (std::size_t i = 0; i < Tile::samples; ++i)
     if (tile.shows_surface(i)) ++samples[tile.surface_at(i).number()];
   return static_cast<std::size_t>(
       std::ranges::count_if(samples, [](const auto& each) { return each.second == 1; }));
@@ -259,30 +263,22 @@ TEST(Tile, ComesBackFromAFileAsItWas) {
   EXPECT_GT(shown_once(tile), 100U);
   EXPECT_GT(tile.end_of_places(), shown_once(tile) + 100);
   files::Bytes saved;
-  tile.save(saved);
+  save(tile, saved);
   Tile back;
   back.start(tile.area());
-  back.restore([&](std::uint64_t offset, std::span<std::byte> to) {
-    std::ranges::copy(files::ByteView(saved).subspan(offset, to.size()), to.begin());
-  });
+  restore(
+      [&](std::uint64_t offset, std::span<std::byte> to) {
+        std::ranges::copy(files::ByteView(saved).subspan(offset, to.size()), to.begin());
+      },
+      back);
   EXPECT_EQ(back.end_of_places(), tile.end_of_places());
   EXPECT_EQ(back.end_of_front(), tile.end_of_front());
-  for (std::size_t i = 0; i < std::size_t{Tile::size} * Tile::size; ++i) {
+  for (std::size_t i = 0; i < Tile::samples; ++i) {
     ASSERT_EQ(back.shows_surface(i), tile.shows_surface(i));
     ASSERT_EQ(back.surface_at(i).tag, tile.surface_at(i).tag);
     ASSERT_EQ(back.q()[i], tile.q()[i]);
     ASSERT_EQ(q_at(back, i), q_at(tile, i));
   }
-}
-
-/// What waits to be drawn takes no memory of a packed tile, where nothing of it came to be seen either.
-TEST(Tile, PackedTwiceHasNoEntries) {
-  Tile tile;
-  tile.start({0, 63, 0, 63});
-  tile.pack();
-  tile.entries().resize(100'000);
-  tile.pack();
-  EXPECT_LE(tile.bytes(), Tile::most_packed_bytes);
 }
 
 TEST(Tile, StartEmptiesIt) {

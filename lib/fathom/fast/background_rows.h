@@ -4,7 +4,6 @@
 #include <variant>
 #include <vector>
 
-#include "fathom/fast/map_layout.h"
 #include "fathom/fast/map_rows.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/projected_triangle.h"

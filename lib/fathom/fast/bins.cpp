@@ -2,99 +2,35 @@
 
 #include <algorithm>
 #include <limits>
-#include <new>
 
 #include "fathom/failures/errors.h"
 #include "fathom/fast/boxes.h"
 #include "fathom/fast/setup.h"
-#include "fathom/fast/tile.h"
-#include "fathom/scene/element_checks.h"
-#include "fathom/threads/threads.h"
+#include "fathom/fast/tile_shape.h"
 
 namespace fathom::fast {
 using namespace triangle;
 
-namespace {
-
-/// Throws scene::ElementFault if a number is not finite. That is looked at after the work, while the
-/// points are in the innermost cache: before it, a twentieth of a map's time would go into waiting
-/// for them.
-void transform_finite(const VertexTransform& transform, std::span<const MeshPoint> points,
-                      ImageVertex* image) {
-  constexpr std::size_t part = 512;
-  for (std::size_t first = 0; first < points.size(); first += part) {
-    const auto some = points.subspan(first, std::min(part, points.size() - first));
-    transform(some, image + first);
-    if (!scene::all_finite(some)) throw scene::ElementFault();
-  }
-}
-
-}  // namespace
-
-ImageObject::ImageObject(const Object& object, const Mesh& its_mesh, const Camera& camera,
-                         std::uint32_t first_triangle, VertexMemory* where_kept,
-                         std::span<const std::uint32_t> numbers)
-    : mesh(its_mesh),
-      first_number(first_triangle),
-      transform(object, camera),
-      vertices(where_kept ? where_kept->take(mesh.vertices.size())
-                          : std::make_unique_for_overwrite<ImageVertex[]>(mesh.vertices.size())),
-      kept(where_kept),
-      scene_numbers(numbers.empty() ? nullptr : numbers.data()) {
-  constexpr std::size_t part = 4096;
-  const std::size_t count = mesh.vertices.size();
-  in_parallel((count + part - 1) / part, [&](std::size_t i) {
-    const std::size_t first = i * part;
-    transform_finite(transform,
-                     std::span(mesh.vertices).subspan(first, std::min(part, count - first)),
-                     vertices.get() + first);
-  });
-}
-
-ImageObject::~ImageObject() {
-  if (kept) kept->give_back(std::move(vertices), mesh.vertices.size());
-}
-
-VertexMemory::Vertices VertexMemory::take(std::size_t count) {
-  const auto fits = std::find_if(blocks_.begin(), blocks_.end(),
-                                 [&](const Block& block) { return block.count == count; });
-  if (fits == blocks_.end()) return std::make_unique_for_overwrite<ImageVertex[]>(count);
-  Vertices vertices = std::move(fits->vertices);
-  blocks_.erase(fits);
-  return vertices;
-}
-
-void VertexMemory::give_back(Vertices vertices, std::size_t count) noexcept try {
-  blocks_.push_back({std::move(vertices), count});
-} catch (const std::bad_alloc&) {
-}
-
-const ImageObject& object_of(const ImageObjects& objects, std::uint32_t number) {
-  const auto next = std::upper_bound(
-      objects.begin(), objects.end(), number,
-      [](std::uint32_t n, const ImageObject& object) { return n < object.first_number; });
-  return *std::prev(next);
-}
-
 TileGrid::TileGrid(std::uint32_t image_width, std::uint32_t image_height)
     : width(image_width),
       height(image_height),
-      columns((image_width - 1) / Tile::size + 1),
-      rows((image_height - 1) / Tile::size + 1) {
+      columns((image_width - 1) / TileShape::size + 1),
+      rows((image_height - 1) / TileShape::size + 1) {
   if (std::uint64_t{columns} * rows > std::numeric_limits<std::uint32_t>::max()) {
     throw InputError("an image of more than 2^44 pixels cannot be rendered");
   }
 }
 
 std::uint32_t TileGrid::tile_at(std::uint32_t column, std::uint32_t row) const {
-  return row / Tile::size * columns + column / Tile::size;
+  return row / TileShape::size * columns + column / TileShape::size;
 }
 
 PixelBox TileGrid::area(std::uint32_t tile) const {
-  const std::uint32_t column = tile % columns * Tile::size, row = tile / columns * Tile::size;
+  const std::uint32_t column = tile % columns * TileShape::size,
+                      row = tile / columns * TileShape::size;
   // Sums with the side of a tile could be beyond the range of a column.
-  return {column, column + (std::min(Tile::size, width - column) - 1), row,
-          row + (std::min(Tile::size, height - row) - 1)};
+  return {column, column + (std::min(TileShape::size, width - column) - 1), row,
+          row + (std::min(TileShape::size, height - row) - 1)};
 }
 
 void Bins::fill(const Context& context) {
@@ -158,7 +94,7 @@ void Bins::add_exactly(const ImageObject& object, std::uint32_t number, const Co
   const TileGrid& grid = context.grid;
   const auto add_where_met = [&](const TriangleSetup& setup, const PixelBox& box) {
     ++context.statistics.exact_setups;
-    for_parts_met(edges_of(setup), box, Tile::size,
+    for_parts_met(edges_of(setup), box, TileShape::size,
                   [&](const PixelBox& part) { lists.add(number, never_hidden, part, grid); });
   };
   if (!is_usable(object, corners)) {
@@ -208,8 +144,8 @@ void Bins::add_object(const ImageObject& object, const Context& context) {
         lists_[index(boxes->side[i])].add(boxes->number[i], boxes->nearest[i], part, context.grid);
       };
       const PixelBox& box = boxes->box[i];
-      if (meets_many_tiles(box, Tile::size)) {
-        for_parts_met(*edges++, box, Tile::size, add);
+      if (meets_many_tiles(box, TileShape::size)) {
+        for_parts_met(*edges++, box, TileShape::size, add);
       } else {
         add(box);
       }
@@ -237,9 +173,11 @@ void Bins::Lists::add(const BoxBatch::Entries& entries) {
 void Bins::Lists::add(std::uint32_t number, std::uint32_t q, const PixelBox& box,
                       const TileGrid& grid) {
   // Blocks of the image; those of a tile begin with tile · blocks_of_row.
-  constexpr std::uint32_t blocks = Tile::blocks_of_row;
-  const std::uint32_t left = box.first_column / Tile::block, right = box.last_column / Tile::block;
-  const std::uint32_t top = box.first_row / Tile::block, bottom = box.last_row / Tile::block;
+  constexpr std::uint32_t blocks = TileShape::blocks_of_row;
+  const std::uint32_t left = box.first_column / TileShape::block,
+                      right = box.last_column / TileShape::block;
+  const std::uint32_t top = box.first_row / TileShape::block,
+                      bottom = box.last_row / TileShape::block;
   const auto first_in = [](std::uint32_t first, std::uint32_t tile) {
     return std::max(first, tile * blocks) - tile * blocks;
   };

@@ -11,9 +11,9 @@
 
 #include <array>
 
-#include "fathom/fast/counting_lanes-inl.h"
 #include "fathom/fast/lane_batch-inl.h"
-#include "fathom/fast/tile.h"
+#include "fathom/fast/lanes-inl.h"
+#include "fathom/fast/tile_shape.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
@@ -22,7 +22,7 @@ namespace {
 /// A function at the samples of the blocks of a tile where it is greatest and least: of a column of
 /// blocks what it is without b·y, and y from the top of a row of blocks.
 struct BlockFunction {
-  using Numbers = std::array<float, Tile::blocks_of_row>;
+  using Numbers = std::array<float, TileShape::blocks_of_row>;
   alignas(32) Numbers greatest;
   alignas(32) Numbers least;
   float b;
@@ -38,7 +38,7 @@ HWY_INLINE void make_block_function(float a, float b, float c, float first_colum
     return hn::MulAdd(hn::Set(d, a), left, hn::Set(d, c));
   };
   constexpr float side = block - 1;
-  for (std::size_t part = 0; part < Tile::blocks_of_row; part += hn::Lanes(d)) {
+  for (std::size_t part = 0; part < TileShape::blocks_of_row; part += hn::Lanes(d)) {
     hn::Store(at(a > 0 ? side : 0, part), d, f.greatest.data() + part);
     hn::Store(at(a > 0 ? 0 : side, part), d, f.least.data() + part);
   }

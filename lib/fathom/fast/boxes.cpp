@@ -8,11 +8,11 @@
 
 #include <algorithm>
 
-#include "fathom/fast/counting_lanes-inl.h"
 #include "fathom/fast/each_bit.h"
+#include "fathom/fast/lanes-inl.h"
 #include "fathom/fast/nearness-inl.h"
 #include "fathom/fast/setup-inl.h"
-#include "fathom/fast/tile.h"
+#include "fathom/fast/tile_shape.h"
 #include "fathom/scene/element_checks.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -38,7 +38,7 @@ HWY_INLINE M certainly_miss(const Corners& t, const Boxes& box) {
 }
 
 HWY_INLINE V tile_of(V pixel) {
-  return hn::Floor(hn::Mul(pixel, constant(1.0 / Tile::size)));
+  return hn::Floor(hn::Mul(pixel, constant(1.0 / TileShape::size)));
 }
 
 struct Sorted {
@@ -202,7 +202,7 @@ void put_edges(const BoxRequest& r, BoxBatch& out) {
   out.edges.clear();
   std::size_t places[8], count = 0;
   for (std::size_t i = 0; i < out.in_more_tiles; ++i) {
-    if (!meets_many_tiles(out.box[i], Tile::size)) continue;
+    if (!meets_many_tiles(out.box[i], TileShape::size)) continue;
     places[count++] = i;
     if (count < hn::Lanes(D())) continue;
     put_edges_at(r, places, count, out);

@@ -68,7 +68,7 @@ HWY_INLINE Drawn drawn(const SetupBatch& setups, const LaneBatch& batch, std::si
 
 /// A bit for each sample of the cell that begins at this column and row of the tile.
 HWY_NOINLINE void settle_samples(Tile& tile, const Drawn& t, unsigned samples, int column, int row,
-                                 const Tile::Context& context) {
+                                 const DrawContext& context) {
   const TriangleSetup setup = t.setups.get(t.lane);
   for (const std::size_t number : EachBit(samples)) {
     const int sample = static_cast<int>(number);
@@ -103,7 +103,7 @@ template <bool test_edges, bool test_range>
 struct Pen {
   Tile& tile;
   const Drawn& t;
-  const Tile::Context& context;
+  const DrawContext& context;
   Functions f;
   VF last_x, last_y;
   VF minus_error;
@@ -125,8 +125,7 @@ struct Pen {
 };
 
 template <bool test_edges, bool test_range>
-HWY_INLINE Pen<test_edges, test_range> pen(Tile& tile, const Drawn& t,
-                                           const Tile::Context& context) {
+HWY_INLINE Pen<test_edges, test_range> pen(Tile& tile, const Drawn& t, const DrawContext& context) {
   const Functions f = functions_of(t.batch, t.lane);
   RangeEnds ends{};
   if constexpr (test_range) ends = range_ends(context.range);
@@ -201,7 +200,7 @@ HWY_INLINE std::size_t Pen<test_edges, test_range>::draw(VF x, VF y, const AtRow
 /// Returns whether any sample is won.
 template <bool test_edges, bool test_range>
 HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
-                           const Tile::Context& context) {
+                           const DrawContext& context) {
   const int lanes = static_cast<int>(hn::Lanes(DF()));
   const auto p = pen<test_edges, test_range>(tile, t, context);
   const VF left = constant32(static_cast<float>(cells.first_column - t.first_column));
@@ -228,7 +227,7 @@ HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
 
 template <bool test_edges>
 HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
-                           const Tile::Context& context) {
+                           const DrawContext& context) {
   return t.test_range ? draw_cells<test_edges, true>(tile, t, cells, context)
                       : draw_cells<test_edges, false>(tile, t, cells, context);
 }
@@ -236,7 +235,7 @@ HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
 // One loop over all of them: where rows end the processor could not tell.
 template <bool test_range>
 HWY_INLINE void draw_list(Tile& tile, const Drawn& t, const CellList& cells,
-                          const Tile::Context& context) {
+                          const DrawContext& context) {
   const int lanes = static_cast<int>(hn::Lanes(DF()));
   const auto p = pen<true, test_range>(tile, t, context);
   const VF first_x = constant32(static_cast<float>(t.first_column));
@@ -261,7 +260,7 @@ HWY_INLINE void draw_list(Tile& tile, const Drawn& t, const CellList& cells,
 }
 
 HWY_INLINE void draw_list(Tile& tile, const Drawn& t, const CellList& cells,
-                          const Tile::Context& context) {
+                          const DrawContext& context) {
   if (t.test_range) {
     draw_list<true>(tile, t, cells, context);
   } else {

@@ -13,9 +13,9 @@
 #include <array>
 #include <cstdint>
 
-#include "fathom/fast/counting_lanes-inl.h"
 #include "fathom/fast/lane_batch-inl.h"
-#include "fathom/fast/tile.h"
+#include "fathom/fast/lanes-inl.h"
+#include "fathom/fast/tile_shape.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
@@ -23,7 +23,7 @@ namespace {
 
 /// The number of a cell in its tile, as cells lie in memory: row by row.
 struct CellPlace {
-  static constexpr std::uint32_t in_row = Tile::size / Tile::cell;
+  static constexpr std::uint32_t in_row = TileShape::size / TileShape::cell;
   static std::uint32_t column(std::uint32_t number) { return number % in_row; }
   static std::uint32_t row(std::uint32_t number) { return number / in_row; }
 };
@@ -168,7 +168,7 @@ HWY_INLINE void make_cell_spans(const LaneBatch& f, const SpanGuesses& guesses, 
 /// rows, then the second ones, …: there are hardly ever more than three in a row.
 /// Needs    at most CellList::most of them.
 HWY_INLINE void list_cells(const CellSpans& spans, const OfRows& open_blocks, CellList& list) {
-  static_assert(Tile::block == 2 * Tile::cell);
+  static_assert(TileShape::block == 2 * TileShape::cell);
   const hn::Rebind<std::uint32_t, DF> d;
   const hn::Rebind<std::int32_t, DF> di;
   const auto one = hn::Set(d, 1);

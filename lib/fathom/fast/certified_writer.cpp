@@ -116,7 +116,7 @@ std::uint64_t CertifiedWriter::write_encoded(const VisibleRow& row, const Encode
   return write_row(rows_, row, rounded, Backgrounds::depth, values.binary32, statistics);
 }
 
-// In binary32 what is left to write is what an interval did not settle (Tile::resolve()).
+// In binary32 what is left to write is what an interval did not settle (resolve()).
 std::uint64_t CertifiedWriter::write_open_depths(const VisibleRow& row,
                                                  RenderStatistics& statistics) const {
   if (!values_.depth.wanted() || values_.depth.binary64 || row.open_depth == 0) return 0;

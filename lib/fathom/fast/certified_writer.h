@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "fathom/fast/channel_rows.h"
-#include "fathom/fast/map_layout.h"
+#include "fathom/fast/map_rows.h"
 #include "fathom/fast/pixel_writer.h"
 #include "fathom/fast/surface_facts.h"
 #include "fathom/fast/tile_surfaces.h"

@@ -7,8 +7,8 @@
 
 #include <limits>
 
+#include "fathom/fast/lanes-inl.h"
 #include "fathom/fast/round_lanes-inl.h"
-#include "fathom/fast/setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {

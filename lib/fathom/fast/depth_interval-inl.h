@@ -9,8 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include "fathom/fast/lanes-inl.h"
 #include "fathom/fast/resolve_bounds.h"
-#include "fathom/fast/setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {

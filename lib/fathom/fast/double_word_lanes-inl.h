@@ -15,7 +15,7 @@
 
 #include <limits>
 
-#include "fathom/fast/setup-inl.h"
+#include "fathom/fast/lanes-inl.h"
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/certified_value.h"
 

@@ -14,6 +14,7 @@
 #include <span>
 
 #include "fathom/fast/lane_batch-inl.h"
+#include "fathom/fast/nearness.h"
 #include "fathom/fast/setup-inl.h"
 #include "fathom/fast/tile.h"
 

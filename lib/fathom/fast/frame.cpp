@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 
 #include "fathom/threads/threads.h"
 
@@ -42,7 +41,7 @@ namespace {
 
 /// Draws triangles, possibly of several objects, those of one object next to each other.
 void draw(std::span<const std::uint32_t> numbers, const ImageObjects& objects, Tile& tile,
-          const Tile::Context& context) {
+          const DrawContext& context) {
   while (!numbers.empty()) {
     const ImageObject& object = object_of(objects, numbers.front());
     const auto next = std::find_if(numbers.begin(), numbers.end(), [&](std::uint32_t number) {
@@ -68,10 +67,10 @@ void count_intervals(RenderStatistics& statistics) {
 }  // namespace
 
 void draw_tile(Tile& tile, std::uint32_t number, const std::vector<Bins>& all_bins,
-               const ImageObjects& objects, const Tile::Context& context) {
+               const ImageObjects& objects, const DrawContext& context) {
   for (const Side side : {Side::front, Side::back}) {
     if (side == Side::back) tile.begin_back_faces();
-    std::vector<TileEntry>& together = tile.entries();
+    std::vector<TileEntry>& together = context.visible.entries();
     together.clear();
     for (const Bins& bins : all_bins) {
       const auto some = bins.in_tile(number, side);
@@ -81,9 +80,9 @@ void draw_tile(Tile& tile, std::uint32_t number, const std::vector<Bins>& all_bi
         together.insert(together.end(), some.begin(), some.end());
       }
     }
-    tile.for_visible(together, context, [&](std::span<const std::uint32_t> numbers) {
-      draw(numbers, objects, tile, context);
-    });
+    context.visible.for_each_part(
+        tile, context.switches.early_rejection,
+        [&](std::span<const std::uint32_t> numbers) { draw(numbers, objects, tile, context); });
   }
 }
 
@@ -103,34 +102,6 @@ void collect_doubtful(const FastWorkers& workers, const Camera& camera,
       options.fast.doubtful->push_back(std::uint64_t{row} * camera.width + column);
     }
   });
-}
-
-namespace {
-
-/// The channels whose background tiles that show surfaces do not write anyway.
-MapBackground beside_surfaces(MapBackground background, bool writes_depths) {
-  background.leave_out("A");
-  if (writes_depths) background.leave_out("Z");
-  return background;
-}
-
-}  // namespace
-
-FastOutput::FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& rays,
-                       MapBackground unfilled, MapRows rows)
-    : rows_(rows),
-      certified_([&, rows] { return CertifiedWriter(writer, rays, rows); }),
-      depths_(writer.values().depth.binary32),
-      others_(std::any_of(map.channels.begin(), map.channels.end(),
-                          [&](const ImageChannel& channel) {
-                            return channel.name != "A" && !(depths_ && channel.name == "Z");
-                          })),
-      all_(unfilled, rows),
-      beside_surfaces_(beside_surfaces(std::move(unfilled), depths_ != nullptr), rows) {}
-
-void FastOutput::write_background(const PixelBox& area, const MapLayout& layout) const {
-  all_.write(area, layout);
-  rows_.finish();
 }
 
 }  // namespace fathom::fast

@@ -12,16 +12,16 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/fast/counting_lanes-inl.h"
+#include "fathom/fast/lanes-inl.h"
 #include "fathom/fast/setup-inl.h"
-#include "fathom/fast/tile.h"
-#include "fathom/fast/upper_half-inl.h"
+#include "fathom/fast/tile_shape.h"
+#include "fathom/fast/tile_surface.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
-constexpr int block = static_cast<int>(Tile::block), cell = static_cast<int>(Tile::cell);
+constexpr int block = static_cast<int>(TileShape::block), cell = static_cast<int>(TileShape::cell);
 
 /// Samples of a cell, all or as many as a vector holds.
 #if HWY_HAVE_SCALABLE
@@ -199,7 +199,7 @@ HWY_INLINE void make_surfaces(const SetupBatch& setups, const PixelBox& area,
   const V column = hn::Sub(load(setups.first_column), constant(area.first_column));
   const V row = hn::Sub(load(setups.first_row), constant(area.first_row));
   const V moved = hn::NegMulAdd(b, row, hn::NegMulAdd(a, column, c));
-  const V terms = terms_of(a, b, c, constant(Tile::size));
+  const V terms = terms_of(a, b, c, constant(TileShape::size));
   const V error =
       hn::Mul(hn::MulAdd(terms, constant(setup_bounds::tile_q_error), load(setups.q_error)),
               constant(setup_bounds::q_room));

@@ -3,8 +3,10 @@
 #include <utility>
 
 #include "fathom/fast/coverage/tile_coverage.h"
+#include "fathom/fast/fast_output.h"
 #include "fathom/fast/frame.h"
 #include "fathom/fast/render_memory_parts.h"
+#include "fathom/fast/setup.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"
@@ -61,7 +63,7 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
     if (!is_met(bins, number)) {
       output.write_background(frame.grid.area(number), layout);
     } else {
-      const Tile::Context context = frame.context(workers.local());
+      const DrawContext context = frame.context(workers.local());
       Tile& tile = *tiles.local();
       tile.start(frame.grid.area(number));
       draw_tile(tile, number, bins, objects, context);
@@ -93,6 +95,10 @@ DepthMap render_fast(const Scene& scene, const Camera& camera, const RenderOptio
       throw;
     }
   });
+}
+
+const char* vector_instructions() {
+  return vector_target();
 }
 
 }  // namespace fathom

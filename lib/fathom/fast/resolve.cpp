@@ -1,6 +1,8 @@
 // From the surfaces of a tile to the map.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fathom/fast/resolve.cpp"
+#include "fathom/fast/resolve.h"
+
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
@@ -8,10 +10,10 @@
 #include <bit>
 #include <limits>
 
-#include "fathom/fast/counting_lanes-inl.h"
 #include "fathom/fast/depth_interval-inl.h"
 #include "fathom/fast/each_bit.h"
 #include "fathom/fast/lane_batch-inl.h"
+#include "fathom/fast/lanes-inl.h"
 #include "fathom/fast/tile.h"
 
 #ifndef FATHOM_FAST_RESOLVE_ROW
@@ -174,7 +176,7 @@ HWY_EXPORT(round_depths_of_row);
 namespace {
 
 RowBits write_depths(const Tile& tile, std::uint32_t row, float* depths, std::size_t columns,
-                     const MapRows& rows, const Tile::Context& context, SurfacesOfRow* surfaces) {
+                     const MapRows& rows, const DrawContext& context, SurfacesOfRow* surfaces) {
   MapRow<float> rounded;
   const RowBits bits = HWY_DYNAMIC_DISPATCH(round_depths_of_row)(tile, row, context.perspective,
                                                                  rounded.data(), surfaces);
@@ -183,7 +185,7 @@ RowBits write_depths(const Tile& tile, std::uint32_t row, float* depths, std::si
 }
 
 void note_doubts(std::uint64_t open, const PixelBox& area, std::uint32_t row,
-                 const Tile::Context& context) {
+                 const DrawContext& context) {
   if (!context.doubtful) return;
   for (const std::size_t k : EachBit(open)) {
     context.note_doubt(area.first_column + static_cast<std::uint32_t>(k), row);
@@ -192,27 +194,29 @@ void note_doubts(std::uint64_t open, const PixelBox& area, std::uint32_t row,
 
 }  // namespace
 
-std::optional<EncodingFault> Tile::resolve(const Output& output, const Context& context) const {
-  const std::uint32_t columns = area_.last_column - area_.first_column + 1;
+std::optional<EncodingFault> resolve(const Tile& tile, const TileOutput& output,
+                                     const DrawContext& context) {
+  const PixelBox& area = tile.area();
+  const std::uint32_t columns = area.last_column - area.first_column + 1;
   RenderStatistics& statistics = context.statistics;
   const MapRows& rows = output.certified.rows();
   SurfacesOfRow surfaces;
-  output.certified.start(*this, output.layout, context.referee, statistics);
-  for (std::uint32_t row = area_.first_row; row <= area_.last_row; ++row) {
-    const std::uint32_t tile_row = row - area_.first_row;
+  output.certified.start(tile, output.layout, context.referee, statistics);
+  for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
+    const std::uint32_t tile_row = row - area.first_row;
     VisibleRow visible;
     visible.columns = columns;
-    visible.first_pixel = output.layout.pixel(area_.first_column, row);
+    visible.first_pixel = output.layout.pixel(area.first_column, row);
     if (output.depths) {
       const RowBits bits =
-          write_depths(*this, tile_row, output.depths + visible.first_pixel, columns, rows, context,
+          write_depths(tile, tile_row, output.depths + visible.first_pixel, columns, rows, context,
                        output.others ? &surfaces : nullptr);
       visible.surface = bits.surface & visible.all();
       visible.open_depth = bits.open & visible.all();
-      note_doubts(visible.open_depth, area_, row, context);
+      note_doubts(visible.open_depth, area, row, context);
     } else {
       visible.surface =
-          HWY_DYNAMIC_DISPATCH(find_surfaces_of_row)(*this, tile_row, surfaces) & visible.all();
+          HWY_DYNAMIC_DISPATCH(find_surfaces_of_row)(tile, tile_row, surfaces) & visible.all();
       visible.open_depth = visible.surface;
     }
     statistics.pixels_with_surface += static_cast<std::uint64_t>(std::popcount(visible.surface));
@@ -220,17 +224,17 @@ std::optional<EncodingFault> Tile::resolve(const Output& output, const Context& 
         static_cast<std::uint64_t>(std::popcount(visible.surface & ~visible.open_depth));
     if (visible.surface == 0) {
       if (output.others) {
-        output.background.write({area_.first_column, area_.last_column, row, row}, output.layout);
+        output.background.write({area.first_column, area.last_column, row, row}, output.layout);
       }
       continue;
     }
     if (!output.others) {
       visible.surface = visible.open_depth;
       if (visible.surface == 0) continue;
-      HWY_DYNAMIC_DISPATCH(find_surfaces_of_row)(*this, tile_row, surfaces);
+      HWY_DYNAMIC_DISPATCH(find_surfaces_of_row)(tile, tile_row, surfaces);
     }
     visible.lanes = {surfaces.q.data(), surfaces.tags.data(), surfaces.places.data(),
-                     area_.first_column + 0.5, row + 0.5};
+                     area.first_column + 0.5, row + 0.5};
     if (auto fault = output.certified.write(visible, context.referee, statistics)) return fault;
   }
   rows.finish();

@@ -10,8 +10,7 @@
 #include <hwy/highway.h>
 
 #include "fathom/fast/channel_rows.h"
-#include "fathom/fast/counting_lanes-inl.h"
-#include "fathom/fast/setup-inl.h"
+#include "fathom/fast/lanes-inl.h"
 #include "fathom/numeric/certified_rounding.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 
-#include "fathom/fast/render_fast.h"
 #include "fathom/fast/setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -61,7 +60,7 @@ HWY_EXPORT(set_up_batch);
 HWY_EXPORT(orient);
 HWY_EXPORT(target_name);
 
-static const char* target_name_here() {
+const char* vector_target() {
   return HWY_DYNAMIC_DISPATCH(target_name)();
 }
 
@@ -125,12 +124,4 @@ void SetupBatch::set(std::size_t lane, const TriangleSetup& setup, const PixelBo
 }
 
 }  // namespace fathom::fast
-
-namespace fathom {
-
-const char* vector_instructions() {
-  return fast::target_name_here();
-}
-
-}  // namespace fathom
 #endif

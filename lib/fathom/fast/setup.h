@@ -76,6 +76,9 @@ void certified_setups(const ImageVertex* vertices, const CornerIndices* triangle
                       std::size_t count, const PixelBox& area, const DepthRange& range,
                       SetupBatch& batch);
 
+/// The kind of vector instructions that the vector code of this room uses here, as Highway calls it.
+const char* vector_target();
+
 /// From exact forms; works for every triangle with Δ ≠ 0, even if it reaches behind the camera.
 TriangleSetup exact_setup(const triangle::ProjectedTriangle& triangle, bool perspective,
                           const PixelBox& box);

@@ -5,6 +5,7 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/fast/coverage/coverage_in_rounds.h"
+#include "fathom/fast/fast_output.h"
 #include "fathom/fast/frame.h"
 #include "fathom/fast/tile_store.h"
 #include "fathom/numeric/standard_arithmetic.h"

@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "fathom/fast/depth_interval-inl.h"
+#include "fathom/fast/lanes-inl.h"
 #include "fathom/fast/round_lanes-inl.h"
-#include "fathom/fast/setup-inl.h"
 #include "fathom/fast/shading_normals.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,59 +1,20 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <bit>
+#include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "fathom/fast/background_rows.h"
-#include "fathom/fast/bins.h"
-#include "fathom/fast/certified_writer.h"
-#include "fathom/fast/depth_range.h"
-#include "fathom/fast/exact_setups.h"
-#include "fathom/fast/map_layout.h"
+#include "fathom/fast/draw_context.h"
 #include "fathom/fast/setup.h"
 #include "fathom/fast/tile_shape.h"
-#include "fathom/files/file_bytes.h"
-#include "fathom/triangle/channels.h"
-#include "fathom/triangle/referee.h"
+#include "fathom/fast/tile_surface.h"
+#include "fathom/triangle/projected_triangle.h"
 
 namespace fathom::fast {
 
-/// Column and row of the image.
-struct DoubtfulPixel {
-  std::uint32_t column, row;
-};
-
-/// Tag of a surface: its number in the lower half and, read as a whole as a binary64 number, a
-/// bound on the error of its q: upper_half() rounds up, so that the lower half can only add to it.
-/// A bound of +∞ becomes NaN, for which no comparison holds: nothing is certain.
-inline std::uint64_t surface_tag(std::uint32_t number, double q_error) {
-  return upper_half(q_error) << 32 | number;
-}
-/// No surface: an error of almost nothing.
-inline constexpr std::uint64_t no_surface_tag = std::uint64_t{0x00100000} << 32 | no_surface;
-
-/// A surface that may be visible in a tile: q as an affine function of the sample's column and row
-/// in the tile, c + a·column + b·row, with its tag.
-struct alignas(32) TileSurface {
-  double c, a, b;
-  std::uint64_t tag;
-
-  [[nodiscard]] double q(double column, double row) const { return c + a * column + b * row; }
-  [[nodiscard]] double error() const { return std::bit_cast<double>(tag); }
-  [[nodiscard]] std::uint32_t number() const { return static_cast<std::uint32_t>(tag); }
-};
-
-/// q at a sample in binary32, a bound on its error, and which of the tile's surfaces it is of: as a
-/// surface_tag(), with half as many bits for each. The place of a surface is its index.
-using LaneTag = std::uint32_t;
-inline LaneTag lane_tag(std::uint32_t place, float q_error) {
-  return ((std::bit_cast<std::uint32_t>(q_error) >> 16) + 1) << 16 | place;
-}
+struct ImageObject;
 
 /// The nearest surface so far at the samples of a small part of the image, whatever the order in
 /// which triangles are drawn. Samples hold q in binary32, which settles nearly every decision; the
@@ -61,25 +22,6 @@ inline LaneTag lane_tag(std::uint32_t place, float q_error) {
 class Tile : public TileShape {
  public:
   static const std::size_t most_packed_bytes;
-
-  /// What a tile works with, one for each thread.
-  struct Context {
-    triangle::Referee& referee;
-    RenderStatistics& statistics;
-    const DepthRange& range;
-    bool perspective;
-    const FastSwitches& switches;
-    /// If not null, gets the pixels at which a bound does not settle a decision in binary32.
-    std::vector<DoubtfulPixel>* doubtful = nullptr;
-    /// Setups from exact numbers for the whole image: those that were asked for last.
-    ExactSetups& exact_setups;
-    /// Whether bins have triangles that cover no sample.
-    bool by_area = false;
-
-    void note_doubt(std::uint32_t column, std::uint32_t row) const {
-      if (doubtful) doubtful->push_back({column, row});
-    }
-  };
 
   /// Empties the tile and moves it to an area of at most size × size pixels, its first row and
   /// column multiples of size.
@@ -91,72 +33,39 @@ class Tile : public TileShape {
            area_.last_row - area_.first_row != size - 1;
   }
 
-  /// Room for the triangles of a tile, kept from one tile to the next.
-  std::vector<TileEntry>& entries() { return entries_; }
-  /// Calls draw(numbers) for the triangles in parts, without those that are certainly hidden by what
-  /// was drawn before the part. Looking for them pays where there are some: it is tried with the
-  /// first part and now and then, and goes on where one in eight was hidden.
-  template <class Draw>
-  void for_visible(std::span<const TileEntry> entries, const Context& context, const Draw& draw) {
-    constexpr std::size_t least = 16, pause = 8;
-    std::size_t parts_until_look = 0;
-    for (; !entries.empty(); entries = entries.subspan(std::min(entries.size(), most_at_once))) {
-      const auto some = entries.first(std::min(entries.size(), most_at_once));
-      const bool look =
-          context.switches.early_rejection && parts_until_look == 0 && some.size() >= least;
-      const auto numbers = look ? visible_of(some) : numbers_of(some);
-      const bool pays = look && numbers.size() <= some.size() - some.size() / 8;
-      parts_until_look = pays ? 0 : parts_until_look == 0 ? pause : parts_until_look - 1;
-      if (!numbers.empty()) draw(numbers);
-    }
-  }
   /// Draws triangles of one object (their numbers in the scene, one at least) at the samples of the area.
   void draw(const ImageObject& object, std::span<const std::uint32_t> numbers,
-            const Context& context);
-
-  /// Gives back the memory that is not needed to keep the tile: what remains is most_packed_bytes at
-  /// most.
-  void pack();
-  /// The memory that it takes.
-  [[nodiscard]] std::size_t bytes() const;
-  /// Adds what the tile is to `bytes`, most_packed_bytes at most, or makes it that again: read(offset,
-  /// to) reads from there. The tile has been packed, or started where it was.
-  void save(files::Bytes& bytes) const;
-  void restore(const std::function<void(std::uint64_t offset, std::span<std::byte> to)>& read);
-
-  /// Where a tile is written to.
-  struct Output {
-    CertifiedWriter& certified;
-    /// If not null, the values of channel Z, which are written for the whole area.
-    float* depths;
-    /// Whether there are channels besides Z in binary32 and A, and what these have where there is
-    /// no surface, as far as they have to be filled.
-    bool others;
-    const BackgroundRows& background;
-    MapLayout layout;
-  };
-  /// Writes the visible surfaces; stops at the first fault in row order, whose pixel is that of the map.
-  std::optional<triangle::EncodingFault> resolve(const Output& output,
-                                                 const Context& context) const;
+            const DrawContext& context);
+  /// Says that what is drawn from now on are back faces.
+  void begin_back_faces() {
+    end_of_front_ = draws_back_faces_ ? 0 : places_;
+    draws_back_faces_ = true;
+  }
 
   /// The surface at a sample; its number is no_surface where there is none.
   [[nodiscard]] const TileSurface& surface_at(std::size_t i) const {
     return surfaces_[place_of(tags_[i])];
   }
   [[nodiscard]] bool shows_surface(std::size_t i) const { return place_of(tags_[i]) != 0; }
-  /// Says that what is drawn from now on are back faces.
-  void begin_back_faces() {
-    end_of_front_ = draws_back_faces_ ? 0 : places_;
-    draws_back_faces_ = true;
-  }
   /// Samples whose surface has a place below this certainly show one that was drawn before the first
   /// back face. None is known where front faces have been drawn since.
   [[nodiscard]] std::uint32_t end_of_front() const { return end_of_front_; }
+  [[nodiscard]] bool draws_back_faces() const { return draws_back_faces_; }
+
+  /// Gives back the memory that is not needed to keep the tile: what remains is most_packed_bytes at
+  /// most.
+  void pack();
+  /// The memory that it takes.
+  [[nodiscard]] std::size_t bytes() const;
+  /// Makes a tile of samples, whose q() and tags() have been written, and of their surfaces by place.
+  void set_surfaces(std::vector<TileSurface> surfaces, std::uint32_t end_of_front,
+                    bool draws_back_faces);
 
   // For the vector code.
   static constexpr std::uint32_t place_of(LaneTag tag) { return tag & 0xFFFF; }
   /// The surface at a sample: its q, −∞ if there is none, and its tag.
   float* q() { return q_.data(); }
+  [[nodiscard]] const float* q() const { return q_.data(); }
   LaneTag* tags() { return tags_.data(); }
   [[nodiscard]] const LaneTag* tags() const { return tags_.data(); }
   [[nodiscard]] const TileSurface* surfaces() const { return surfaces_.data(); }
@@ -174,31 +83,19 @@ class Tile : public TileShape {
   /// Settles one sample by binary64, and exactly where that does not. Column and row are those of
   /// the image; the tag is that of the triangle.
   void settle(const TriangleSetup& setup, LaneTag tag, bool test_range, std::uint32_t column,
-              std::uint32_t row, const Context& context);
-  /// Sets up a triangle from exact numbers, for the samples of `box`, in a lane of the batch.
-  static void set_up_exactly(std::uint32_t number, const PixelBox& box, const Context& context,
-                             std::size_t lane, SetupBatch& batch);
+              std::uint32_t row, const DrawContext& context);
 
  private:
-  static constexpr std::size_t most_at_once = 256;
-  /// Their numbers; those of the triangles that may be visible.
-  std::span<const std::uint32_t> numbers_of(std::span<const TileEntry> some);
-  std::span<const std::uint32_t> visible_of(std::span<const TileEntry> some);
   /// Forgets the surfaces that are at no sample any more; the others keep their order.
   void forget_hidden();
 
-  /// For each place, the one sample that shows its surface; greater numbers where none does, or several.
-  [[nodiscard]] std::vector<std::uint32_t> only_samples() const;
-
-  static constexpr std::uint32_t room = size * size;
-  static constexpr std::uint32_t several_samples = room, no_sample = room + 1;
   /// Place 0 is no surface; others are numbered by 16 bits. At most a quarter of them are visible: with more
   /// places than this, surfaces would be forgotten less often, but leave the caches.
-  static constexpr std::uint32_t most_places = 4 * room;
+  static constexpr std::uint32_t most_places = 4 * samples;
   static_assert(most_places <= 0x10000);
   PixelBox area_;
-  alignas(64) std::array<float, room> q_;
-  alignas(64) std::array<LaneTag, room> tags_;
+  alignas(64) std::array<float, samples> q_;
+  alignas(64) std::array<LaneTag, samples> tags_;
   alignas(64) std::array<float, blocks> farthest_;
   std::array<std::uint8_t, blocks> draws_;
   std::vector<TileSurface> surfaces_;
@@ -206,16 +103,10 @@ class Tile : public TileShape {
   /// Places of surfaces that were drawn before back faces are below it.
   std::uint32_t end_of_front_;
   bool draws_back_faces_;
-  std::vector<TileEntry> entries_;
-  /// Vectors may write beyond the last one.
-  std::array<std::uint32_t, most_at_once + 16> numbers_;
 };
 
 /// The tile, and a surface at each sample.
 inline constexpr std::size_t Tile::most_packed_bytes =
-    sizeof(Tile) + (std::size_t{size} * size + 1) * sizeof(TileSurface);
-
-/// No surface: an error of almost nothing, and place 0.
-inline constexpr LaneTag no_surface_lane_tag = 0x00800000;
+    sizeof(Tile) + (std::size_t{samples} + 1) * sizeof(TileSurface);
 
 }  // namespace fathom::fast

@@ -18,8 +18,8 @@
 #include "fathom/fast/setup-inl.h"
 #include "fathom/fast/tile.h"
 
-// How to read this file: visible_triangles() leaves out triangles that are hidden (farthest-inl.h),
-// draw_triangles() draws the others. They are set up in binary64 (setup-inl.h) and turned into
+// How to read this file: draw_triangles() draws triangles, less those that VisibleTriangles left out
+// as hidden. They are set up in binary64 (setup-inl.h) and turned into
 // functions in binary32 (lane_batch-inl.h). Here it is decided which cells and blocks a triangle is
 // drawn into; cell_drawing-inl.h draws it.
 HWY_BEFORE_NAMESPACE();
@@ -31,7 +31,7 @@ HWY_INLINE int cell_of(int place) {
 }
 
 /// The cells of the whole box.
-HWY_INLINE void draw_box(Tile& tile, const Drawn& t, const Tile::Context& context) {
+HWY_INLINE void draw_box(Tile& tile, const Drawn& t, const DrawContext& context) {
   const Cells cells{cell_of(t.first_column), cell_of(t.last_column), cell_of(t.first_row),
                     cell_of(t.last_row)};
   draw_cells<true>(tile, t, cells, context);
@@ -129,7 +129,7 @@ HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, const BlockFuncti
 
 /// Draws by rows of blocks: blocks without a covered sample and those behind everything that is
 /// already drawn are left out; in those that lie inside the triangle, edges are not tested.
-HWY_INLINE void draw_blocks(Tile& tile, const Drawn& t, const Tile::Context& context) {
+HWY_INLINE void draw_blocks(Tile& tile, const Drawn& t, const DrawContext& context) {
   constexpr std::uint8_t draws_until_update = 4;
   const bool reject = context.switches.early_rejection;
   BlockFunctions functions;
@@ -193,7 +193,7 @@ struct ThinLanes {
 // For all triangles before the first is drawn: a triangle ends with jumps that the processor does
 // not foresee, after which it would have to wait for the cells of the next one.
 HWY_NOINLINE void make_thin_lanes(Tile& tile, const LaneBatch& batch, unsigned lanes,
-                                  const Tile::Context& context, ThinLanes& thin) {
+                                  const DrawContext& context, ThinLanes& thin) {
   SpanGuesses guesses;
   make_span_guesses(batch, guesses);
   CellSpans spans;
@@ -210,7 +210,7 @@ HWY_NOINLINE void make_thin_lanes(Tile& tile, const LaneBatch& batch, unsigned l
 
 /// Not part of what draws the other triangles, most of which are small: that would be slower.
 HWY_NOINLINE void draw_large(Tile& tile, const Drawn& t, const ThinLanes& thin,
-                             const Tile::Context& context) {
+                             const DrawContext& context) {
   if (thin.lanes >> t.lane & 1) {
     draw_list(tile, t, thin.cells[t.lane], context);
   } else {
@@ -247,7 +247,7 @@ HWY_INLINE unsigned thin_lanes(const SetupBatch& batch) {
 /// of draw_cells(), those about edges in binary64 for all triangles at once.
 HWY_INLINE void draw_sample_of_each(Tile& tile, const SetupBatch& setups, const LaneBatch& batch,
                                     unsigned drawn, int column, int row,
-                                    const Tile::Context& context) {
+                                    const DrawContext& context) {
   const V x = constant(column), y = constant(row);
   const auto [columns, rows] = box_sizes(setups);
   const unsigned within = drawn & bits_of(hn::And(hn::Ge(columns, x), hn::Ge(rows, y)));
@@ -289,7 +289,7 @@ HWY_INLINE void draw_sample_of_each(Tile& tile, const SetupBatch& setups, const 
 /// Draws lanes of a batch that are not refused.
 template <bool are_scaled>
 HWY_INLINE void draw_batch(Tile& tile, const SetupBatch& setups, unsigned lanes, LaneBatch& batch,
-                           const Tile::Context& context) {
+                           const DrawContext& context) {
   const std::uint32_t place = tile.next_place();
   // Triangles of a batch may hide each other.
   make_surfaces(setups, tile.area(), tile.surfaces_at(place));
@@ -329,7 +329,7 @@ struct ExactBatch {
   std::size_t count = 0;
 };
 
-HWY_NOINLINE void draw_exactly(Tile& tile, ExactBatch& exact, const Tile::Context& context) {
+HWY_NOINLINE void draw_exactly(Tile& tile, ExactBatch& exact, const DrawContext& context) {
   LaneBatch lanes{};
   const unsigned drawn_lanes = (1U << exact.count) - 1;
   exact.setups.test_range = drawn_lanes;
@@ -339,8 +339,8 @@ HWY_NOINLINE void draw_exactly(Tile& tile, ExactBatch& exact, const Tile::Contex
 
 /// Draws them once a batch is full.
 HWY_NOINLINE void add_exactly(Tile& tile, std::uint32_t number, const PixelBox& box,
-                              const Tile::Context& context, ExactBatch& exact) {
-  Tile::set_up_exactly(number, box, context, exact.count, exact.setups);
+                              const DrawContext& context, ExactBatch& exact) {
+  exact.setups.set(exact.count, context.set_up_exactly(number, box), box);
   if (++exact.count == hn::Lanes(D())) draw_exactly(tile, exact, context);
 }
 
@@ -353,7 +353,7 @@ HWY_NOINLINE void widen(SetupBatch& batch, double factor) {
 }
 
 void draw_triangles(Tile& tile, const ImageObject& object, std::span<const std::uint32_t> numbers,
-                    const Tile::Context& context) {
+                    const DrawContext& context) {
   const std::size_t lanes = hn::Lanes(D());
   Triangles next{};
   SetupBatch batch;
@@ -378,17 +378,6 @@ void draw_triangles(Tile& tile, const ImageObject& object, std::span<const std::
   if (exact.count != 0) draw_exactly(tile, exact, context);
 }
 
-std::size_t visible_triangles(Tile& tile, std::span<const TileEntry> entries,
-                              std::uint32_t* numbers) {
-  FarthestOfBlocks farthest;
-  if (!find_farthest(tile, farthest)) {
-    std::transform(entries.begin(), entries.end(), numbers,
-                   [](const TileEntry& entry) { return entry.number; });
-    return entries.size();
-  }
-  return leave_out_hidden(farthest, entries, numbers);
-}
-
 }  // namespace
 }  // namespace fathom::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -398,15 +387,9 @@ namespace fathom::fast {
 using namespace triangle;
 
 HWY_EXPORT(draw_triangles);
-HWY_EXPORT(visible_triangles);
-
-std::span<const std::uint32_t> Tile::visible_of(std::span<const TileEntry> some) {
-  const std::size_t count = HWY_DYNAMIC_DISPATCH(visible_triangles)(*this, some, numbers_.data());
-  return std::span(numbers_).first(count);
-}
 
 void Tile::draw(const ImageObject& object, std::span<const std::uint32_t> numbers,
-                const Context& context) {
+                const DrawContext& context) {
   HWY_DYNAMIC_DISPATCH(draw_triangles)(*this, object, numbers, context);
 }
 

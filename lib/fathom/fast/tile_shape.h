@@ -9,6 +9,7 @@ namespace fathom::fast {
 struct TileShape {
   /// Columns and rows.
   static constexpr std::uint32_t size = 64;
+  static constexpr std::uint32_t samples = size * size;
   static constexpr std::uint32_t block = 8;
   static constexpr std::uint32_t blocks_of_row = size / block;
   static constexpr std::size_t blocks = std::size_t{blocks_of_row} * blocks_of_row;

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "fathom/fast/packed_tile.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::fast {
@@ -29,9 +30,9 @@ Tile& TileStore::take(std::uint32_t number) {
   slot.tile = std::make_unique_for_overwrite<Tile>();
   slot.tile->start(grid_.area(number));
   if (slot.waits) {
-    slot.tile->restore([&](std::uint64_t offset, std::span<std::byte> bytes) {
-      file_->read(place_of(number) + offset, bytes);
-    });
+    restore([&](std::uint64_t offset,
+                std::span<std::byte> bytes) { file_->read(place_of(number) + offset, bytes); },
+            *slot.tile);
     slot.waits = false;
   }
   const std::lock_guard lock(mutex_);
@@ -98,7 +99,7 @@ void TileStore::write_oldest(std::size_t count) {
   parallel_for(std::size_t{0}, end, [&](std::size_t i) {
     Slot& slot = slots_[in_memory_[i]];
     files::Bytes bytes;
-    slot.tile->save(bytes);
+    save(*slot.tile, bytes);
     file_->write(place_of(in_memory_[i]), bytes);
     slot.tile.reset();
     slot.waits = true;

@@ -12,7 +12,7 @@ void TileSurfaces::start(const Tile& tile) {
   top_ = tile.area().first_row + 0.5;
   index_at_.assign(tile.end_of_places(), 0);
   // Neighbours mostly show one surface.
-  constexpr std::size_t together = 16, samples = std::size_t{Tile::size} * Tile::size;
+  constexpr std::size_t together = 16, samples = Tile::samples;
   LaneTag last = no_surface_lane_tag;
   for (std::size_t first = 0; first < samples; first += together) {
     const std::span<const LaneTag> tags(tile.tags() + first, together);

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/fast/upper_half-inl.h"
+#include "fathom/fast/lanes-inl.h"
 #include "fathom/fast/vertex.h"
 #include "fathom/fast/vertex_bounds.h"
 
@@ -17,17 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::CappedTag<double, 8>;
-using DU = hn::Rebind<std::uint64_t, D>;
-using V = hn::Vec<D>;
-using M = hn::Mask<D>;
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-HWY_INLINE V constant(double x) {
-  return hn::Set(D(), x);
-}
 
 /// m₀x + m₁y + m₂z + m₃, in an order for which the bound of vertex.cpp holds.
 HWY_INLINE V apply(const ImageRows::Row& m, V x, V y, V z) {

@@ -222,7 +222,7 @@ class SomeTiles {
     const auto write_tile = [&](std::uint32_t number, fast::TileCoverage& coverage) {
       const auto tile = std::make_unique<fast::Tile>();
       tile->start(grid().area(number));
-      const fast::Tile::Context context = frame_.context(workers_.local());
+      const fast::DrawContext context = frame_.context(workers_.local());
       draw_tile(*tile, number, bins, objects, context);
       coverage.write(*tile, number, context, values.data(), {frame_.camera.width});
     };

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "fathom/fast/tile.h"
+#include "fathom/fast/tile_shape.h"
 
 namespace fathom::fast {
 
@@ -36,7 +36,7 @@ class PixelMeetings {
   };
   std::vector<Meeting> unsorted_;
   std::vector<std::uint32_t> sorted_;
-  std::array<std::uint32_t, std::size_t{Tile::size} * Tile::size + 1> starts_{};
+  std::array<std::uint32_t, TileShape::samples + std::size_t{1}> starts_{};
 };
 
 }  // namespace fathom::fast

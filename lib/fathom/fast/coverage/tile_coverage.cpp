@@ -21,7 +21,7 @@ bool settles(const Interval& area) {
 
 }  // namespace
 
-void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const Tile::Context& context,
+void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const DrawContext& context,
                          float* values, const MapLayout& layout) {
   area_ = tile.area();
   // The number of triangles that cover a point is the same throughout the inside of a pixel that is
@@ -47,7 +47,7 @@ void TileCoverage::write(const Tile& tile, std::uint32_t tile_number, const Tile
   scene_.rows.finish();
 }
 
-void TileCoverage::settle_open(const Tile::Context& context) {
+void TileCoverage::settle_open(const DrawContext& context) {
   for (std::size_t row = 0; row < size; ++row) {
     context.statistics.coverage_rounding.interval +=
         static_cast<std::uint64_t>(std::popcount(met_[row]));
@@ -182,7 +182,7 @@ void TileCoverage::add_to_union(const Shape& shape, std::uint32_t x, std::uint32
   union_.add(p, area_bounds::moved_triangle * (e + unit_roundoff<double> * extent));
 }
 
-float TileCoverage::settle_pixel(std::uint32_t pixel, const Tile::Context& context) {
+float TileCoverage::settle_pixel(std::uint32_t pixel, const DrawContext& context) {
   const auto shapes = shapes_at_.at(pixel);
   const bool any_open = !open_shapes_.empty() && std::ranges::any_of(shapes, [&](std::uint32_t i) {
     return shapes_[i].is_open;
@@ -202,7 +202,7 @@ float TileCoverage::settle_pixel(std::uint32_t pixel, const Tile::Context& conte
   return static_cast<float>(area.lower);
 }
 
-float TileCoverage::settle_pixel_exactly(std::uint32_t pixel, const Tile::Context& context) {
+float TileCoverage::settle_pixel_exactly(std::uint32_t pixel, const DrawContext& context) {
   ++context.statistics.coverage_rounding.exact;
   return rounded_pixel_coverage(scene_.frame, triangles_at(pixel),
                                 area_.first_column + pixel % size, area_.first_row + pixel / size);

@@ -14,6 +14,8 @@
 #include "fathom/fast/coverage/pixel_winding.h"
 #include "fathom/fast/coverage/tile_outlines.h"
 #include "fathom/fast/coverage/tile_rows.h"
+#include "fathom/fast/draw_context.h"
+#include "fathom/fast/map_rows.h"
 #include "fathom/fast/tile.h"
 
 namespace fathom::fast {
@@ -41,8 +43,8 @@ class TileCoverage {
 
   /// `tile` has been drawn; its triangles are those of the bins, which must be sorted by area, not
   /// by samples. Writes the values of its pixels.
-  void write(const Tile& tile, std::uint32_t tile_number, const Tile::Context& context,
-             float* values, const MapLayout& layout);
+  void write(const Tile& tile, std::uint32_t tile_number, const DrawContext& context, float* values,
+             const MapLayout& layout);
 
  private:
   static constexpr std::uint32_t size = Tile::size;
@@ -59,19 +61,19 @@ class TileCoverage {
 
   // tile_coverage_full.cpp: the triangles of the tile, and which pixels are covered wholly.
   /// Finds the open pixels and those that are covered wholly; returns whether any is only open.
-  bool find_open_pixels(std::uint32_t tile_number, const Tile::Context& context);
+  bool find_open_pixels(std::uint32_t tile_number, const DrawContext& context);
   /// Adds the triangles of a side to those that are there, and their edges to the outlines; returns
   /// the index of the first of them.
-  std::size_t add_triangles(Side side, std::uint32_t tile_number, const Tile::Context& context);
+  std::size_t add_triangles(Side side, std::uint32_t tile_number, const DrawContext& context);
   /// visit(object, first, end): indices of the numbers of an object that come after each other.
   template <class Visit>
   void for_each_object(std::span<const std::uint32_t> numbers, const Visit& visit) const;
   /// Calls take(the class of a triangle, the class that is found) for some, by indices of numbers_.
   template <class Take>
-  void classify(std::span<const std::size_t> which, const Tile::Context& context, const Take& take);
+  void classify(std::span<const std::size_t> which, const DrawContext& context, const Take& take);
   /// The boxes of all that are positive or negative, and whether they are large.
-  void find_boxes(const Tile::Context& context);
-  void look_at_open(std::size_t begin, const Tile::Context& context);
+  void find_boxes(const DrawContext& context);
+  void look_at_open(std::size_t begin, const DrawContext& context);
   void add_edges(std::size_t begin);
   /// Finds pixels that front faces cover, whatever is behind them; returns whether all are covered.
   bool look_at_front();
@@ -84,7 +86,7 @@ class TileCoverage {
   [[nodiscard]] bool misses_tile(const Shape& shape) const;
   [[nodiscard]] const ImageObject& object_at(std::size_t i);
   [[nodiscard]] Shape shape_of(const ImageObject& object, std::size_t i) const;
-  [[nodiscard]] Shape exact_shape(std::size_t i, const Tile::Context& context);
+  [[nodiscard]] Shape exact_shape(std::size_t i, const DrawContext& context);
   /// Of numbers_[i], which is what bins call it.
   [[nodiscard]] std::uint32_t number_in_scene(std::size_t i);
 
@@ -107,10 +109,10 @@ class TileCoverage {
   std::span<const std::uint32_t> triangles_at(std::uint32_t pixel);
 
   // tile_coverage.cpp: settling open pixels.
-  void settle_open(const Tile::Context& context);
-  float settle_pixel(std::uint32_t pixel, const Tile::Context& context);
+  void settle_open(const DrawContext& context);
+  float settle_pixel(std::uint32_t pixel, const DrawContext& context);
   /// settle_pixel() by exact numbers alone.
-  float settle_pixel_exactly(std::uint32_t pixel, const Tile::Context& context);
+  float settle_pixel_exactly(std::uint32_t pixel, const DrawContext& context);
   enum class Corners { computed, exact };
   [[nodiscard]] Interval area_between_edges(std::uint32_t pixel, Corners corners);
   /// The ends of an edge, or of its part near a pixel, relative to the pixel's corner: exact, and

@@ -30,7 +30,7 @@ void TileCoverage::for_each_object(std::span<const std::uint32_t> numbers,
   }
 }
 
-bool TileCoverage::find_open_pixels(std::uint32_t tile_number, const Tile::Context& context) {
+bool TileCoverage::find_open_pixels(std::uint32_t tile_number, const DrawContext& context) {
   numbers_.clear();
   classes_.clear();
   doubtful_.clear();
@@ -54,7 +54,7 @@ bool TileCoverage::find_open_pixels(std::uint32_t tile_number, const Tile::Conte
 // Those of one object come next to each other. Bins say of most that their corners are usable, that
 // their orientation is certain, and how near they can be.
 std::size_t TileCoverage::add_triangles(Side side, std::uint32_t tile_number,
-                                        const Tile::Context& context) {
+                                        const DrawContext& context) {
   const std::size_t begin = numbers_.size();
   const CoverageClass kind =
       side == Side::front ? CoverageClass::negative : CoverageClass::positive;
@@ -76,7 +76,7 @@ std::size_t TileCoverage::add_triangles(Side side, std::uint32_t tile_number,
 }
 
 // Most tiles do not need them. Those of the doubtful are known.
-void TileCoverage::find_boxes(const Tile::Context& context) {
+void TileCoverage::find_boxes(const DrawContext& context) {
   std::vector<std::size_t>& others = without_box_;
   others.clear();
   auto next = doubtful_.begin();
@@ -94,7 +94,7 @@ void TileCoverage::find_boxes(const Tile::Context& context) {
 }
 
 template <class Take>
-void TileCoverage::classify(std::span<const std::size_t> which, const Tile::Context& context,
+void TileCoverage::classify(std::span<const std::size_t> which, const DrawContext& context,
                             const Take& take) {
   std::vector<std::uint32_t>& numbers = numbers_to_classify_;
   numbers.clear();
@@ -156,7 +156,7 @@ bool TileCoverage::misses_tile(const Shape& shape) const {
   });
 }
 
-void TileCoverage::look_at_open(std::size_t begin, const Tile::Context& context) {
+void TileCoverage::look_at_open(std::size_t begin, const DrawContext& context) {
   for (std::size_t i = begin; i < numbers_.size(); ++i) {
     if (classes_[i].kind != CoverageClass::open) continue;
     const Shape shape = exact_shape(i, context);
@@ -203,7 +203,7 @@ std::uint32_t TileCoverage::number_in_scene(std::size_t i) {
   return object_at(i).number_in_scene(numbers_[i]);
 }
 
-TileCoverage::Shape TileCoverage::exact_shape(std::size_t i, const Tile::Context& context) {
+TileCoverage::Shape TileCoverage::exact_shape(std::size_t i, const DrawContext& context) {
   const TriangleSetup setup =
       exact_setup(context.referee.projected(number_in_scene(i)), context.perspective, area_);
   const auto [functions, count] = functions_over_tile(setup, context.range);

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "fathom/fast/setup_bounds.h"
-#include "fathom/fast/tile.h"
+#include "fathom/fast/tile_shape.h"
 
 namespace fathom::fast {
 
@@ -13,7 +13,7 @@ namespace fathom::fast {
 std::array<UncertainHalfPlane, 3> edges_over_tile(const std::array<ImageVertex, 3>& corners,
                                                   const PixelBox& tile) {
   std::array<SquarePoint, 3> p{};
-  double L = Tile::size, e = 0;
+  double L = TileShape::size, e = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     p[k] = {corners[k].u - tile.first_column, corners[k].v - tile.first_row};
     L = std::max({L, std::abs(p[k].x), std::abs(p[k].y)});

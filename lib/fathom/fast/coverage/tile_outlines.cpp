@@ -139,8 +139,8 @@ TileBox TileOutlines::box_of(const OutlineEdge& edge, double margin) const {
   const auto last = [&](double x, int greatest) {
     return x < 0 ? std::int16_t{-1} : within(x, 0, greatest);
   };
-  return {within(left - margin, 0, Tile::size), last(right + margin, whole_.right),
-          within(top - margin, 0, Tile::size), last(bottom + margin, whole_.bottom)};
+  return {within(left - margin, 0, TileShape::size), last(right + margin, whole_.right),
+          within(top - margin, 0, TileShape::size), last(bottom + margin, whole_.bottom)};
 }
 
 // Every point of the exact edge lies within e, the error of its ends, of its counterpart on the
@@ -204,7 +204,7 @@ void TileOutlines::list_edges(const TileRows& pixels) {
     for_each_row(edges_[i], [&](std::size_t row, std::uint64_t columns) {
       edges_in_row_[row].push_back(i);
       for (const std::size_t column : EachBit(columns & pixels[row])) {
-        edges_at_.add(static_cast<std::uint32_t>(row * Tile::size + column), i);
+        edges_at_.add(static_cast<std::uint32_t>(row * TileShape::size + column), i);
       }
     });
   }

@@ -86,7 +86,7 @@ class TileOutlines {
   std::vector<std::uint32_t> vertex_at_;
   std::vector<OutlineEdge> edges_;
   PixelMeetings edges_at_;
-  std::array<std::vector<std::uint32_t>, Tile::size> edges_in_row_;
+  std::array<std::vector<std::uint32_t>, TileShape::size> edges_in_row_;
 };
 
 }  // namespace fathom::fast

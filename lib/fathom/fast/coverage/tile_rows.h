@@ -30,7 +30,7 @@ inline std::uint64_t columns_between(int left, int right) {
   return ~std::uint64_t{0} << left & ~std::uint64_t{0} >> (63 - right);
 }
 
-/// Which samples show a surface, and which show one that Tile::shows_front() is certain about.
+/// Which samples show a surface, and which certainly show a front face (Tile::end_of_front()).
 void look_at_samples(const Tile& tile, TileRows& shown, TileRows& front);
 
 /// 1 where the bit is set, otherwise 0.
