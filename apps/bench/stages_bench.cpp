@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "fathom/fast/fast_output.h"
-#include "fathom/fast/frame.h"
+#include "fathom/fast/channels/fast_output.h"
+#include "fathom/fast/tiles/frame.h"
 #include "fathom/render.h"
 #include "validation/scenes/scenes.h"
 

@@ -1,11 +1,12 @@
 // What threads of the fast engine share: the sorted triangles, the first fault, the output.
-#include "fathom/fast/frame.h"
+#include "fathom/fast/tiles/frame.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <set>
 
+#include "fathom/fast/channels/fast_output.h"
 #include "tests/inputs/soup.h"
 
 namespace fathom {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "fathom/fast/vertex.h"
+#include "fathom/fast/vertices/vertex.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "tests/inputs/scene_building.h"
 #include "tests/numeric/random_numbers.h"

@@ -2,7 +2,8 @@
 // every processor has: the doubled area, boxes of samples, intervals of D.
 #include <gtest/gtest.h>
 
-#include "fathom/fast/depth_interval-inl.h"
+#include "fathom/fast/channels/depth_interval-inl.h"
+#include "fathom/fast/setup/setup-inl.h"
 #include "tests/effort.h"
 #include "tests/fast/image_triangles.h"
 #include "tests/numeric/error_shares.h"

@@ -3,10 +3,10 @@
 #include <cstdio>
 
 #include "fathom/evaluation/bounds.h"
+#include "fathom/fast/channels/resolve_bounds.h"
 #include "fathom/fast/coverage/area_bounds.h"
-#include "fathom/fast/resolve_bounds.h"
-#include "fathom/fast/setup_bounds.h"
-#include "fathom/fast/vertex_bounds.h"
+#include "fathom/fast/setup/setup_bounds.h"
+#include "fathom/fast/vertices/vertex_bounds.h"
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/certified_value.h"
 #include "fathom/numeric/double_word.h"

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "fathom/fast/lanes-inl.h"
+#include "fathom/fast/lanes/lanes-inl.h"
 
 // Products and sums are written apart: a fused one would round binary32 elsewhere on processors that
 // have it, and would gain nothing where there is nothing to round.

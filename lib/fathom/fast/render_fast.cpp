@@ -2,11 +2,11 @@
 
 #include <utility>
 
+#include "fathom/fast/channels/fast_output.h"
 #include "fathom/fast/coverage/tile_coverage.h"
-#include "fathom/fast/fast_output.h"
-#include "fathom/fast/frame.h"
 #include "fathom/fast/render_memory_parts.h"
-#include "fathom/fast/setup.h"
+#include "fathom/fast/setup/setup.h"
+#include "fathom/fast/tiles/frame.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"

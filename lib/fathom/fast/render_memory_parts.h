@@ -4,9 +4,9 @@
 #include <mutex>
 #include <vector>
 
-#include "fathom/fast/bins.h"
+#include "fathom/fast/bins/bins.h"
 #include "fathom/fast/render_memory.h"
-#include "fathom/fast/tile.h"
+#include "fathom/fast/tiles/tile.h"
 
 namespace fathom {
 

@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "fathom/failures/errors.h"
-#include "fathom/fast/coverage/coverage_in_rounds.h"
-#include "fathom/fast/fast_output.h"
-#include "fathom/fast/frame.h"
-#include "fathom/fast/tile_store.h"
+#include "fathom/fast/channels/fast_output.h"
+#include "fathom/fast/rounds/coverage_in_rounds.h"
+#include "fathom/fast/rounds/tile_store.h"
+#include "fathom/fast/tiles/frame.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"

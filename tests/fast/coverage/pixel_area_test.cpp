@@ -5,7 +5,7 @@
 
 #include "fathom/fast/coverage/pixel_union.h"
 #include "fathom/fast/coverage/pixel_winding.h"
-#include "fathom/fast/vertex.h"
+#include "fathom/fast/vertices/vertex.h"
 #include "tests/effort.h"
 #include "tests/fast/coverage/square_triangles.h"
 #include "tests/oracle/clipped_polygon.h"

@@ -8,8 +8,8 @@
 
 #include <algorithm>
 
-#include "fathom/fast/fetch-inl.h"
-#include "fathom/fast/setup-inl.h"
+#include "fathom/fast/bins/fetch-inl.h"
+#include "fathom/fast/setup/setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {

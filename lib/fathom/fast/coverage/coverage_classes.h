@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <span>
 
-#include "fathom/fast/bins.h"
+#include "fathom/fast/bins/bins.h"
 #include "fathom/fast/coverage/tile_rows.h"
-#include "fathom/fast/depth_range.h"
+#include "fathom/fast/setup/depth_range.h"
 
 namespace fathom::fast {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "fathom/fast/tile_shape.h"
+#include "fathom/fast/bins/tile_shape.h"
 
 namespace fathom::fast {
 

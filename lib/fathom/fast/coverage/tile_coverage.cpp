@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "fathom/fast/coverage/area_bounds.h"
-#include "fathom/fast/each_bit.h"
+#include "fathom/fast/lanes/each_bit.h"
 #include "fathom/numeric/rounding.h"
 
 namespace fathom::fast {

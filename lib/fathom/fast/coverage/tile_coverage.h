@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "fathom/area/coverage.h"
-#include "fathom/fast/bins.h"
+#include "fathom/fast/bins/bins.h"
+#include "fathom/fast/channels/map_rows.h"
 #include "fathom/fast/coverage/coverage_classes.h"
 #include "fathom/fast/coverage/pixel_meetings.h"
 #include "fathom/fast/coverage/pixel_union.h"
 #include "fathom/fast/coverage/pixel_winding.h"
 #include "fathom/fast/coverage/tile_outlines.h"
 #include "fathom/fast/coverage/tile_rows.h"
-#include "fathom/fast/draw_context.h"
-#include "fathom/fast/map_rows.h"
-#include "fathom/fast/tile.h"
+#include "fathom/fast/tiles/draw_context.h"
+#include "fathom/fast/tiles/tile.h"
 
 namespace fathom::fast {
 

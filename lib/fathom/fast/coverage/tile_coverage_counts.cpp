@@ -2,7 +2,7 @@
 
 #include "fathom/fast/coverage/tile_coverage.h"
 #include "fathom/fast/coverage/tile_functions.h"
-#include "fathom/fast/each_bit.h"
+#include "fathom/fast/lanes/each_bit.h"
 
 // How many triangles cover a point of an open pixel: from the outlines, along its row, where a pixel
 // of the row is covered by none; otherwise by looking at the triangles.

@@ -2,7 +2,7 @@
 #include <bit>
 #include <limits>
 
-#include "fathom/fast/certain_sign.h"
+#include "fathom/fast/coverage/certain_sign.h"
 #include "fathom/fast/coverage/tile_coverage.h"
 #include "fathom/fast/coverage/tile_functions.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "fathom/fast/setup_bounds.h"
-#include "fathom/fast/tile_shape.h"
+#include "fathom/fast/bins/tile_shape.h"
+#include "fathom/fast/setup/setup_bounds.h"
 
 namespace fathom::fast {
 

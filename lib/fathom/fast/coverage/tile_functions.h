@@ -6,7 +6,7 @@
 #include <span>
 
 #include "fathom/fast/coverage/pixel_union.h"
-#include "fathom/fast/setup.h"
+#include "fathom/fast/setup/setup.h"
 
 // Affine functions that are positive inside a triangle, in pixels from a tile's top left corner.
 // Their bounds cover what their users compute from them at pixels of the tile.

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "fathom/fast/coverage/area_bounds.h"
-#include "fathom/fast/each_bit.h"
+#include "fathom/fast/lanes/each_bit.h"
 
 namespace fathom::fast {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "fathom/fast/bins.h"
+#include "fathom/fast/bins/bins.h"
 #include "fathom/fast/coverage/coverage_classes.h"
 #include "fathom/fast/coverage/edge_balance.h"
 #include "fathom/fast/coverage/edge_sieve.h"

@@ -5,8 +5,8 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "fathom/fast/lane_batch-inl.h"
-#include "fathom/fast/lanes-inl.h"
+#include "fathom/fast/lanes/lanes-inl.h"
+#include "fathom/fast/tiles/lane_batch-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <span>
 
+#include "fathom/fast/channels/map_rows.h"
 #include "fathom/fast/coverage/pixel_union.h"
-#include "fathom/fast/map_rows.h"
-#include "fathom/fast/tile.h"
+#include "fathom/fast/tiles/tile.h"
 
 // Rows of a tile's pixels as words, a bit for each column, several rows at once.
 namespace fathom::fast {

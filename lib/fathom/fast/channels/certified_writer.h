@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "fathom/fast/channels/channel_rows.h"
+#include "fathom/fast/channels/map_rows.h"
+#include "fathom/fast/channels/tile_surfaces.h"
+#include "fathom/fast/channels/wide_rows.h"
+#include "fathom/fast/pixels/pixel_writer.h"
+#include "fathom/fast/pixels/surface_facts.h"
+#include "fathom/triangle/channels.h"
+#include "fathom/triangle/rays.h"
+#include "fathom/triangle/recent_triangles.h"
+#include "fathom/triangle/referee.h"
+
+namespace fathom::fast {
+
+/// A row of a tile, with the surfaces that are visible in it.
+struct VisibleRow {
+  SurfaceRow lanes;
+  /// A bit for each sample that shows a surface.
+  std::uint64_t surface = 0;
+  /// Those of them at which Z is still to be written.
+  std::uint64_t open_depth = 0;
+  std::size_t first_pixel = 0;  // of the first sample (MapLayout)
+  std::size_t columns = TileShape::size;
+
+  [[nodiscard]] std::uint64_t all() const {
+    return ~std::uint64_t{0} >> (TileShape::size - columns);
+  }
+
+  [[nodiscard]] VisibleSurface at(std::size_t k) const {
+    return {first_pixel + k,
+            static_cast<std::uint32_t>(lanes.tags[k]),
+            {lanes.first_u + static_cast<double>(k), lanes.v}};
+  }
+};
+
+/// Writes every channel of the specification, section 6, by certified floating point: a value comes
+/// with a proved bound on its error, and is written if all numbers that the bound allows round to
+/// the same one. Tiers, each tried where the one before does not settle a value:
+///   binary64      from the tile's q (Z, distance, P) or from the triangle (N, Nc, Ns, bary);
+///   double-words  from the triangle, not Ns; Zlow and binary64 output begin here;
+///   constants     depth or a world coordinate is exactly the same at the three corners, or a
+///                 value is proved to be exactly 0, or a depth to be a binary32 number, because
+///                 its numerator is a multiple of a power of two above its bound;
+///   exact         ChannelWriter, that value alone.
+/// One for each thread: it remembers the triangles that it was asked about last.
+class CertifiedWriter {
+ public:
+  CertifiedWriter(triangle::ChannelWriter& exact, const triangle::SceneRays& rays, MapRows rows);
+  [[nodiscard]] const MapRows& rows() const { return rows_; }
+
+  /// To be called before the rows of a tile are written.
+  void start(const Tile& tile, const MapLayout& layout, triangle::Referee& referee,
+             RenderStatistics& statistics);
+  /// If the encoding cannot hold a depth, returns what is wrong at the first such pixel.
+  /// `statistics.rounding` counts values.
+  std::optional<triangle::EncodingFault> write(const VisibleRow& row, triangle::Referee& referee,
+                                               RenderStatistics& statistics);
+
+ private:
+  /// The samples of a row at which channels are still to be written.
+  struct Open;
+
+  /// id, face, object and what a segmentation has.
+  void write_origins(const VisibleRow& row) const;
+  /// What is the same at all pixels of a triangle.
+  void write_normals(const VisibleRow& row, const SurfaceIndices& indices) const;
+  /// Writes what follows from number and q; returns what is left.
+  Open write_settled(const VisibleRow& row, RenderStatistics& statistics);
+  std::uint64_t write_encoded(const VisibleRow& row, const triangle::EncodedValues& values,
+                              bool distance, RenderStatistics& statistics) const;
+  std::uint64_t write_open_depths(const VisibleRow& row, RenderStatistics& statistics) const;
+  void write_shading_normals(const VisibleRow& row, const SurfaceIndices& indices, Open& open,
+                             RenderStatistics& statistics);
+  /// What binary64 never settles.
+  void write_wide(const VisibleRow& row, const SurfaceIndices& indices, Open& open,
+                  RenderStatistics& statistics) const;
+
+  SurfaceFacts& facts(std::uint32_t number) {
+    return remembered_.get(number, [&](SurfaceFacts& t) { t = surface_facts(number, frame_); });
+  }
+
+  triangle::ChannelWriter& exact_;
+  const triangle::ChannelValues values_;
+  const MapRows rows_;
+  const ValueFrame frame_;
+  /// Whether a channel was asked for that double-words begin with: Zlow, or depth or distance in binary64.
+  bool needs_wide_;
+  /// Whether one was asked for that needs to know the surfaces of the tile.
+  bool needs_surfaces_;
+  TileSurfaces surfaces_;
+  /// By the surfaces' indices.
+  TileSurfaces::Normals normals_, camera_normals_;
+  std::vector<WideDepth> wide_depths_;
+  std::vector<LaneShadingNormal> corner_normals_;
+  triangle::RecentTriangles<SurfaceFacts, 512> remembered_;
+  ShadingNormals shading_normals_;
+};
+
+}  // namespace fathom::fast

@@ -1,0 +1,67 @@
+// From an interval of q to one of D, several at once. Included once for every kind of vector
+// instructions, by the files that foreach_target.h compiles for each.
+#if defined(FATHOM_FAST_DEPTH_INTERVAL_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef FATHOM_FAST_DEPTH_INTERVAL_INL_H
+#undef FATHOM_FAST_DEPTH_INTERVAL_INL_H
+#else
+#define FATHOM_FAST_DEPTH_INTERVAL_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "fathom/fast/channels/resolve_bounds.h"
+#include "fathom/fast/lanes/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace fathom::fast::HWY_NAMESPACE {
+namespace {
+
+/// The least and the greatest D of an interval of q, where known.
+struct DepthInterval {
+  V least, greatest;
+  M known;
+};
+
+/// 1/q, and whether it errs by less than 4u of itself.
+struct Reciprocal {
+  V value;
+  M known;
+};
+
+// By a quotient in binary32, which takes a third of the time of one in binary64, and a step of third
+// order: 1/q = z₀/(1 − r) with r = 1 − q·z₀, and z₀·(1 + r + r²) leaves out r³, which is below 2⁻⁶³.
+// r is computed with an error of 2u at most, whether the product is fused or not. Nothing is assumed
+// of z₀: its error is looked at (depth_interval.gappa.in).
+HWY_INLINE Reciprocal reciprocal(V q) {
+  const D d;
+  const V z = hn::PromoteTo(d, hn::Div(hn::Set(D32(), 1.0F), to_binary32(q)));
+  const V r = hn::NegMulAdd(q, z, constant(1));
+  return {hn::MulAdd(z, hn::MulAdd(r, r, r), z),
+          hn::Le(hn::Abs(r), constant(resolve_bounds::greatest_residual))};
+}
+
+// D = 1/q. With ε = e/q ≤ 2⁻²¹: 1/(q − e) = (1/q)/(1 − ε) ≤ (1/q)(1 + ε(1 + 2⁻²⁰)), and 1/(q + e)
+// lies nearer to 1/q. z has a relative error of 4u. z·z·e has three roundings, the sum one, which
+// 2⁻¹⁸ and 2⁻⁵⁰ = 8u cover.
+HWY_INLINE DepthInterval perspective_depth(V q, V error) {
+  const Reciprocal inverse = reciprocal(q);
+  const V z = inverse.value;
+  const V spread = hn::Mul(hn::Mul(z, z), hn::Mul(error, constant(resolve_bounds::spread_room)));
+  return {hn::MulSub(z, constant(1 - resolve_bounds::end_room), spread),
+          hn::MulAdd(z, constant(1 + resolve_bounds::end_room), spread),
+          hn::And(inverse.known,
+                  hn::Le(error, hn::Mul(q, constant(resolve_bounds::greatest_relative_error))))};
+}
+
+// D = −q: one rounding of the sum and one of the product, which 8u covers for positive numbers.
+HWY_INLINE DepthInterval orthographic_depth(V q, V error) {
+  const V least = hn::Neg(hn::Add(q, error)), greatest = hn::Sub(error, q);
+  return {hn::Mul(least, constant(1 - resolve_bounds::end_room)),
+          hn::Mul(greatest, constant(1 + resolve_bounds::end_room)), hn::Gt(least, constant(0))};
+}
+
+}  // namespace
+}  // namespace fathom::fast::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fathom/fast/setup/depth_range.h"
+#include "fathom/fast/setup/exact_setups.h"
+#include "fathom/fast/setup/setup.h"
+#include "fathom/triangle/options.h"
+#include "fathom/triangle/referee.h"
+
+namespace fathom::fast {
+
+class VisibleTriangles;
+
+/// Column and row of the image.
+struct DoubtfulPixel {
+  std::uint32_t column, row;
+};
+
+/// What a thread draws tiles with.
+struct DrawContext {
+  triangle::Referee& referee;
+  RenderStatistics& statistics;
+  const DepthRange& range;
+  bool perspective;
+  const FastSwitches& switches;
+  /// If not null, gets the pixels at which a bound does not settle a decision in binary32.
+  std::vector<DoubtfulPixel>* doubtful = nullptr;
+  /// Setups from exact numbers for the whole image: those that were asked for last.
+  ExactSetups& exact_setups;
+  /// For draw_tile().
+  VisibleTriangles& visible;
+  /// Whether bins have triangles that cover no sample.
+  bool by_area = false;
+
+  /// Sets up a triangle from exact numbers, for the samples of `box`.
+  [[nodiscard]] TriangleSetup set_up_exactly(std::uint32_t number, const PixelBox& box) const {
+    ++statistics.exact_setups;
+    TriangleSetup setup = moved_to(exact_setups.of(number, referee, perspective), box);
+    setup.edge_error *= switches.widening;
+    setup.q_error *= switches.widening;
+    return setup;
+  }
+  void note_doubt(std::uint32_t column, std::uint32_t row) const {
+    if (doubtful) doubtful->push_back({column, row});
+  }
+};
+
+}  // namespace fathom::fast

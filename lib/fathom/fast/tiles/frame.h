@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fathom/fast/bins/bins.h"
+#include "fathom/fast/setup/exact_setups.h"
+#include "fathom/fast/tiles/draw_context.h"
+#include "fathom/fast/tiles/tile.h"
+#include "fathom/fast/tiles/visible_triangles.h"
+#include "fathom/threads/per_thread.h"
+#include "fathom/threads/threads.h"
+
+/// What the fast engine works with, whether its scene is in memory or in files.
+namespace fathom::fast {
+
+/// What a thread works with.
+struct FastWorker {
+  FastWorker(const TriangleSource& triangles, const Camera& camera, const triangle::SceneRays& rays)
+      : referee(triangles, camera, &rays),
+        exact_setups({0, camera.width - 1, 0, camera.height - 1}) {}
+  triangle::Referee referee;
+  ExactSetups exact_setups;
+  VisibleTriangles visible;
+  RenderStatistics statistics;
+  std::vector<DoubtfulPixel> doubtful;
+};
+using FastWorkers = PerThread<FastWorker>;
+
+/// The sum of the statistics of all threads.
+RenderStatistics sum_of(const FastWorkers& workers, std::uint64_t triangles);
+
+/// Collects the doubtful pixels of all threads, if they were asked for.
+void collect_doubtful(const FastWorkers& workers, const Camera& camera,
+                      const RenderOptions& options);
+
+/// What all threads share.
+struct FastFrame {
+  FastFrame(const Camera& camera, const RenderOptions& options);
+
+  [[nodiscard]] DrawContext context(FastWorker& worker) const {
+    return {.referee = worker.referee,
+            .statistics = worker.statistics,
+            .range = range,
+            .perspective = perspective,
+            .switches = options.fast,
+            .doubtful = options.fast.doubtful ? &worker.doubtful : nullptr,
+            .exact_setups = worker.exact_setups,
+            .visible = worker.visible,
+            .by_area = by_area};
+  }
+
+  const Camera& camera;
+  const RenderOptions& options;
+  TileGrid grid;
+  DepthRange range;
+  bool perspective;
+  /// Whether tiles get all triangles that meet them, for channel A.
+  bool by_area;
+};
+
+/// Sorts triangles [first, end) of the scene, all of which belong to these objects, into tiles:
+/// `parts` bins of equal length, or fewer, so that each thread has several and their tables of
+/// tiles stay small.
+/// `bins` lend their memory, and keep it if the options say so.
+std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t first,
+                                  std::uint32_t end, std::uint32_t parts, const FastFrame& frame,
+                                  FastWorkers& workers, std::vector<Bins> bins = {});
+
+/// Draws the triangles of a tile.
+void draw_tile(Tile& tile, std::uint32_t number, const std::vector<Bins>& all_bins,
+               const ImageObjects& objects, const DrawContext& context);
+
+}  // namespace fathom::fast

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fathom/fast/bins/tile_shape.h"
+#include "fathom/fast/setup/setup.h"
+#include "fathom/fast/tiles/draw_context.h"
+#include "fathom/fast/tiles/tile_surface.h"
+#include "fathom/triangle/projected_triangle.h"
+
+namespace fathom::fast {
+
+struct ImageObject;
+
+/// The nearest surface so far at the samples of a small part of the image, whatever the order in
+/// which triangles are drawn. Samples hold q in binary32, which settles nearly every decision; the
+/// surfaces have it in binary64.
+class Tile : public TileShape {
+ public:
+  static const std::size_t most_packed_bytes;
+
+  /// Empties the tile and moves it to an area of at most size × size pixels, its first row and
+  /// column multiples of size.
+  void start(const PixelBox& area);
+  [[nodiscard]] const PixelBox& area() const { return area_; }
+  /// Whether the area is smaller than a tile can be.
+  [[nodiscard]] bool is_partial() const {
+    return area_.last_column - area_.first_column != size - 1 ||
+           area_.last_row - area_.first_row != size - 1;
+  }
+
+  /// Draws triangles of one object (their numbers in the scene, one at least) at the samples of the area.
+  void draw(const ImageObject& object, std::span<const std::uint32_t> numbers,
+            const DrawContext& context);
+  /// Says that what is drawn from now on are back faces.
+  void begin_back_faces() {
+    end_of_front_ = draws_back_faces_ ? 0 : places_;
+    draws_back_faces_ = true;
+  }
+
+  /// The surface at a sample; its number is no_surface where there is none.
+  [[nodiscard]] const TileSurface& surface_at(std::size_t i) const {
+    return surfaces_[place_of(tags_[i])];
+  }
+  [[nodiscard]] bool shows_surface(std::size_t i) const { return place_of(tags_[i]) != 0; }
+  /// Samples whose surface has a place below this certainly show one that was drawn before the first
+  /// back face. None is known where front faces have been drawn since.
+  [[nodiscard]] std::uint32_t end_of_front() const { return end_of_front_; }
+  [[nodiscard]] bool draws_back_faces() const { return draws_back_faces_; }
+
+  /// Gives back the memory that is not needed to keep the tile: what remains is most_packed_bytes at
+  /// most.
+  void pack();
+  /// The memory that it takes.
+  [[nodiscard]] std::size_t bytes() const;
+  /// Makes a tile of samples, whose q() and tags() have been written, and of their surfaces by place.
+  void set_surfaces(std::vector<TileSurface> surfaces, std::uint32_t end_of_front,
+                    bool draws_back_faces);
+
+  // For the vector code.
+  static constexpr std::uint32_t place_of(LaneTag tag) { return tag & 0xFFFF; }
+  /// The surface at a sample: its q, −∞ if there is none, and its tag.
+  float* q() { return q_.data(); }
+  [[nodiscard]] const float* q() const { return q_.data(); }
+  LaneTag* tags() { return tags_.data(); }
+  [[nodiscard]] const LaneTag* tags() const { return tags_.data(); }
+  [[nodiscard]] const TileSurface* surfaces() const { return surfaces_.data(); }
+  /// Surfaces have places from 1 up to this number, less one.
+  [[nodiscard]] std::uint32_t end_of_places() const { return places_; }
+  /// Room for as many surfaces as a batch has, from this place on; those that are kept are the
+  /// first `count` of them.
+  std::uint32_t next_place();
+  TileSurface* surfaces_at(std::uint32_t place) { return surfaces_.data() + place; }
+  void keep_surfaces(std::uint32_t count) { places_ += count; }
+  /// For each block a number that is not greater than the exact q at any of its samples.
+  std::array<float, blocks>& farthest() { return farthest_; }
+  /// How often a block was drawn into since its number above was computed.
+  std::uint8_t* draws() { return draws_.data(); }
+  /// Settles one sample by binary64, and exactly where that does not. Column and row are those of
+  /// the image; the tag is that of the triangle.
+  void settle(const TriangleSetup& setup, LaneTag tag, bool test_range, std::uint32_t column,
+              std::uint32_t row, const DrawContext& context);
+
+ private:
+  /// Forgets the surfaces that are at no sample any more; the others keep their order.
+  void forget_hidden();
+
+  /// Place 0 is no surface; others are numbered by 16 bits. At most a quarter of them are visible: with more
+  /// places than this, surfaces would be forgotten less often, but leave the caches.
+  static constexpr std::uint32_t most_places = 4 * samples;
+  static_assert(most_places <= 0x10000);
+  PixelBox area_;
+  alignas(64) std::array<float, samples> q_;
+  alignas(64) std::array<LaneTag, samples> tags_;
+  alignas(64) std::array<float, blocks> farthest_;
+  std::array<std::uint8_t, blocks> draws_;
+  std::vector<TileSurface> surfaces_;
+  std::uint32_t places_;
+  /// Places of surfaces that were drawn before back faces are below it.
+  std::uint32_t end_of_front_;
+  bool draws_back_faces_;
+};
+
+/// The tile, and a surface at each sample.
+inline constexpr std::size_t Tile::most_packed_bytes =
+    sizeof(Tile) + (std::size_t{samples} + 1) * sizeof(TileSurface);
+
+}  // namespace fathom::fast
