@@ -1,6 +1,31 @@
-# Fails where a file of a room includes a room that is not among those that it may use.
-#   cmake -DROOM=fast "-DUSES=numeric;triangle" -DFOLDER=lib/fathom/fast -P CheckRoom.cmake
+# Fails where a file of a room includes a room that is not among those that it may use, or a file of one
+# of the room's stages, which are its folders in this order, includes one of a later stage.
+#   cmake -DROOM=fast "-DUSES=numeric;triangle" "-DSTAGES=setup;tiles" -DFOLDER=lib/fathom/fast -P CheckRoom.cmake
 cmake_minimum_required(VERSION 3.22)
+
+# The number of a stage; that of the room's own folder is the last. No number where a room has no stages.
+function(number_of_stage folder number)
+  list(LENGTH STAGES of_room)
+  list(FIND STAGES "${folder}" found)
+  if(folder STREQUAL "")
+    set(found ${of_room})
+  elseif(STAGES AND found EQUAL -1)
+    message(FATAL_ERROR "${FOLDER}/${folder} is none of the stages of ${ROOM}: ${STAGES}")
+  endif()
+  set(${number} ${found} PARENT_SCOPE)
+endfunction()
+
+function(check_order file included)
+  file(RELATIVE_PATH path "${FOLDER}" "${file}")
+  get_filename_component(folder "${path}" DIRECTORY)
+  number_of_stage("${folder}" own)
+  string(REGEX REPLACE "^${ROOM}/?" "" folder "${included}")
+  number_of_stage("${folder}" other)
+  if(other GREATER own)
+    message(FATAL_ERROR "${file}: may not include ${included}, a later stage of ${ROOM}: ${STAGES}")
+  endif()
+endfunction()
+
 file(GLOB_RECURSE files "${FOLDER}/*.h" "${FOLDER}/*.cpp")
 foreach(file ${files})
   file(STRINGS "${file}" lines REGEX "^#include [<\"]fathom/")
@@ -9,7 +34,11 @@ foreach(file ${files})
       continue()
     endif()
     set(included "${CMAKE_MATCH_1}")
-    if(NOT included IN_LIST USES AND NOT "${included}/" MATCHES "^${ROOM}/")
+    if("${included}/" MATCHES "^${ROOM}/")
+      if(STAGES)
+        check_order("${file}" "${included}")
+      endif()
+    elseif(NOT included IN_LIST USES)
       message(FATAL_ERROR "${file}: the room ${ROOM} may not use ${included}, only itself and: ${USES}")
     endif()
   endforeach()

@@ -79,11 +79,13 @@ function(fathom_embed_texts output header namespace)
 endfunction()
 
 # A room of the library, lib/fathom/ROOM: fathom_ROOM, exported as fathom::ROOM.
-#   fathom_room(ROOM HEADERS a.h… SOURCES b.cpp… [USES room…] [PUBLIC|PRIVATE library…])
+#   fathom_room(ROOM HEADERS a.h… SOURCES b.cpp… [STAGES folder…] [USES room…] [PUBLIC|PRIVATE library…])
 # HEADERS are what users may include; they are installed. USES names the rooms, defined before, that
-# may be included and are linked: the build fails where a file of the room includes another.
+# may be included and are linked: the build fails where a file of the room includes another. STAGES
+# names the folders of the room from the lowest on: it fails, too, where a file of one includes one of a
+# later folder, or of the room's own, which may include all.
 function(fathom_room room)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;HEADERS;USES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;HEADERS;STAGES;USES;PUBLIC;PRIVATE" ${ARGN})
   string(REPLACE "/" "_" name "${room}")
   set(used ${ROOM_USES})
   list(TRANSFORM used REPLACE "/" "_")
@@ -109,7 +111,7 @@ function(fathom_room room)
 
   file(GLOB_RECURSE files CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.h" "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
   add_custom_command(OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/room.checked"
-    COMMAND ${CMAKE_COMMAND} "-DROOM=${room}" "-DUSES=${ROOM_USES}" "-DFOLDER=${CMAKE_CURRENT_SOURCE_DIR}"
+    COMMAND ${CMAKE_COMMAND} "-DROOM=${room}" "-DUSES=${ROOM_USES}" "-DSTAGES=${ROOM_STAGES}" "-DFOLDER=${CMAKE_CURRENT_SOURCE_DIR}"
             -P "${PROJECT_SOURCE_DIR}/cmake/CheckRoom.cmake"
     COMMAND ${CMAKE_COMMAND} -E touch "${CMAKE_CURRENT_BINARY_DIR}/room.checked"
     DEPENDS ${files} "${PROJECT_SOURCE_DIR}/cmake/CheckRoom.cmake"
