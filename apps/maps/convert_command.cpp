@@ -1,18 +1,20 @@
 // fathom convert MAP -o OTHER
 
+#include <fmt/core.h>
+
 #include <cctype>
 #include <filesystem>
 #include <memory>
 
 #include "apps/maps/map_commands.h"
-#include "apps/maps/map_view.h"
+#include "apps/options/camera_options.h"
 #include "apps/options/map_arguments.h"
 #include "apps/options/storage_options.h"
 #include "apps/shell/command.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/values.h"
-#include "fathom/camera/world_from_image.h"
+#include "fathom/camera/camera.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/map_files.h"
@@ -54,6 +56,27 @@ std::optional<StereoRig> rig_of(const ConvertArguments& arguments) {
   return std::nullopt;
 }
 
+/// The one camera of a file, of the size of the map.
+Camera camera_in(const std::string& file, const DepthMap& map, const Console& console) {
+  const std::vector<Camera> cameras = read_camera_file(file, console);
+  if (cameras.size() != 1) {
+    throw UsageError(fmt::format("--camera: a path of {} cameras; a map has one", cameras.size()));
+  }
+  if (cameras[0].width != map.width || cameras[0].height != map.height) {
+    throw InputError(fmt::format("{}: a camera of {}x{} pixels, but the map has {}x{}", file,
+                                 cameras[0].width, cameras[0].height, map.width, map.height));
+  }
+  return cameras[0];
+}
+
+/// That of the camera file where one is named, else the one that the map carries.
+Camera camera_for(const DepthMap& map, const ConvertArguments& arguments, const Console& console) {
+  if (!arguments.camera.empty()) return camera_in(arguments.camera, map, console);
+  const std::optional<Camera> camera = camera_of(map, arguments.map);
+  if (!camera) throw InputError(arguments.map + ": carries no camera; expected --camera FILE");
+  return *camera;
+}
+
 int write_points(const DepthMap& map, const ConvertArguments& arguments, const Console& console) {
   if (arguments.to || !arguments.channel.empty()) {
     throw UsageError("--to and --channel do not go with a point cloud");
@@ -68,9 +91,9 @@ int write_points(const DepthMap& map, const ConvertArguments& arguments, const C
   const PointCloudOptions options{
       .frame = arguments.frame,
       .binary64 = arguments.storage.dtype != StorageOptions::Float::binary32};
-  const MapView view = view_for(map, arguments.map, arguments.camera, console);
+  const Camera camera = camera_for(map, arguments, console);
   OutputFile output(arguments.output);
-  output.write([&](const auto& path) { write_point_cloud(map, view, path, options); });
+  output.write([&](const auto& path) { write_point_cloud(map, camera, path, options); });
   output.commit();
   return done;
 }
@@ -83,8 +106,7 @@ DepthMap converted(DepthMap map, const ConvertArguments& arguments, const Consol
   const DepthQuantity from = arguments.from.value_or(DepthQuantity::planar_depth);
   // PFM, PNG and NPY do not name their channel: it is what the user says it is.
   if (map.channels.size() == 1 && map.texts.empty()) map.channels[0].name = channel_of(from);
-  return convert_quantity(map, from, *arguments.to,
-                          view_for(map, arguments.map, arguments.camera, console),
+  return convert_quantity(map, from, *arguments.to, camera_for(map, arguments, console),
                           rig_of(arguments), arguments.storage.background);
 }
 
@@ -150,16 +172,19 @@ DepthMap stored(DepthMap map, const ConvertArguments& arguments, MapFormat forma
                       keeps_scale ? map.png_scale : encoding.scale, encoding.beyond_is_none);
 }
 
-/// The map with what a GeoTIFF needs of its camera.
-DepthMap placed_in_world(DepthMap map, const ConvertArguments& arguments, const Console& console) {
-  map.world_from_image =
-      world_from_image(camera_for(map, arguments.map, arguments.camera, console));
-  require_world_from_image(map.world_from_image, arguments.output);
-  return map;
+/// With the camera, where the format is a GeoTIFF.
+WriteOptions write_options(const DepthMap& map, const ConvertArguments& arguments, MapFormat format,
+                           const Console& console) {
+  WriteOptions options = arguments.storage.write_options(0);
+  if (format != MapFormat::tiff) return options;
+  options.camera = camera_for(map, arguments, console);
+  require_place_in_world(*options.camera, arguments.output);
+  return options;
 }
 
 /// The map and, where one is asked for, what its codes mean.
-void write_outputs(const DepthMap& map, const ConvertArguments& arguments, MapFormat format) {
+void write_outputs(const DepthMap& map, const ConvertArguments& arguments, MapFormat format,
+                   const WriteOptions& options) {
   OutputFile output(arguments.output);
   std::vector<OutputFile*> outputs{&output};
   std::optional<OutputFile> sidecar;
@@ -168,8 +193,7 @@ void write_outputs(const DepthMap& map, const ConvertArguments& arguments, MapFo
     sidecar->write(png_sidecar(map));
     outputs.push_back(&*sidecar);
   }
-  output.write(
-      [&](const auto& path) { write_map(map, path, format, arguments.storage.write_options(0)); });
+  output.write([&](const auto& path) { write_map(map, path, format, options); });
   OutputFile::commit_together(outputs);
 }
 
@@ -181,11 +205,10 @@ int run_convert(const ConvertArguments& arguments, const Console& console) {
   StorageOptions dress = arguments.storage;
   // A conversion has made the background already, from what it knew of the map that it was.
   if (arguments.to) dress.background.reset();
-  DepthMap map = dress.dressed(
+  const DepthMap map = dress.dressed(
       stored(converted(read_map_argument(arguments.map), arguments, console), arguments, format),
       arguments.output);
-  if (format == MapFormat::tiff) map = placed_in_world(std::move(map), arguments, console);
-  write_outputs(map, arguments, format);
+  write_outputs(map, arguments, format, write_options(map, arguments, format, console));
   warn_of_codes_beyond(map, arguments.output, console);
   return done;
 }

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "apps/maps/info.h"
-#include "apps/maps/map_view.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/text/parse_json.h"
@@ -22,7 +21,7 @@ struct Pose {
 };
 
 Pose pose_of(const Camera& camera) {
-  const auto world_from_camera = camera_to_world(view_of(camera));
+  const auto world_from_camera = camera_to_world(camera);
   Pose pose;
   for (int i = 0; i < 3; ++i) {
     pose.eye[i] = world_from_camera[i][3];

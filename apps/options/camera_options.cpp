@@ -50,7 +50,7 @@ Camera framing_camera(const Scene& scene, const View& view, const Lens& lens) {
 }
 
 std::vector<Camera> cameras_of_map(std::span<const std::byte> bytes, const std::string& file) {
-  const std::optional<Camera> camera = camera_in_map(read_map_argument(bytes, file), file);
+  const std::optional<Camera> camera = camera_of(read_map_argument(bytes, file), file);
   if (!camera) throw InputError(file + ": the map carries no camera, expected a camera file");
   return {*camera};
 }
@@ -103,14 +103,6 @@ std::vector<Option> add_lens_options(Command& command, Lens& lens) {
   const Option far = command.option("--far", "D", into(lens.far, parse_number_or_infinity),
                                     "Farthest depth that is rendered (default inf)");
   return {size, angle, length, parallel, near, far};
-}
-
-std::optional<Camera> camera_in_map(const DepthMap& map, const std::string& file) {
-  const auto text = map.texts.find("fathom.camera");
-  if (text == map.texts.end()) return std::nullopt;
-  const std::vector<Camera> cameras = read_cameras(text->second, file + ": fathom.camera");
-  if (cameras.size() != 1) throw InputError(file + ": fathom.camera does not hold one camera");
-  return cameras[0];
 }
 
 void CameraOptions::add_to(Command& command) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +8,6 @@
 #include "apps/shell/console.h"
 #include "fathom/camera/camera.h"
 #include "fathom/camera/camera_making.h"
-#include "fathom/image/depth_map.h"
 #include "fathom/scene/scene.h"
 
 namespace fathom::app {
@@ -47,9 +45,5 @@ class CameraOptions {
 /// The cameras of a camera file, or the camera that a map carries, each without fault; warnings go to
 /// the console. Fails with InputError.
 std::vector<Camera> read_camera_file(const std::string& file, const Console& console);
-
-/// The camera that a map carries in its text `fathom.camera`; nullopt if it carries none. `file` is the
-/// map's for messages. Fails with InputError.
-std::optional<Camera> camera_in_map(const DepthMap& map, const std::string& file);
 
 }  // namespace fathom::app

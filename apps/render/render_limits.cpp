@@ -8,7 +8,6 @@
 
 #include "apps/options/map_arguments.h"
 #include "apps/shell/max_memory.h"
-#include "fathom/camera/world_from_image.h"
 
 namespace fathom::app {
 namespace {
@@ -42,7 +41,7 @@ void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
   const Camera* before = nullptr;
   for (const Camera& camera : cameras) {
     require_size(plan.format, camera.width, camera.height, output);
-    if (plan.format == MapFormat::tiff) require_world_from_image(world_from_image(camera), output);
+    if (plan.format == MapFormat::tiff) require_place_in_world(camera, output);
     // To ask the system how much memory there is takes longer than to read a camera.
     const bool is_known =
         before != nullptr && before->width == camera.width && before->height == camera.height;

@@ -7,7 +7,6 @@
 #include "apps/validate/validate_modes.h"
 #include "fathom/attribution/other_map.h"
 #include "fathom/camera/camera_files.h"
-#include "fathom/camera/world_from_image.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/map_files.h"
 #include "validation/peers/drawing.h"
@@ -43,11 +42,12 @@ int validate_render(const ValidateArguments& arguments, const Console& console) 
   validation::Drawing drawing = validation::draw_in_child(peer, scene.make, arguments.time_limit());
   if (!drawing.drawn) throw InputError(drawing.failure);
   DepthMap map = attribution::as_depth_map(drawing.drawn->map);
-  map.texts["fathom.camera"] = to_json(scene.make().camera);
-  map.world_from_image = world_from_image(scene.make().camera);
+  const Camera camera = scene.make().camera;
+  map.texts["fathom.camera"] = to_json(camera);
   map.texts["fathom.engine"] = drawing.drawn->version;
   output.write([&](const std::filesystem::path& path) {
-    write_map(map, path, *format, {.channel = holds_all_channels(*format) ? "" : "Z"});
+    write_map(map, path, *format,
+              {.channel = holds_all_channels(*format) ? "" : "Z", .camera = camera});
   });
   output.commit();
   return done;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <new>
 #include <string>
@@ -14,7 +15,6 @@
 #include "fathom/camera/camera_making.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/map_files.h"
-#include "fathom/map_description.h"
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/verify.h"
@@ -31,7 +31,9 @@ struct fathom_scene {
 };
 
 struct fathom_map {
+  explicit fathom_map(DepthMap given) : map(std::move(given)), texts(texts_of(map)) {}
   DepthMap map;
+  std::map<std::string, std::string> texts;
 };
 
 namespace {
@@ -330,18 +332,15 @@ fathom_status fathom_render(const fathom_scene* scene, const fathom_camera* came
     require(scene && map, "scene and map: NULL");
     RenderOptions asked = options_of(options);
     asked.channels = channels_of(channels);
-    auto rendered = std::make_unique<fathom_map>();
-    rendered->map = render(scene->scene, camera_of(camera), asked);
-    *map = rendered.release();
+    DepthMap rendered = render(scene->scene, camera_of(camera), asked);
+    *map = std::make_unique<fathom_map>(std::move(rendered)).release();
   });
 }
 
 fathom_status fathom_map_read(const char* file, fathom_map** map) {
   return status_of([&] {
     require(file && map, "file and map: NULL");
-    auto read = std::make_unique<fathom_map>();
-    read->map = read_map(std::filesystem::path(file));
-    *map = read.release();
+    *map = std::make_unique<fathom_map>(read_map(std::filesystem::path(file))).release();
   });
 }
 
@@ -354,11 +353,6 @@ fathom_status fathom_map_write(const fathom_map* map, const char* file, const ch
                        ": expected a name that ends in .exr, .npz, .pfm, .png, .npy, .bin or .tif");
     WriteOptions options;
     if (channel) options.channel = channel;
-    if (*format == MapFormat::tiff && !map->map.world_from_image) {
-      DepthMap placed = map->map;
-      add_world_from_image(placed, file);
-      return write_map(placed, file, *format, options);
-    }
     write_map(map->map, file, *format, options);
   });
 }
@@ -412,8 +406,8 @@ const char* fathom_map_name(const fathom_map* map, const char* channel, uint32_t
 const char* fathom_map_text(const fathom_map* map, const char* name) {
   return answer_of([&]() -> const char* {
     if (!map || !name) return nullptr;
-    const auto found = map->map.texts.find(name);
-    return found == map->map.texts.end() ? nullptr : found->second.c_str();
+    const auto found = map->texts.find(name);
+    return found == map->texts.end() ? nullptr : found->second.c_str();
   });
 }
 

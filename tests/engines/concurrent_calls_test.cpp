@@ -41,7 +41,7 @@ std::string text_of(const DepthMap& map) {
         },
         channel.values);
   }
-  for (const auto& [key, value] : map.texts) text += key + value;
+  for (const auto& [key, value] : texts_of(map)) text += key + value;
   return text;
 }
 

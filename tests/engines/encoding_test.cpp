@@ -160,7 +160,7 @@ TEST(Encoding, TheMapSaysHowItWasMade) {
   const DepthMap map = testing::render_tested(wall(2), testing::camera_of(4, 3, 1));
   const bool fast = testing::tested_engine() == Engine::fast;
   EXPECT_EQ(map.texts.at("fathom.engine"), fast ? "fast" : "reference");
-  EXPECT_THAT(map.texts.at("fathom.camera"), ::testing::HasSubstr("world_to_camera"));
+  EXPECT_THAT(texts_of(map).at("fathom.camera"), ::testing::HasSubstr("world_to_camera"));
   EXPECT_EQ(map.object_names, std::vector<std::string>{"object"});
 }
 

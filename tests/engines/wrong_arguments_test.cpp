@@ -269,11 +269,11 @@ std::map<std::string, std::function<void(DepthMap&)>> doors_of_maps(const Scratc
   doors["compare_maps, other"] = [](DepthMap& m) { compare_maps(map_of_triangle(), m); };
   doors["draw_differences"] = [](DepthMap& m) { draw_differences(m, map_of_triangle()); };
   doors["convert_quantity"] = [](DepthMap& m) {
-    convert_quantity(m, DepthQuantity::planar_depth, DepthQuantity::ray_distance, MapView());
+    convert_quantity(m, DepthQuantity::planar_depth, DepthQuantity::ray_distance, small_camera());
   };
   doors["with_storage"] = [](DepthMap& m) { with_storage(m, "Z", StoredType::binary64); };
   doors["write_point_cloud"] = [&](DepthMap& m) {
-    write_point_cloud(m, MapView(), folder.path() / "points.ply");
+    write_point_cloud(m, small_camera(), folder.path() / "points.ply");
   };
   doors["draw_preview"] = [](DepthMap& m) { draw_preview(m); };
   doors["surface_mask"] = [](DepthMap& m) { surface_mask(m, ImageChannel{"A", {}}); };
@@ -392,20 +392,23 @@ TEST(WrongArguments, OptionsOfComparisonsAndConversions) {
   }
   using enum DepthQuantity;
   for (const double number : {nan, infinity}) {
-    EXPECT_THROW(convert_quantity(map, planar_depth, disparity, MapView(), StereoRig{number, 0}),
-                 UsageError);
-    EXPECT_THROW(convert_quantity(map, planar_depth, disparity, MapView(), StereoRig{1, number}),
-                 UsageError);
-    EXPECT_THROW(convert_quantity(map, planar_depth, ray_distance, {.fx = number}), InputError);
+    EXPECT_THROW(
+        convert_quantity(map, planar_depth, disparity, small_camera(), StereoRig{number, 0}),
+        UsageError);
+    EXPECT_THROW(
+        convert_quantity(map, planar_depth, disparity, small_camera(), StereoRig{1, number}),
+        UsageError);
     EXPECT_THROW(with_storage(map, "Z", StoredType::scaled_unorm16, number), UsageError);
     EXPECT_THROW(draw_preview(map, {.low = number}), UsageError);
-    MapView view;
-    view.world_to_camera[1][3] = number;
-    EXPECT_THROW(camera_to_world(view), InputError);
+    Camera camera = small_camera();
+    camera.fx = number;
+    EXPECT_THROW(convert_quantity(map, planar_depth, ray_distance, camera), InputError);
   }
-  EXPECT_THROW(convert_quantity(map, planar_depth, ray_distance, {.fx = 0}), InputError);
+  Camera flat = small_camera();
+  flat.fy = 0;
+  EXPECT_THROW(convert_quantity(map, planar_depth, ray_distance, flat), InputError);
   const ScratchFolder folder;
-  EXPECT_THROW(write_point_cloud(map, {.fy = 0}, folder.path() / "points.ply"), InputError);
+  EXPECT_THROW(write_point_cloud(map, flat, folder.path() / "points.ply"), InputError);
   EXPECT_THROW(write_map(map, folder.path() / "map.exr", MapFormat::exr, {.threads = -1}),
                UsageError);
 }

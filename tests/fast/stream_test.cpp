@@ -203,7 +203,7 @@ TEST(FastStream, FrontDoorDescribesTheMap) {
   const DepthMap ours = render(both.streamed, camera, options);
   const DepthMap truth = render(both.scene, camera, options);
   expect_same_map(ours, truth);
-  EXPECT_EQ(ours.texts, truth.texts);
+  EXPECT_EQ(texts_of(ours), texts_of(truth));
   EXPECT_EQ(ours.object_names, truth.object_names);
   EXPECT_EQ(ours.object_names, (std::vector<std::string>{"cube", "cube-little-endian"}));
   options.engine = Engine::reference;

@@ -148,12 +148,11 @@ TEST(Background, IsReadBackFromFiles) {
 }
 
 TEST(Background, ConversionsKnowIt) {
-  MapView view;
-  view.fx = view.fy = 100;
+  Camera camera{.width = 3, .height = 1, .fx = 100, .fy = 100};
   const StereoRig rig{0.5, 0};
   const DepthMap map = with_background(map_of(2, 1, "Z", std::vector<float>{10, inf}), -1);
   const auto convert = [&](DepthQuantity from, DepthQuantity to, const DepthMap& source) {
-    return convert_quantity(source, from, to, view, rig);
+    return convert_quantity(source, from, to, camera, rig);
   };
   using enum DepthQuantity;
   const DepthMap distance = convert(planar_depth, ray_distance, map);
@@ -172,12 +171,11 @@ TEST(Background, ConversionsKnowIt) {
 }
 
 TEST(Background, OfDisparitiesWithAnOffsetMayBeAmbiguous) {
-  MapView view;
-  view.fx = view.fy = 100;
+  Camera camera{.width = 3, .height = 1, .fx = 100, .fy = 100};
   // The first is so far away that its disparity, 50/12.5 − 4, is 0.
   const DepthMap map = map_of(3, 1, "Z", std::vector<float>{12.5f, inf, 25});
   const auto convert = [&](std::optional<double> background) {
-    return convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::disparity, view,
+    return convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::disparity, camera,
                             StereoRig{0.5, 4}, background);
   };
   EXPECT_THROW(convert({}), OutputError);

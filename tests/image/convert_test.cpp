@@ -22,96 +22,84 @@ using namespace fathom::testing;
 constexpr float inf = std::numeric_limits<float>::infinity();
 
 /// The ray of pixel (0, 0) is the z axis; its neighbours are 1/fx and 1/fy away.
-MapView easy_view() {
-  MapView view;
-  view.fx = 1;
-  view.fy = 1;
-  view.cx = 0.5;
-  view.cy = 0.5;
-  return view;
-}
-
-TEST(Inverse, IsExactUpToOneRounding) {
-  MapView view;
-  view.world_to_camera = {{{3, 0, 0, 6}, {0, 0, -2, 5}, {0, 7, 1, -1}}};
-  const auto m = camera_to_world(view);
-  // x = (x' − 6)/3; z = −(y' − 5)/2; y = (z' + 1 − z)/7 = (z' + 1 + (y' − 5)/2)/7
-  EXPECT_EQ(m[0], (std::array<double, 4>{1.0 / 3, 0, 0, -2}));
-  EXPECT_EQ(m[1], (std::array<double, 4>{0, 1.0 / 14, 1.0 / 7, -1.5 / 7}));
-  EXPECT_EQ(m[2], (std::array<double, 4>{0, -0.5, 0, 2.5}));
-  view.world_to_camera[0][0] = 0;
-  EXPECT_THROW(camera_to_world(view), InputError);
+Camera easy_camera() {
+  Camera camera;
+  camera.width = 4;
+  camera.height = 1;
+  camera.cx = 0.5;
+  camera.cy = 0.5;
+  return camera;
 }
 
 TEST(PointAt, ObeysTheSpecification) {
-  MapView view;
-  view.fx = 2;
-  view.fy = 4;
-  view.cx = 1;
-  view.cy = 3;
-  view.skew = 0.5;
-  view.pixel_centre = 0;
+  Camera camera;
+  camera.fx = 2;
+  camera.fy = 4;
+  camera.cx = 1;
+  camera.cy = 3;
+  camera.skew = 0.5;
+  camera.pixel_centre = 0;
   // Forward: U/W = fx·x' + skew·y' + cx + ½ must be i + ½, V/W likewise.
-  const auto [x, y, z] = point_at(view, 7, 5, 8);
+  const auto [x, y, z] = point_at(camera, 7, 5, 8);
   EXPECT_EQ(2 * x / z + 0.5 * y / z + 1.5, 7.5);
   EXPECT_EQ(4 * y / z + 3.5, 5.5);
   EXPECT_EQ(z, 8);
-  view.orthographic = true;
-  view.pixel_centre = 0.5;
-  const auto p = point_at(view, 7, 5, 8);
+  camera.projection = Projection::orthographic;
+  camera.pixel_centre = 0.5;
+  const auto p = point_at(camera, 7, 5, 8);
   EXPECT_EQ(2 * p[0] + 0.5 * p[1] + 1, 7.5);
   EXPECT_EQ(4 * p[1] + 3, 5.5);
   EXPECT_EQ(p[2], 8);
 }
 
 TEST(Quantities, DistanceAndDepthOfAThreeFourFiveTriangle) {
-  MapView view = easy_view();
-  view.fx = 4;  // pixel 3 lies (3 + ½ − ½)/4 = ¾ to the right: a ray of length 5/4
+  Camera camera = easy_camera();
+  camera.fx = 4;  // pixel 3 lies (3 + ½ − ½)/4 = ¾ to the right: a ray of length 5/4
   const DepthMap map = map_of(4, 1, "Z", std::vector<float>{8, inf, std::nanf(""), 8});
   const DepthMap distance =
-      convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::ray_distance, view);
+      convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::ray_distance, camera);
   EXPECT_EQ(*distance.values<float>("distance"), (std::vector<float>{8, inf, inf, 10}));
   const DepthMap back =
-      convert_quantity(distance, DepthQuantity::ray_distance, DepthQuantity::planar_depth, view);
+      convert_quantity(distance, DepthQuantity::ray_distance, DepthQuantity::planar_depth, camera);
   EXPECT_EQ(*back.values<float>("Z"), (std::vector<float>{8, inf, inf, 8}));
-  view.orthographic = true;
+  camera.projection = Projection::orthographic;
   const DepthMap flat =
-      convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::ray_distance, view);
+      convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::ray_distance, camera);
   EXPECT_EQ(flat.values<float>("distance")->at(3), 8);
 }
 
 TEST(Quantities, DisparityIsMiddleburys) {
-  MapView view = easy_view();
-  view.fx = 100;
+  Camera camera = easy_camera();
+  camera.fx = 100;
   const StereoRig rig{0.5, 4};
   const DepthMap map = map_of(3, 1, "Z", std::vector<double>{10, INFINITY, 2.5});
   const DepthMap d =
-      convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::disparity, view, rig);
+      convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::disparity, camera, rig);
   EXPECT_THAT(*d.values<double>("disparity"), ElementsAre(1, 0, 16));
   EXPECT_EQ(d.texts.at("fathom.background"), "0");
   const DepthMap back =
-      convert_quantity(d, DepthQuantity::disparity, DepthQuantity::planar_depth, view, rig);
+      convert_quantity(d, DepthQuantity::disparity, DepthQuantity::planar_depth, camera, rig);
   EXPECT_THAT(*back.values<double>("Z"), ElementsAre(10, INFINITY, 2.5));
   EXPECT_EQ(back.texts.count("fathom.background"), 0u);
   const DepthMap unknown = convert_quantity(map, DepthQuantity::planar_depth,
-                                            DepthQuantity::disparity, view, rig, INFINITY);
+                                            DepthQuantity::disparity, camera, rig, INFINITY);
   EXPECT_THAT(*unknown.values<double>("disparity"), ElementsAre(1, INFINITY, 16));
   const DepthMap behind = map_of(2, 1, "disparity", std::vector<float>{-4, -4.5f});
   try {
-    convert_quantity(behind, DepthQuantity::disparity, DepthQuantity::planar_depth, view, rig);
+    convert_quantity(behind, DepthQuantity::disparity, DepthQuantity::planar_depth, camera, rig);
     FAIL();
   } catch (const InputError& failure) {
     EXPECT_THAT(failure.what(), HasSubstr("pixel (1, 0)"));
   }
-  const auto to_disparity = [&](const MapView& v, std::optional<StereoRig> r) {
-    convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::disparity, v, r);
+  const auto to_disparity = [&](const Camera& c, std::optional<StereoRig> r) {
+    convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::disparity, c, r);
   };
-  EXPECT_THROW(to_disparity(view, std::nullopt), UsageError);
-  EXPECT_THROW(to_disparity(view, StereoRig{0, 0}), UsageError);
-  view.orthographic = true;
-  EXPECT_THROW(to_disparity(view, rig), UsageError);
+  EXPECT_THROW(to_disparity(camera, std::nullopt), UsageError);
+  EXPECT_THROW(to_disparity(camera, StereoRig{0, 0}), UsageError);
+  camera.projection = Projection::orthographic;
+  EXPECT_THROW(to_disparity(camera, rig), UsageError);
   EXPECT_THROW(
-      convert_quantity(map, DepthQuantity::ray_distance, DepthQuantity::disparity, view, rig),
+      convert_quantity(map, DepthQuantity::ray_distance, DepthQuantity::disparity, camera, rig),
       UsageError);
 }
 
@@ -177,15 +165,15 @@ std::string contents_of(const std::filesystem::path& path) {
 
 TEST(PointCloud, HoldsPointsNormalsAndIdentifiers) {
   const Folder folder;
-  MapView view = easy_view();
-  view.fx = 4;
-  view.world_to_camera = {{{0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, 1, -100}}};
+  Camera camera = easy_camera();
+  camera.fx = 4;
+  camera.world_to_camera = {{{0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, 1, -100}}};
   DepthMap map = map_of(4, 1, "Z", std::vector<float>{8, inf, inf, 8});
   map.channels.push_back({"id", std::vector<std::uint32_t>{5, no_surface, 6, 7}});
   for (const char* axis : {"N.X", "N.Y", "N.Z"})
     map.channels.push_back({axis, std::vector<float>(4, axis[2] == 'X' ? 1.0f : 0.0f)});
   PointCloudOptions options;
-  write_point_cloud(map, view, folder / "a.ply", options);
+  write_point_cloud(map, camera, folder / "a.ply", options);
   const std::string header =
       "ply\nformat binary_little_endian 1.0\ncomment world frame\nelement vertex 2\n"
       "property double x\nproperty double y\nproperty double z\n"
@@ -204,9 +192,9 @@ TEST(PointCloud, HoldsPointsNormalsAndIdentifiers) {
 
   options.frame = PointFrame::camera;
   options.binary64 = false;
-  write_point_cloud(map, view, folder / "a.ply", options);
-  const std::string camera = contents_of(folder / "a.ply");
-  const auto* last = reinterpret_cast<const std::byte*>(camera.data()) + camera.size() - 28;
+  write_point_cloud(map, camera, folder / "a.ply", options);
+  const std::string second = contents_of(folder / "a.ply");
+  const auto* last = reinterpret_cast<const std::byte*>(second.data()) + second.size() - 28;
   const auto small = [&](std::size_t k) { return load<float>(last + 4 * k, std::endian::little); };
   EXPECT_EQ(small(0), 6);
   EXPECT_EQ(small(1), 0);
@@ -220,15 +208,15 @@ TEST(PointCloud, TakesExactPositionsWhereTheMapHasThem) {
   DepthMap map = map_of(1, 1, "Z", std::vector<float>{8});
   for (const char* axis : {"P.X", "P.Y", "P.Z"})
     map.channels.push_back({axis, std::vector<float>{static_cast<float>(axis[2])}});
-  write_point_cloud(map, easy_view(), folder / "a.ply");
+  write_point_cloud(map, easy_camera(), folder / "a.ply");
   const std::string file = contents_of(folder / "a.ply");
   const auto* data = reinterpret_cast<const std::byte*>(file.data()) + file.size() - 24;
   EXPECT_EQ(load<double>(data, std::endian::little), 'X');
   EXPECT_EQ(load<double>(data + 16, std::endian::little), 'Z');
   EXPECT_THROW(
-      write_point_cloud(map_of(1, 1, "A", std::vector<float>{1}), easy_view(), folder / "b.ply"),
+      write_point_cloud(map_of(1, 1, "A", std::vector<float>{1}), easy_camera(), folder / "b.ply"),
       UsageError);
-  EXPECT_THROW(write_point_cloud(map, easy_view(), "/dev/full"), OutputError);
+  EXPECT_THROW(write_point_cloud(map, easy_camera(), "/dev/full"), OutputError);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/image/background.h"
 #include "fathom/image/files/map_codecs.h"
+#include "fathom/image/files/world_from_image.h"
 #include "tests/image/map_samples.h"
 #include "tests/image/run_program.h"
 
@@ -20,6 +21,15 @@ using ::testing::Not;
 using namespace fathom::testing;
 
 constexpr float inf = std::numeric_limits<float>::infinity();
+
+/// Looks down: 3 and 3/2 pixels to the unit, x to the right and y upwards in the image.
+Camera from_above() {
+  Camera camera{.width = 4, .height = 3, .projection = Projection::orthographic};
+  camera.fx = 3;
+  camera.fy = 1.5;
+  camera.world_to_camera = {{{1, 0, 0, -0.1}, {0, -1, 0, 1e6 + 1.0 / 7}, {0, 0, -1, 10}}};
+  return camera;
+}
 
 /// More rows than a strip has, and a last strip that is shorter: numbers of every size, some rows equal.
 DepthMap plan(std::uint32_t width, std::uint32_t height) {
@@ -35,15 +45,16 @@ DepthMap plan(std::uint32_t width, std::uint32_t height) {
   DepthMap map = map_of(width, height, "Z", z);
   map.channels.push_back({"A", a});
   for (const char* name : {"P.X", "P.Y", "P.Z"}) map.channels.push_back({name, position});
-  map.texts = {{"fathom.camera", R"({"width": 3, "a": "<&>&lt;"})"},
-               {"fathom.engine", "reference"}};
-  map.world_from_image = {0.1, 1.0 / 3, 0, 1e6 + 1.0 / 7, 0, -2.0 / 3};
+  map.texts = {{"note", R"({"width": 3, "a": "<&>&lt;"})"}, {"fathom.engine", "reference"}};
+  map.camera = from_above();
+  map.camera->width = width;
+  map.camera->height = height;
   return map;
 }
 
 std::string unwritten(const DepthMap& map) {
   try {
-    (void)encode_geotiff(map, 1, "a.tif");
+    (void)encode_geotiff(map, {}, 1, "a.tif");
   } catch (const OutputError& failure) {
     return failure.what();
   }
@@ -56,6 +67,7 @@ Outcome python(const Folder& folder, const std::string& script) {
 }
 
 const std::string open_in_gdal = R"(
+import json
 import numpy as np
 from osgeo import gdal
 gdal.UseExceptions()
@@ -73,7 +85,8 @@ TEST(GeoTiff, GdalReadsBandsPlaceAndTexts) {
 assert [band.GetDescription() for band in bands] == ['Z', 'A', 'P.X', 'P.Y', 'P.Z']
 assert file.GetGeoTransform() == (0.1, 1 / 3, 0, 1e6 + 1 / 7, 0, -2 / 3), file.GetGeoTransform()
 assert file.GetMetadataItem('AREA_OR_POINT') == 'Area'
-assert file.GetMetadataItem('fathom.camera') == '{"width": 3, "a": "<&>&lt;"}'
+assert file.GetMetadataItem('note') == '{"width": 3, "a": "<&>&lt;"}'
+assert json.loads(file.GetMetadataItem('fathom.camera'))['fx'] == 3
 assert file.GetMetadataItem('fathom.engine') == 'reference'
 assert file.GetMetadataItem('INTERLEAVE', 'IMAGE_STRUCTURE') == 'BAND'
 assert file.GetMetadataItem('COMPRESSION', 'IMAGE_STRUCTURE') == 'DEFLATE'
@@ -110,14 +123,17 @@ std::string as_python(const std::array<double, 6>& numbers) {
 
 TEST(GeoTiff, GdalReadsEveryPlace) {
   const Folder folder;
-  for (const auto& g : {std::array<double, 6>{0.1, 0.3, 0, 5, 0, -0.7},   // north up
-                        std::array<double, 6>{0.1, -0.3, 0, 5, 0, -0.7},  // seen from below
-                        std::array<double, 6>{0.1, 0.3, 0, 5, 0, 0.7},    // south up
-                        std::array<double, 6>{0.1, 0, 0.3, 5, 0.7, 0},    // turned by 90°
-                        std::array<double, 6>{1e9 / 3, 0.1, 0.2, -5e-9 / 7, 0.3, -0.1}}) {
-    DepthMap map = plan(4, 3);
-    map.world_from_image = g;
-    write_map(map, folder / "map.tif", MapFormat::tiff);
+  Camera from_below = from_above(), south_up = from_above(), turned = from_above();
+  from_below.fx = -3;
+  south_up.world_to_camera[1] = {0, 1, 0, 0.7};
+  turned.world_to_camera = {{{0, 0.3, 0, 5}, {0.7, 0, 0, 0.1}, {0, 0, -1, 10}}};
+  Camera sheared = turned;
+  sheared.world_to_camera[0][0] = 1e9 / 3;
+  sheared.skew = 0.2;
+  for (const Camera& camera : {from_above(), from_below, south_up, turned, sheared}) {
+    const DepthMap map = plan(4, 3);
+    const std::array<double, 6> g = world_from_image(camera).value();
+    write_map(map, folder / "map.tif", MapFormat::tiff, {.camera = camera});
     write_map(map, folder / "map.npz", MapFormat::npz);
     const Outcome outcome = python(folder, open_in_gdal + "truth = " + as_python(g) +
                                                "\nassert list(file.GetGeoTransform()) == truth, "
@@ -175,12 +191,12 @@ print('equal')
 
 TEST(GeoTiff, BytesAreTheSameWithAnyNumberOfThreads) {
   const DepthMap map = plan(301, 777);
-  EXPECT_EQ(encode_geotiff(map, 1, "a.tif"), encode_geotiff(map, 3, "a.tif"));
+  EXPECT_EQ(encode_geotiff(map, {}, 1, "a.tif"), encode_geotiff(map, {}, 3, "a.tif"));
 }
 
 TEST(GeoTiff, WhatItCannotHoldIsRefused) {
   DepthMap nowhere = plan(4, 3);
-  nowhere.world_from_image.reset();
+  nowhere.camera.reset();
   EXPECT_EQ(unwritten(nowhere),
             "a.tif: a GeoTIFF needs an orthographic camera that looks straight down or up the "
             "world's z axis; .exr holds the map of any camera");

@@ -1,4 +1,4 @@
-// Maps and views that users of the library fill in: what is wrong with one is told in a line, and no
+// Maps and cameras that users of the library fill in: what is wrong with one is told in a line, and no
 // function takes one that is wrong.
 
 #include <gmock/gmock.h>
@@ -31,6 +31,10 @@ DepthMap good_map() {
   map.height = 1;
   map.channels.push_back({"Z", Samples<float>{1.0F, 2.0F}});
   return map;
+}
+
+Camera good_camera() {
+  return {.width = 2, .height = 1};
 }
 
 DepthMap short_map() {
@@ -82,11 +86,11 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"Scale", [](DepthMap& map) { map.png_scale = 1000; }, std::nullopt}),
     [](const auto& fault) { return std::string(fault.param.name); });
 
-/// A function that takes a map and a view, one of which is wrong.
+/// A function that takes a map and a camera, one of which is wrong.
 struct Door {
   const char* name;
-  std::function<void(const DepthMap&, const MapView&, const testing::Folder&)> call;
-  bool takes_a_view = false;
+  std::function<void(const DepthMap&, const Camera&, const testing::Folder&)> call;
+  bool takes_a_camera = false;
 };
 
 void PrintTo(const Door& door, std::ostream* to) {
@@ -95,9 +99,9 @@ void PrintTo(const Door& door, std::ostream* to) {
 
 class EveryFunction : public ::testing::TestWithParam<Door> {
  protected:
-  [[nodiscard]] std::string failure_of(const DepthMap& map, const MapView& view) const {
+  [[nodiscard]] std::string failure_of(const DepthMap& map, const Camera& camera) const {
     try {
-      GetParam().call(map, view, folder_);
+      GetParam().call(map, camera, folder_);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -107,21 +111,22 @@ class EveryFunction : public ::testing::TestWithParam<Door> {
 };
 
 TEST_P(EveryFunction, TakesWhatIsRight) {
-  EXPECT_EQ(failure_of(good_map(), {}), "none");
+  EXPECT_EQ(failure_of(good_map(), good_camera()), "none");
 }
 
 TEST_P(EveryFunction, RefusesAMapThatIsWrong) {
-  EXPECT_THAT(failure_of(short_map(), {}), HasSubstr("map: channel 'Z' has 1 value,"));
+  EXPECT_THAT(failure_of(short_map(), good_camera()), HasSubstr("map: channel 'Z' has 1 value,"));
 }
 
-TEST_P(EveryFunction, RefusesAViewThatIsWrong) {
-  if (!GetParam().takes_a_view) return;
-  MapView view;
-  view.fy = 0;
-  EXPECT_EQ(failure_of(good_map(), view), "view: fx or fy is 0");
-  view.fy = 1;
-  view.world_to_camera[1][3] = std::nan("");
-  EXPECT_EQ(failure_of(good_map(), view), "view: a number is not finite");
+TEST_P(EveryFunction, RefusesACameraThatIsWrong) {
+  if (!GetParam().takes_a_camera) return;
+  Camera camera = good_camera();
+  camera.fy = 0;
+  EXPECT_EQ(failure_of(good_map(), camera), "camera: fy is 0, expected any other number");
+  camera.fy = 1;
+  camera.world_to_camera[1][3] = std::nan("");
+  EXPECT_EQ(failure_of(good_map(), camera),
+            "camera: world_to_camera has an entry that is not a finite number");
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -134,9 +139,9 @@ INSTANTIATE_TEST_SUITE_P(
         Door{"DrawsDifferences",
              [](const auto& map, const auto&, const auto&) { draw_differences(good_map(), map); }},
         Door{"ConvertsAQuantity",
-             [](const auto& map, const auto& view, const auto&) {
+             [](const auto& map, const auto& camera, const auto&) {
                convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::ray_distance,
-                                view);
+                                camera);
              },
              true},
         Door{"ConvertsStorage", [](const auto& map, const auto&,
@@ -153,8 +158,8 @@ INSTANTIATE_TEST_SUITE_P(
                write_map(map, folder / "map.pfm", MapFormat::pfm, {});
              }},
         Door{"WritesPoints",
-             [](const auto& map, const auto& view, const auto& folder) {
-               write_point_cloud(map, view, folder / "points.ply");
+             [](const auto& map, const auto& camera, const auto& folder) {
+               write_point_cloud(map, camera, folder / "points.ply");
              },
              true},
         Door{"DrawsAPreview", [](const auto& map, const auto&, const auto&) { draw_preview(map); }},

@@ -74,14 +74,28 @@ TEST(Exr, KeepsWhatTheMapCarries) {
   const DepthMap back = decode_map(encode_exr(map, Compression::zip, 1, "a.exr"), "a.exr");
   EXPECT_EQ(back.object_names, map.object_names);
   EXPECT_EQ(back.tables, map.tables);
-  EXPECT_EQ(back.world_to_camera, map.world_to_camera);
-  EXPECT_EQ(back.world_to_ndc, map.world_to_ndc);
-  EXPECT_EQ(back.pixel_aspect_ratio, 1.5);
-  EXPECT_EQ(back.screen_window_centre, map.screen_window_centre);
-  EXPECT_EQ(back.screen_window_width, 2.5);
+  EXPECT_EQ(back.numbers, map.numbers);
   EXPECT_EQ(back.texts.at("fathom.camera"), map.texts.at("fathom.camera"));
   EXPECT_EQ(back.texts.at("fathom.engine"), "reference");
   EXPECT_THAT(back.texts.at("software"), HasSubstr("Fathom"));
+}
+
+TEST(Exr, SaysOfACameraWhatOtherProgramsKnow) {
+  DepthMap map = map_of(4, 2, "Z", std::vector<float>(8));
+  map.camera = Camera{.width = 4, .height = 2, .fx = 2, .fy = 3, .cx = 1, .cy = 1};
+  const Bytes bytes = encode_exr(map, Compression::zip, 1, "a.exr");
+  const DepthMap back = decode_map(bytes, "a.exr");
+  EXPECT_FALSE(back.camera);
+  EXPECT_EQ(back.texts.at("fathom.camera"), texts_of(map).at("fathom.camera"));
+  EXPECT_EQ(camera_of(back, "a.exr")->fy, 3);
+  const std::map<std::string, std::vector<double>> expected{
+      {"worldToCamera", {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}},
+      {"worldToNDC", {0.5, 0, 0, 0, 0, 1.5, 0, 0, 0.25, 0.5, 1, 1, 0, 0, 0, 0}},
+      {"pixelAspectRatio", {1.5}},
+      {"screenWindowCenter", {0.5, 0}},
+      {"screenWindowWidth", {2}}};
+  EXPECT_EQ(back.numbers, expected);
+  EXPECT_EQ(encode_exr(back, Compression::zip, 1, "a.exr"), bytes);
 }
 
 TEST(Exr, BytesDoNotDependOnThreadsOrTime) {
@@ -93,13 +107,15 @@ TEST(Exr, BytesDoNotDependOnThreadsOrTime) {
 
 TEST(Exr, LeavesOutNumbersThatItsHeaderCannotHold) {
   DepthMap map = full_map(2, 2);
-  (*map.world_to_camera)[3] = 1e150;
-  map.screen_window_width = -1;
-  map.pixel_aspect_ratio = -2;
+  map.numbers["worldToCamera"][3] = 1e150;
+  map.numbers["worldToNDC"].pop_back();
+  map.numbers["screenWindowWidth"] = {-1};
+  map.numbers["pixelAspectRatio"] = {-2};
   const DepthMap back = decode_map(encode_exr(map, Compression::zip, 1, "a.exr"), "a.exr");
-  EXPECT_FALSE(back.world_to_camera);
-  EXPECT_EQ(back.screen_window_width, 1);
-  EXPECT_EQ(back.pixel_aspect_ratio, 1);
+  EXPECT_EQ(
+      back.numbers,
+      (std::map<std::string, std::vector<double>>{
+          {"screenWindowCenter", {0, 0}}, {"screenWindowWidth", {1}}, {"pixelAspectRatio", {1}}}));
 }
 
 TEST(Exr, RefusesBinary64AndCodes) {

@@ -108,11 +108,11 @@ inline DepthMap full_map(std::uint32_t width, std::uint32_t height) {
   map.object_names = {"spot", "wall \"é\"", ""};
   map.tables = {{"material", {"oak", std::string("a\0b", 3), "ひ"}}, {"part", {"lid"}}};
   map.texts = {{"fathom.camera", "{\"width\": 3}"}, {"fathom.engine", "reference"}};
-  map.world_to_camera = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0, 0, 0, 1};
-  map.world_to_ndc = {0.5, 0, 0.5, 0, 0, 0.25, 0.5, 0, 0, 0, 1, 0, 0, 0, 1, 0};
-  map.pixel_aspect_ratio = 1.5;
-  map.screen_window_centre = {0.25, -0.125};
-  map.screen_window_width = 2.5;
+  map.numbers = {{"worldToCamera", {1, 5, 9, 0, 2, 6, 10, 0, 3, 7, 11, 0, 4, 8, 12, 1}},
+                 {"worldToNDC", {0.5, 0, 0, 0, 0, 0.25, 0, 0, 0.5, 0.5, 1, 1, 0, 0, 0, 0}},
+                 {"pixelAspectRatio", {1.5}},
+                 {"screenWindowCenter", {0.25, -0.125}},
+                 {"screenWindowWidth", {2.5}}};
   return map;
 }
 

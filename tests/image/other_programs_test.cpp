@@ -43,8 +43,8 @@ DepthMap sample() {
   map.tables["material"] = {"oak", "steel"};
   map.texts["fathom.camera"] =
       R"({"width": 4, "height": 3, "fx": 2.0, "fy": 2.0, "cx": 2.0, "cy": 1.5})";
-  map.world_to_camera = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0, 0, 0, 1};
-  map.world_to_ndc = {0.5, 0, 0.25, 0.125, 0, 0.75, 0.5, 3, 0, 0, 1, 0, 0, 0, 1, 0};
+  map.numbers["worldToCamera"] = {1, 5, 9, 0, 2, 6, 10, 0, 3, 7, 11, 0, 4, 8, 12, 1};
+  map.numbers["worldToNDC"] = {0.5, 0, 0, 0, 0, 0.75, 0, 0, 0.25, 0.5, 1, 1, 0.125, 3, 0, 0};
   return map;
 }
 
@@ -96,7 +96,6 @@ TEST(OpenImageIO, ReadsExrInEveryCompression) {
     EXPECT_THAT(info.output, HasSubstr("Stats Min: 1.500000"));
     EXPECT_THAT(info.output, HasSubstr("Stats Max: 6.500000"));
     EXPECT_THAT(info.output, HasSubstr("Stats InfCount: 1 0 0"));
-    // For row vectors: the columns of ours are its rows.
     EXPECT_THAT(info.output,
                 HasSubstr("worldToCamera: 1, 5, 9, 0, 2, 6, 10, 0, 3, 7, 11, 0, 4, 8, 12, 1"));
     EXPECT_THAT(info.output, HasSubstr("worldToNDC: 0.5, 0, 0, 0, 0, 0.75, 0, 0, 0.25, 0.5, 1, 1, "

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "fathom/camera/camera.h"
 #include "fathom/image/channel_table.h"
 #include "fathom/image/depth_map.h"
 
@@ -12,29 +13,10 @@
 /// ties to even, to the type of the channel.
 namespace fathom {
 
-/// What this room needs to know about a camera; the specification's section 2 in binary64.
-struct MapView {
-  bool orthographic = false;
-  /// In pixels; for an orthographic camera fx, fy and skew in pixels per scene unit.
-  double fx = 1, fy = 1, cx = 0, cy = 0, skew = 0;
-  double pixel_centre = 0.5;
-  /// 3×4 [R | t], world to camera frame (x right, y down, z forward).
-  std::array<std::array<double, 4>, 3> world_to_camera{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-};
-
-/// Refuses a view that is not one.
-/// Fails    InputError, "view: …", where a number is not finite, or fx or fy is 0.
-void require_valid(const MapView& view);
-
-/// The inverse [R⁻¹ | −R⁻¹·t], camera frame to world.
-/// Exact    every entry is the exact one rounded once to binary64.
-/// Fails    InputError if det R = 0, tested exactly, or the view is not one (require_valid).
-std::array<std::array<double, 4>, 3> camera_to_world(const MapView& view);
-
 /// The point seen at the centre of pixel (i, j) at planar depth `z`; camera frame, scene units.
 ///   perspective    y' = (j + ½ − cy')/fy, x' = (i + ½ − cx' − skew·y')/fx, point (x'·z, y'·z, z)
 ///   orthographic   (x', y', z)
-std::array<double, 3> point_at(const MapView& view, double i, double j, double z);
+std::array<double, 3> point_at(const Camera& camera, double i, double j, double z);
 
 enum class DepthQuantity { planar_depth, ray_distance, disparity };
 /// The channel that holds it: Z, distance or disparity.
@@ -54,13 +36,13 @@ struct StereoRig {
 /// +∞, a disparity is Middlebury's "unknown" there.
 ///   ray distance   Z·√(1 + x'² + y'²) with x', y' as in point_at() (Z itself if orthographic)
 /// Fails    UsageError if the channel `from` is missing or holds codes, or if disparity is asked
-///          for without a rig, with baseline ≤ 0, or with an orthographic view, or for a background
-///          that is none (with_background); InputError if the map or the view has a fault, and,
+///          for without a rig, with baseline ≤ 0, or with an orthographic camera, or for a background
+///          that is none (with_background); InputError if the map or the camera has a fault, and,
 ///          naming the pixel, if a disparity plus doffs is negative (no point has it); OutputError,
 ///          naming the pixel, if a surface has the value of the background: with doffs or in binary32,
 ///          a disparity can be 0.
 DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity to,
-                          const MapView& view, const std::optional<StereoRig>& rig = std::nullopt,
+                          const Camera& camera, const std::optional<StereoRig>& rig = std::nullopt,
                           std::optional<double> background = std::nullopt);
 
 /// Returns a map with only `channel` (empty: Z, or else the only channel), stored as `type`.

@@ -14,16 +14,16 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// √(1 + x'² + y'²) at the centre of pixel (i, j): ray distance over planar depth.
-double stretch_at(const MapView& view, double i, double j) {
-  if (view.orthographic) return 1;
-  const auto [x, y, one] = point_at(view, i, j, 1);
+double stretch_at(const Camera& camera, double i, double j) {
+  if (camera.projection == Projection::orthographic) return 1;
+  const auto [x, y, one] = point_at(camera, i, j, 1);
   return std::hypot(one, x, y);
 }
 
 /// Conversions at one pixel, all of them through planar depth.
 struct Converter {
   DepthQuantity from, to;
-  const MapView& view;
+  const Camera& camera;
   StereoRig rig;
 
   [[nodiscard]] double planar(double value, double i, double j) const {
@@ -31,7 +31,7 @@ struct Converter {
       case DepthQuantity::planar_depth:
         return value;
       case DepthQuantity::ray_distance:
-        return value / stretch_at(view, i, j);
+        return value / stretch_at(camera, i, j);
       case DepthQuantity::disparity:
         break;
     }
@@ -39,7 +39,7 @@ struct Converter {
       throw InputError("pixel (" + std::to_string(static_cast<long>(i)) + ", " +
                        std::to_string(static_cast<long>(j)) +
                        "): the disparity with its offset is negative, so nothing can be there");
-    return std::abs(view.fx) * rig.baseline / (value + rig.doffs);
+    return std::abs(camera.fx) * rig.baseline / (value + rig.doffs);
   }
 
   /// +∞ where there is no number for it: of an overflowed depth, or a NaN.
@@ -48,15 +48,16 @@ struct Converter {
     if (!std::isfinite(value)) return infinity;
     const double z = planar(value, i, j);
     if (to == DepthQuantity::planar_depth) return z;
-    if (to == DepthQuantity::ray_distance) return z * stretch_at(view, i, j);
-    return std::isfinite(z) ? std::abs(view.fx) * rig.baseline / z - rig.doffs : infinity;
+    if (to == DepthQuantity::ray_distance) return z * stretch_at(camera, i, j);
+    return std::isfinite(z) ? std::abs(camera.fx) * rig.baseline / z - rig.doffs : infinity;
   }
 };
 
-StereoRig checked(const MapView& view, const std::optional<StereoRig>& rig) {
+StereoRig checked(const Camera& camera, const std::optional<StereoRig>& rig) {
   if (!rig || !(rig->baseline > 0) || !std::isfinite(rig->baseline) || !std::isfinite(rig->doffs))
     throw UsageError("disparity needs a baseline that is a positive number");
-  if (view.orthographic) throw UsageError("there is no disparity between orthographic views");
+  if (camera.projection == Projection::orthographic)
+    throw UsageError("there is no disparity between orthographic views");
   return *rig;
 }
 
@@ -85,6 +86,15 @@ double usual_background(const DepthMap& map, DepthQuantity from, DepthQuantity t
 
 }  // namespace
 
+std::array<double, 3> point_at(const Camera& camera, double i, double j, double z) {
+  const StandardArithmetic standard;
+  // (i + ½) − (c + ½ − pixel_centre) = i − c + pixel_centre
+  const double y = (j - camera.cy + camera.pixel_centre) / camera.fy;
+  const double x = (i - camera.cx + camera.pixel_centre - camera.skew * y) / camera.fx;
+  if (camera.projection == Projection::orthographic) return {x, y, z};
+  return {x * z, y * z, z};
+}
+
 std::string channel_of(DepthQuantity quantity) {
   switch (quantity) {
     case DepthQuantity::planar_depth:
@@ -98,17 +108,17 @@ std::string channel_of(DepthQuantity quantity) {
 }
 
 DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity to,
-                          const MapView& view, const std::optional<StereoRig>& rig,
+                          const Camera& camera, const std::optional<StereoRig>& rig,
                           std::optional<double> background) {
   const StandardArithmetic standard;
   require_valid(map);
-  require_valid(view);
+  require_valid(camera);
   const std::string name = channel_of(from);
   const ImageChannel* source = map.find(name);
   if (!source) throw missing_channel(map, name);
-  Converter convert{from, to, view, {}};
+  Converter convert{from, to, camera, {}};
   if (from == DepthQuantity::disparity || to == DepthQuantity::disparity)
-    convert.rig = checked(view, rig);
+    convert.rig = checked(camera, rig);
 
   const std::vector<std::uint8_t> surface = surface_mask(map, *source);
   DepthMap result = map;

@@ -6,7 +6,9 @@
 #include <string_view>
 #include <utility>
 
+#include "fathom/camera/camera_files.h"
 #include "fathom/failures/errors.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/counted.h"
 
 namespace fathom {
@@ -53,6 +55,30 @@ std::optional<std::string> find_fault(const DepthMap& map) {
 
 void require_valid(const DepthMap& map) {
   if (const auto fault = find_fault(map)) throw InputError("map: " + *fault);
+}
+
+namespace {
+
+constexpr const char* camera_text = "fathom.camera";
+
+}  // namespace
+
+std::optional<Camera> camera_of(const DepthMap& map, const std::string& name) {
+  const StandardArithmetic standard;
+  if (map.camera) return map.camera;
+  const auto text = map.texts.find(camera_text);
+  if (text == map.texts.end()) return std::nullopt;
+  const std::string place = name + ": " + camera_text;
+  std::vector<Camera> cameras = read_cameras(text->second, place);
+  if (cameras.size() != 1) throw InputError(place + " does not hold one camera");
+  return std::move(cameras[0]);
+}
+
+std::map<std::string, std::string> texts_of(const DepthMap& map) {
+  const StandardArithmetic standard;
+  std::map<std::string, std::string> texts = map.texts;
+  if (map.camera) texts[camera_text] = to_json(*map.camera);
+  return texts;
 }
 
 }  // namespace fathom

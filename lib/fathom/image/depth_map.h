@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -8,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "fathom/camera/camera.h"
 #include "fathom/image/samples.h"
 
 namespace fathom {
@@ -28,7 +28,7 @@ struct ImageChannel {
 
 /// A rendered map: named channels of one size, and what is needed to compute it again. Values are
 /// those of the specification, section 6, with their units, already rounded. Not its task: to look
-/// at the scene or the camera; the texts are opaque to this room.
+/// at the scene.
 struct DepthMap {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
@@ -44,23 +44,16 @@ struct DepthMap {
   std::vector<std::string> object_names;
   /// What the numbers in other channels stand for: tables["material"][n] is the name of material n.
   std::map<std::string, std::vector<std::string>> tables;
-  /// Attributes as they are in the file: `fathom.camera`, `fathom.sources`, `fathom.engine`, …
-  /// (`fathom.objects` is made from object_names, `fathom.materials` and the like from tables).
+  /// Attributes as they are in the file: `fathom.sources`, `fathom.engine`, … (`fathom.camera` is made from
+  /// camera, `fathom.objects` from object_names, `fathom.materials` and the like from tables).
   std::map<std::string, std::string> texts;
-  /// EXR's standard camera matrices for column vectors, row by row (the file holds them for row
-  /// vectors, in binary32): world to camera with x right, y up, z forward; world to NDC with
-  /// (0, 0) the top left and (1, 1) the bottom right corner.
-  std::optional<std::array<double, 16>> world_to_camera;
-  std::optional<std::array<double, 16>> world_to_ndc;
-  /// EXR's pixelAspectRatio, screenWindowCenter (x right, y up) and screenWindowWidth.
-  double pixel_aspect_ratio = 1;
-  std::array<double, 2> screen_window_centre{0, 0};
-  double screen_window_width = 1;
-  /// What a GeoTIFF needs, where the camera has it: image to world for an orthographic camera that
-  /// looks along the world's z axis, in the order of GDAL's geotransform g. With u to the right and v
-  /// downwards from the top left corner of the image, in pixels, x = g[0] + g[1]·u + g[2]·v and
-  /// y = g[3] + g[4]·u + g[5]·v, whatever the depth. Each is the exact number rounded once.
-  std::optional<std::array<double, 6>> world_from_image;
+  /// What it was rendered with; files are told of it as they need it, `fathom.camera` among their texts.
+  /// None in a map that was read: camera_of() finds it in the texts.
+  std::optional<Camera> camera;
+  /// Attributes of an EXR that was read, as they are in it: `worldToCamera` and `worldToNDC`, row by row,
+  /// `pixelAspectRatio`, `screenWindowCenter` and `screenWindowWidth`. An EXR of a map without `camera`
+  /// has them again.
+  std::map<std::string, std::vector<double>> numbers;
 
   /// nullptr if there is no such channel.
   [[nodiscard]] const ImageChannel* find(const std::string& name) const;
@@ -86,5 +79,13 @@ std::optional<std::string> find_fault(const DepthMap& map);
 /// Refuses a map that is not valid.
 /// Fails    InputError, "map: " and what find_fault() says.
 void require_valid(const DepthMap& map);
+
+/// The camera that a map carries: its own, or the one in its text `fathom.camera`; nullopt if it carries
+/// none. `name` is the map's for messages.
+/// Fails    InputError where the text is not one camera.
+std::optional<Camera> camera_of(const DepthMap& map, const std::string& name);
+
+/// The texts that a file of the map has, its camera among them.
+std::map<std::string, std::string> texts_of(const DepthMap& map);
 
 }  // namespace fathom

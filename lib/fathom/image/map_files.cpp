@@ -100,14 +100,6 @@ void require_size(MapFormat format, std::uint32_t width, std::uint32_t height,
   }
 }
 
-void require_world_from_image(const std::optional<std::array<double, 6>>& world_from_image,
-                              const std::string& name) {
-  if (world_from_image) return;
-  throw OutputError(name +
-                    ": a GeoTIFF needs an orthographic camera that looks straight down or up the "
-                    "world's z axis; .exr holds the map of any camera");
-}
-
 double memory_to_encode(MapFormat format, Compression compression, std::uint32_t height,
                         double bytes_of_map) {
   const StandardArithmetic standard;
@@ -136,7 +128,7 @@ std::vector<std::byte> encode_map(const DepthMap& map, const std::string& name, 
     case MapFormat::colmap:
       return encode_colmap(map, channels_to_write(map, options.channel), name);
     case MapFormat::tiff:
-      return encode_geotiff(map, options.threads, name);
+      return encode_geotiff(map, options.camera, options.threads, name);
   }
   throw UsageError(name + ": there is no such format");
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -48,11 +47,10 @@ bool is_colmap_map(std::span<const std::byte> bytes);
 void require_size(MapFormat format, std::uint32_t width, std::uint32_t height,
                   const std::string& name);
 
-/// Refuses to write the map of a camera that has no world_from_image as a GeoTIFF, before any work is
-/// done.
+/// Refuses to write the map of a camera as a GeoTIFF, before any work is done, unless its pixels have a
+/// place in the world whatever their depth: it is orthographic and looks straight along the world's z.
 /// Fails    OutputError "NAME: a GeoTIFF needs an orthographic camera that …".
-void require_world_from_image(const std::optional<std::array<double, 6>>& world_from_image,
-                              const std::string& name);
+void require_place_in_world(const Camera& camera, const std::string& name);
 
 /// Lossless EXR compressions.
 enum class Compression { none, rle, zips, zip, piz };
@@ -64,6 +62,8 @@ struct WriteOptions {
   /// The channel to write as PFM, PNG, NPY or for COLMAP; if empty, the map's only channel. As NPY also
   /// a channel of several parts, "N" for N.X, N.Y and N.Z; for COLMAP "Nc".
   std::string channel;
+  /// What says where in the world a GeoTIFF is; nullopt: the camera that the map carries.
+  std::optional<Camera> camera;
 };
 
 /// How many bytes encode_map() takes at least beside a map of so many: for an EXR that is compressed what a
@@ -83,7 +83,8 @@ double memory_to_encode(MapFormat format, Compression compression, std::uint32_t
 ///         the texts and the names of objects as a JSON object in an array `fathom` that is a text.
 ///   COLMAP  a dense map: Z, 0 where no surface is; or Nc; both binary32 (files/colmap_file.cpp).
 ///   TIFF  a GeoTIFF of less than 4 GiB, for others to read: a band of binary32 for every channel, with
-///         DEFLATE, and world_from_image, which it needs (files/geotiff_write.cpp).
+///         DEFLATE, and its place in the world, by a camera that require_place_in_world() takes
+///         (files/geotiff_write.cpp).
 /// Fails    OutputError: "PATH: why" (disk full, not writable), or if the format cannot hold what
 ///          the map has; InputError where the map has a fault (find_fault); UsageError if the
 ///          channel is missing or ambiguous, or the number of threads is out of range.

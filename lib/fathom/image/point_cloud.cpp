@@ -43,9 +43,9 @@ struct Triple {
 /// Where the points come from.
 class Points {
  public:
-  Points(const DepthMap& map, const MapView& view, PointFrame frame)
-      : map_(map), view_(view), frame_(frame), position_(map, "P"), normal_(map, "N") {
-    world_from_camera_ = camera_to_world(view);
+  Points(const DepthMap& map, const Camera& camera, PointFrame frame)
+      : map_(map), camera_(camera), frame_(frame), position_(map, "P"), normal_(map, "N") {
+    world_from_camera_ = camera_to_world(camera);
     if (position_) {
       source_ = map.find("P.X");
     } else {
@@ -85,23 +85,23 @@ class Points {
  private:
   [[nodiscard]] Vector given_point(std::size_t k) const {
     return frame_ == PointFrame::world ? position_[k]
-                                       : transform_point(view_.world_to_camera, position_[k]);
+                                       : transform_point(camera_.world_to_camera, position_[k]);
   }
 
   [[nodiscard]] Vector computed_point(std::size_t k) const {
     const std::size_t column = k % map_.width, row = k / map_.width;
     const auto i = static_cast<double>(column), j = static_cast<double>(row);
     double z = depth_[k];
-    if (ray_distance_ && !view_.orthographic) {
-      const Vector ray = point_at(view_, i, j, 1);
+    if (ray_distance_ && camera_.projection == Projection::perspective) {
+      const Vector ray = point_at(camera_, i, j, 1);
       z /= std::hypot(ray[0], ray[1], ray[2]);
     }
-    const Vector p = point_at(view_, i, j, z);
+    const Vector p = point_at(camera_, i, j, z);
     return frame_ == PointFrame::world ? transform_point(world_from_camera_, p) : p;
   }
 
   const DepthMap& map_;
-  const MapView& view_;
+  const Camera& camera_;
   PointFrame frame_;
   Triple position_, normal_;
   Affine world_from_camera_{};
@@ -134,24 +134,24 @@ std::string header_of(std::size_t points, const PointCloudOptions& options, bool
 
 }  // namespace
 
-std::vector<std::array<double, 3>> points_of(const DepthMap& map, const MapView& view,
+std::vector<std::array<double, 3>> points_of(const DepthMap& map, const Camera& camera,
                                              PointFrame frame) {
   const StandardArithmetic standard;
   require_valid(map);
-  require_valid(view);
-  const Points points(map, view, frame);
+  require_valid(camera);
+  const Points points(map, camera, frame);
   std::vector<Vector> all;
   for (std::size_t k = 0; k < std::size_t{map.width} * map.height; ++k)
     if (const std::optional<Vector> p = points.point(k)) all.push_back(*p);
   return all;
 }
 
-void write_point_cloud(const DepthMap& map, const MapView& view, const std::filesystem::path& path,
+void write_point_cloud(const DepthMap& map, const Camera& camera, const std::filesystem::path& path,
                        const PointCloudOptions& options) {
   const StandardArithmetic standard;
   require_valid(map);
-  require_valid(view);
-  const Points points(map, view, options.frame);
+  require_valid(camera);
+  const Points points(map, camera, options.frame);
   std::vector<std::string> identifiers;
   for (const char* name : {"id", "face", "object"})
     if (map.values<std::uint32_t>(name)) identifiers.emplace_back(name);

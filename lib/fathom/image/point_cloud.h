@@ -15,9 +15,9 @@ enum class PointFrame { world, camera };
 /// rounded once; otherwise points come from `Z` (or `distance`) by point_at() and camera_to_world()
 /// in binary64.
 /// Unit     scene units.
-/// Fails    InputError if the map or the view has a fault; UsageError if there is no Z, distance or
+/// Fails    InputError if the map or the camera has a fault; UsageError if there is no Z, distance or
 ///          P.
-std::vector<std::array<double, 3>> points_of(const DepthMap& map, const MapView& view,
+std::vector<std::array<double, 3>> points_of(const DepthMap& map, const Camera& camera,
                                              PointFrame frame);
 
 struct PointCloudOptions {
@@ -30,7 +30,7 @@ struct PointCloudOptions {
 /// face, object (uint) where it has them. Normals are the map's own (world); for the camera frame
 /// they are transformed by the inverse transpose and normalised again.
 /// Fails    as points_of(); OutputError: "PATH: why".
-void write_point_cloud(const DepthMap& map, const MapView& view, const std::filesystem::path& path,
+void write_point_cloud(const DepthMap& map, const Camera& camera, const std::filesystem::path& path,
                        const PointCloudOptions& options = {});
 
 }  // namespace fathom

@@ -11,7 +11,6 @@
 
 #include "arrays.h"
 #include "bindings.h"
-#include "fathom/camera/world_from_image.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/background.h"
 #include "fathom/image/channel_names.h"
@@ -19,7 +18,6 @@
 #include "fathom/image/convert.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/point_cloud.h"
-#include "fathom/map_description.h"
 #include "running.h"
 
 namespace py = pybind11;
@@ -94,9 +92,9 @@ void write(const SharedMap& map, const std::filesystem::path& path, const std::s
            const std::vector<std::pair<std::string, std::string>>& names,
            const std::optional<Camera>& camera) {
   const MapFormat format = format_of(path);
-  if (camera) map->world_from_image = world_from_image(*camera);
   WriteOptions options;
   options.channel = channel;
+  options.camera = camera;
   options.threads = threads;
   options.compression = compression_named(compression);
   std::vector<ChannelName> others;
@@ -123,7 +121,7 @@ SharedMap convert(const SharedMap& map, const std::string& from, const std::stri
   const DepthQuantity source = quantity_named(from), target = quantity_named(to);
   return run([&](const auto&) {
     return std::make_shared<DepthMap>(
-        convert_quantity(*map, source, target, view_of(camera), rig, background));
+        convert_quantity(*map, source, target, camera, rig, background));
   });
 }
 
@@ -146,13 +144,12 @@ void write_points(const DepthMap& map, const Camera& camera, const std::filesyst
   PointCloudOptions options;
   options.frame = frame_named(frame);
   options.binary64 = binary64;
-  run([&](const auto&) { write_point_cloud(map, view_of(camera), path, options); });
+  run([&](const auto&) { write_point_cloud(map, camera, path, options); });
 }
 
 /// N×3.
 py::array points(const SharedMap& map, const Camera& camera, const std::string& frame) {
-  const auto found =
-      run([&](const auto&) { return points_of(*map, view_of(camera), frame_named(frame)); });
+  const auto found = run([&](const auto&) { return points_of(*map, camera, frame_named(frame)); });
   Samples<double> flat(3 * found.size());
   for (std::size_t i = 0; i < flat.size(); ++i) flat[i] = found[i / 3][i % 3];
   return array_of(std::move(flat), {static_cast<py::ssize_t>(found.size()), 3});
@@ -266,10 +263,12 @@ void bind_maps(Module& core) {
       .def(py::init<>())
       .def_readonly("width", &DepthMap::width)
       .def_readonly("height", &DepthMap::height)
+      .def_property_readonly("camera", [](const DepthMap& map) { return map.camera; })
       .def_readwrite("texts", &DepthMap::texts)
       .def_readwrite("object_names", &DepthMap::object_names)
       .def_readwrite("tables", &DepthMap::tables)
       .def_readwrite("png_scale", &DepthMap::png_scale)
+      .def("texts_of_file", &texts_of)
       .def("take_channels", &take_channels)
       .def("with_channels", &with_channels);
   core.def("read_map", &read);

@@ -49,7 +49,7 @@ class DeepMap:
     @property
     def metadata(self) -> dict[str, str]:
         """The texts of its file: fathom.camera, fathom.sources, …"""
-        return dict(self._description.texts)
+        return self._description.texts_of_file()
 
     def at(self, x: int, y: int) -> slice:
         """The slice with the fragments of a pixel: deep.Z[deep.at(3, 5)]."""

@@ -157,7 +157,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
 
     @property
     def metadata(self) -> dict[str, str]:
-        return dict(self._description.texts)
+        return self._description.texts_of_file()
 
     @property
     def objects(self) -> list[str]:
@@ -184,7 +184,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         if self._views is not None:
             for i in range(len(self._views)):
                 self.view(i)._set_background(value)
-            self._description.texts = dict(self._views[0][1].texts)
+            self._description.texts = self._views[0][1].texts_of_file()
             return
         # Channels with several parts have no depths, and do not show where surfaces are.
         planes = [(name, array) for name, array in self.items() if array.ndim == 2]
@@ -325,7 +325,7 @@ _State = tuple[dict[str, str], list[str], dict[str, list[str]], Union[float, Non
 
 def _state_of(description: _core.Map) -> _State:
     """The contents of a description, as Python objects."""
-    return description.texts, description.object_names, description.tables, description.png_scale
+    return description.texts_of_file(), description.object_names, description.tables, description.png_scale
 
 
 def _description_of(state: _State) -> _core.Map:
@@ -357,6 +357,8 @@ def _positive(name: str, value: object) -> float:
 
 
 def _camera_of(description: _core.Map) -> Camera | None:
+    if description.camera is not None:
+        return Camera._of(description.camera)
     text = description.texts.get("fathom.camera")
     if text is None:
         return None

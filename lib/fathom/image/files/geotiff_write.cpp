@@ -13,6 +13,7 @@
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/name_tables.h"
 #include "fathom/image/files/tiff_directory.h"
+#include "fathom/image/files/world_from_image.h"
 #include "fathom/image/pixel_place.h"
 #include "fathom/image/surface.h"
 #include "fathom/text/version.h"
@@ -163,8 +164,16 @@ TiffStrips compressed_strips(const DepthMap& map, float none, int threads,
 
 // ------------------------------------------------------------------------------- what is said of them
 
+WorldFromImage place_of(const std::optional<Camera>& camera, const std::string& name) {
+  if (camera)
+    if (const auto place = world_from_image(*camera)) return *place;
+  refuse_tiff(name,
+              "a GeoTIFF needs an orthographic camera that looks straight down or up the world's z "
+              "axis; .exr holds the map of any camera");
+}
+
 /// Source   [GEO19] 7.1 (GeoKeyDirectoryTag), annex B.6 (raster to model)
-void add_place(TiffDirectory& directory, const std::array<double, 6>& g) {
+void add_place(TiffDirectory& directory, const WorldFromImage& g) {
   // North up, as most programs expect it: they know scales better than a matrix.
   if (g[1] > 0 && g[5] < 0 && g[2] == 0 && g[4] == 0) {
     directory.add_double(tag::model_pixel_scale, std::array{g[1], -g[5], 0.0});
@@ -220,7 +229,7 @@ std::string xml_item(const std::string& key, const std::string& more, const std:
 std::string gdal_metadata(const DepthMap& map, const std::string& name) {
   std::string xml = "<GDALMetadata>\n";
   std::map<std::string, std::string> texts = name_tables(map);
-  for (const auto& [key, text] : map.texts)
+  for (const auto& [key, text] : texts_of(map))
     if (key != background_text) texts[key] = text;
   for (const auto& [key, text] : texts) {
     require_printable(key, "the name of a text", name);
@@ -235,8 +244,8 @@ std::string gdal_metadata(const DepthMap& map, const std::string& name) {
   return xml + "</GDALMetadata>\n";
 }
 
-TiffDirectory directory_of(const DepthMap& map, float none, std::uint32_t rows,
-                           const std::string& name) {
+TiffDirectory directory_of(const DepthMap& map, const WorldFromImage& place, float none,
+                           std::uint32_t rows, const std::string& name) {
   const auto bands = static_cast<std::uint16_t>(map.channels.size());
   using Shorts = std::vector<std::uint16_t>;
   TiffDirectory directory;
@@ -252,7 +261,7 @@ TiffDirectory directory_of(const DepthMap& map, float none, std::uint32_t rows,
   directory.add_short(tag::predictor, floating_point_predictor);
   if (bands > 1) directory.add_short(tag::extra_samples, Shorts(bands - 1U, unspecified));
   directory.add_short(tag::sample_format, Shorts(bands, floating_point));
-  add_place(directory, *map.world_from_image);
+  add_place(directory, place);
   directory.add_text(tag::gdal_metadata, gdal_metadata(map, name));
   directory.add_text(tag::gdal_nodata, none_as_text(none));
   return directory;
@@ -289,13 +298,23 @@ Bytes assembled_tiff(const TiffDirectory& description, const std::vector<Bytes>&
 
 }  // namespace
 
-Bytes encode_geotiff(const DepthMap& map, int threads, const std::string& name) {
-  require_world_from_image(map.world_from_image, name);
+Bytes encode_geotiff(const DepthMap& map, const std::optional<Camera>& camera, int threads,
+                     const std::string& name) {
+  const WorldFromImage place = place_of(camera ? camera : camera_of(map, name), name);
   require_size(MapFormat::tiff, map.width, map.height, name);
   if (map.channels.size() > 0xFFFF) refuse_tiff(name, "a GeoTIFF holds fewer than 65536 bands");
   const float none = value_of_none(map);
   const TiffStrips strips = compressed_strips(map, none, threads, name);
-  return assembled_tiff(directory_of(map, none, strips.rows, name), strips.of_all_bands, name);
+  return assembled_tiff(directory_of(map, place, none, strips.rows, name), strips.of_all_bands,
+                        name);
 }
 
 }  // namespace fathom::image
+
+namespace fathom {
+
+void require_place_in_world(const Camera& camera, const std::string& name) {
+  (void)image::place_of(camera, name);
+}
+
+}  // namespace fathom

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,8 +42,10 @@ files::Bytes encode_colmap(const DepthMap& map, const std::vector<const ImageCha
                            const std::string& name);
 DepthMap decode_colmap(files::ByteView bytes, const std::string& name);
 
-/// Fails    OutputError where the map has no world_from_image, or a channel does not fit.
-files::Bytes encode_geotiff(const DepthMap& map, int threads, const std::string& name);
+/// `camera` says where in the world the map is; nullopt: the one that it carries.
+/// Fails    OutputError where that has no world_from_image(), or a channel does not fit.
+files::Bytes encode_geotiff(const DepthMap& map, const std::optional<Camera>& camera, int threads,
+                            const std::string& name);
 
 /// Recognises the format by the first bytes and decodes.
 DepthMap decode_map(files::ByteView bytes, const std::string& name, const MapMemory& memory = {});

@@ -32,7 +32,7 @@ std::string scale_as_text(double value) {
 }
 
 std::string texts_as_json(const DepthMap& map) {
-  std::map<std::string, std::string> texts = map.texts;
+  std::map<std::string, std::string> texts = texts_of(map);
   for (auto& [key, text] : name_tables(map)) texts[key] = text;
   if (map.png_scale) texts[scale_text] = scale_as_text(*map.png_scale);
   texts["software"] = software_in_outputs();

@@ -137,7 +137,7 @@ void add_texts(Picture& picture, const DepthMap& map, const ImageChannel& channe
   if (map.codes_beyond && std::holds_alternative<Samples<std::uint16_t>>(channel.values))
     picture.texts.emplace_back("fathom:beyond", std::to_string(*map.codes_beyond));
   for (const auto& [key, text] : name_tables(map)) picture.texts.emplace_back(key, text);
-  for (const auto& [key, text] : map.texts) {
+  for (const auto& [key, text] : texts_of(map)) {
     if (key == "Software" || key == "software" || key.starts_with("fathom:")) continue;
     if (key.empty() || key.size() > 79 || !is_plain(key) || key.find('\n') != std::string::npos)
       throw OutputError(name + ": PNG cannot hold a text of the name '" + key.substr(0, 80) +

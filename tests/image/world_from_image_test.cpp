@@ -1,4 +1,4 @@
-#include "fathom/camera/world_from_image.h"
+#include "fathom/image/files/world_from_image.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,8 @@
 
 namespace fathom {
 namespace {
+
+using image::world_from_image;
 
 /// 40×30 pixels, 8 to the unit, that looks down from z = 10: x to the right, y upwards in the image.
 Camera from_above() {

@@ -1,4 +1,4 @@
-#include "fathom/camera/world_from_image.h"
+#include "fathom/image/files/world_from_image.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
-namespace fathom {
+namespace fathom::image {
 namespace {
 
 struct ImageVector {
@@ -25,7 +25,7 @@ ImageVector image_of(const Camera& camera, const WorldPoint& X) {
 
 }  // namespace
 
-std::optional<std::array<double, 6>> world_from_image(const Camera& camera) {
+std::optional<WorldFromImage> world_from_image(const Camera& camera) {
   const StandardArithmetic standard;
   if (camera.projection != Projection::orthographic || find_fault(camera)) return std::nullopt;
   const ImageVector o = image_of(camera, {0, 0, 0});
@@ -40,10 +40,10 @@ std::optional<std::array<double, 6>> world_from_image(const Camera& camera) {
   const auto over_det = [&](const Dyadic& numerator) {
     return round_to_binary64(Ratio(numerator, det));
   };
-  const std::array<double, 6> g{over_det(y.u * o.v - y.v * o.u), over_det(y.v),  over_det(-y.u),
-                                over_det(x.v * o.u - x.u * o.v), over_det(-x.v), over_det(x.u)};
+  const WorldFromImage g{over_det(y.u * o.v - y.v * o.u), over_det(y.v),  over_det(-y.u),
+                         over_det(x.v * o.u - x.u * o.v), over_det(-x.v), over_det(x.u)};
   const bool fits = std::ranges::all_of(g, [](double each) { return std::isfinite(each); });
   return fits ? std::optional(g) : std::nullopt;
 }
 
-}  // namespace fathom
+}  // namespace fathom::image
