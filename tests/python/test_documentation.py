@@ -52,15 +52,34 @@ def test_what_is_returned_has_its_attributes_in_the_reference(name):
         assert f"`{each}`" in page, each
 
 
-def test_types_are_complete():
-    package = pathlib.Path(fathom.__file__).parent
-    # Older ones than mypy 1.7 know keywords that are a TypedDict as a feature to come.
-    checked = subprocess.run(
+def run_mypy(path):
+    """Before mypy 1.7, keywords from a TypedDict need an option."""
+    return subprocess.run(
         ["/usr/bin/python3", "-m", "mypy", "--strict", "--enable-incomplete-feature=Unpack",
-         "--python-version", "3.9", "--cache-dir", "/dev/null", package.name],
-        cwd=package.parent, capture_output=True, text=True)
+         "--python-version", "3.9", "--cache-dir", "/dev/null", path],
+        cwd=pathlib.Path(fathom.__file__).parent.parent, capture_output=True, text=True)
+
+
+def test_types_are_complete():
+    checked = run_mypy("fathom")
     assert checked.returncode == 0, checked.stdout
-    assert (package / "py.typed").exists()
+    assert (pathlib.Path(fathom.__file__).parent / "py.typed").exists()
+
+
+def test_type_checkers_know_the_arguments_of_class_methods(tmp_path):
+    calls = tmp_path / "calls.py"
+    calls.write_text("""import fathom
+
+fathom.Camera.from_colmap("model", ignore_distortion=True)["a"].width
+fathom.Camera.from_colmap("model", ignore=True)
+fathom.Camera.from_kitti("calib.txt", camera="left")
+fathom.Camera.look_at((0, 0, 3), fov=60, lens=fathom.Lens(fov=60))
+fathom.Camera.look_at((0, 0, 3), fov="wide")
+fathom.Camera.frame(fathom.Scene(), size=(64, 48))
+fathom.Camera.frame("scene.json")
+""")
+    found = [line for line in run_mypy(calls).stdout.splitlines() if "calls.py" in line]
+    assert [line.partition("calls.py:")[2].partition(":")[0] for line in found] == ["4", "5", "7", "9"], found
 
 
 def test_the_stub_has_what_the_extension_module_has():

@@ -78,7 +78,10 @@ def render_cameras(
 
 
 def room_for(
-    names: list[str], stored: str, shape: tuple[int, ...], out: Mapping[str, npt.NDArray[Any]] | None
+    names: list[str],
+    stored: str,
+    shape: tuple[int, ...],
+    out: Mapping[str, npt.NDArray[Any]] | None,
 ) -> dict[str, npt.NDArray[Any]]:
     """An array for each channel: the caller's, or a new one."""
     arrays: dict[str, npt.NDArray[Any]] = {}
@@ -100,9 +103,11 @@ def check_apart(scene: _core.Scene, arrays: Mapping[str, npt.NDArray[Any]]) -> N
     names = list(arrays)
     for i, name in enumerate(names):
         if scene.overlaps(arrays[name]):
-            raise ValueError(f"out: the array for channel {name} shares memory with a mesh of the scene")
+            raise ValueError(f"out: the array for channel {name} shares memory with a mesh of the "
+                             "scene")
         for other in names[:i]:
-            if np.may_share_memory(arrays[name], arrays[other]):  # which is exact for arrays in C order
+            # Exact for arrays in C order.
+            if np.may_share_memory(arrays[name], arrays[other]):
                 raise ValueError(f"out: the arrays for channels {other} and {name} share memory")
 
 
@@ -110,7 +115,8 @@ def checked_out(
     out: Mapping[str, npt.NDArray[Any]], name: str, shape: tuple[int, ...], kind: np.dtype[Any]
 ) -> npt.NDArray[Any]:
     if not isinstance(out, Mapping):
-        raise TypeError(f"out: expected a dict of arrays by the names of channels, found {type(out).__name__}")
+        raise TypeError("out: expected a dict of arrays by the names of channels, found "
+                        f"{type(out).__name__}")
     if name not in out:
         raise ValueError(f"out: it has no array for channel {name}")
     array = out[name]
@@ -118,7 +124,8 @@ def checked_out(
         found = array.dtype if isinstance(array, np.ndarray) else type(array).__name__
         raise TypeError(f"out: channel {name}: expected an array of {kind}, found {found}")
     if array.shape != shape:
-        raise ValueError(f"out: channel {name}: expected shape {in_words(shape)}, found {in_words(array.shape)}")
+        raise ValueError(f"out: channel {name}: expected shape {in_words(shape)}, found "
+                         f"{in_words(array.shape)}")
     if not array.flags.c_contiguous or not array.flags.aligned:
         raise ValueError(f"out: channel {name}: expected an array in C order")
     if not array.flags.writeable:
@@ -129,7 +136,8 @@ def checked_out(
 def several_cameras(name: str, cameras: object) -> list[Camera]:
     """The elements of a sequence of cameras."""
     if isinstance(cameras, Mapping):
-        raise TypeError(f"{name}: expected a Camera or a sequence of them, found a dict: take its values()")
+        raise TypeError(f"{name}: expected a Camera or a sequence of them, found a dict: "
+                        "take its values()")
     if isinstance(cameras, (str, os.PathLike)) or not isinstance(cameras, Iterable):
         raise no_camera(name, "a Camera or a sequence of them", cameras)
     return list(cameras)
@@ -180,10 +188,16 @@ def stored_type(dtype: npt.DTypeLike) -> str:
 def background_value(background: Background, dtype: npt.DTypeLike) -> float | None:
     """The background to write; None if it is the value that maps have by default."""
     stored = stored_type(dtype)
-    value = math.inf if background == "inf" else math.nan if background == "nan" else as_number("background", background)
+    if background == "inf":
+        value = math.inf
+    elif background == "nan":
+        value = math.nan
+    else:
+        value = as_number("background", background)
     if stored == "uint16":
         if value not in (0, math.inf):
-            raise ValueError("background: codes of uint16 have 0 where there is no surface, and nothing else")
+            raise ValueError("background: codes of uint16 have 0 where there is no surface, and "
+                             "nothing else")
         return None
     return None if value == math.inf else value
 
@@ -192,9 +206,11 @@ def require_room(cameras: list[Camera], names: list[str], stored: str) -> None:
     """Raises MemoryError early; otherwise the system might end the process."""
     pixels = float(cameras[0].width) * cameras[0].height
     if pixels > 2.0**44:
-        raise ValueError(f"size: an image of {in_pixels(cameras[0].size)} has more than 2^44 pixels")
+        size = in_pixels(cameras[0].size)
+        raise ValueError(f"size: an image of {size} has more than 2^44 pixels")
     bytes_of_pixel = sum(
-        np.dtype(own or stored).itemsize * max(1, len(parts)) for parts, own in (rendered[name] for name in names)
+        np.dtype(own or stored).itemsize * max(1, len(parts))
+        for parts, own in (rendered[name] for name in names)
     )
     needed = pixels * len(cameras) * bytes_of_pixel
     if needed > 2.0**28:  # asking for the free memory takes longer than a small map
