@@ -7,12 +7,12 @@
 #include <numeric>
 
 #include "apps/bench/bench_arguments.h"
-#include "apps/bench/json_report.h"
-#include "apps/bench/machine_line.h"
+#include "apps/bench/machine.h"
 #include "apps/bench/parts_command.h"
 #include "apps/bench/renderers.h"
 #include "apps/bench/report.h"
 #include "apps/shell/failures.h"
+#include "apps/shell/output_file.h"
 #include "apps/shell/program.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
@@ -117,7 +117,8 @@ int run_bench(const BenchArguments& arguments, const Console& console) {
   if (!arguments.ideas.empty()) throw UsageError("--idea belongs to --parts");
   const Peers& peers = arguments.peers;
   const std::vector<Plan> plans = plans_of(arguments);
-  JsonReport json(arguments.json);
+  TextOutput json(arguments.json);
+  const bool shows_tables = arguments.json != "-";
   if (peers.by_default && !bench::peers_are_built()) {
     console.warn(
         "VTK and Embree are not built in: 'scripts/fathom bench' in a clone of Fathom installs "
@@ -126,17 +127,17 @@ int run_bench(const BenchArguments& arguments, const Console& console) {
   }
 
   const bench::Machine machine = bench::this_machine();
-  if (json.leaves_tables()) print(machine_line(machine));
+  if (shows_tables) print(bench::machine_line(machine));
   std::vector<Comparison> comparisons;
   for (std::size_t i = 0; i < plans.size(); ++i) {
     {
       Progress progress(console, plans[i].scene);
       comparisons.push_back(compare(plans[i], peers, console, progress.reporter(i, plans.size())));
     }
-    if (json.leaves_tables()) print(bench::table(comparisons.back()));
+    if (shows_tables) print(bench::table(comparisons.back()));
   }
-  if (json.leaves_tables()) print(version_lines(comparisons));
-  json.write(bench::to_json(machine, comparisons) + "\n");
+  if (shows_tables) print(version_lines(comparisons));
+  json.finish(bench::to_json(machine, comparisons) + "\n");
   return done;
 }
 

@@ -1,11 +1,13 @@
 #include "apps/bench/machine.h"
 
+#include <fmt/core.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
 #include <fstream>
 
 #include "apps/bench/processors.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::bench {
 namespace {
@@ -47,6 +49,13 @@ Machine this_machine() {
   machine.compiler = "GCC " __VERSION__;
 #endif
   return machine;
+}
+
+std::string machine_line(const Machine& machine) {
+  return fmt::format("{}, {}, {:.1f} GiB; {}; {}\n\n", machine.processor,
+                     text::counted(machine.processors, "processor"),
+                     static_cast<double>(machine.memory_bytes) / (1 << 30), machine.system,
+                     machine.compiler);
 }
 
 }  // namespace fathom::bench

@@ -18,4 +18,7 @@ struct Machine {
 
 Machine this_machine();
 
+/// The first line of the tables of `bench`; ends with an empty line.
+std::string machine_line(const Machine& machine);
+
 }  // namespace fathom::bench

@@ -13,20 +13,70 @@
 #include <utility>
 #include <vector>
 
-#include "apps/bench/mpi_bench_arguments.h"
 #include "apps/mpi/last_word.h"
+#include "apps/mpi/mpi_arguments.h"
 #include "apps/mpi/ranks.h"
 #include "apps/mpi/render_together.h"
 #include "apps/mpi/together.h"
+#include "apps/options/map_arguments.h"
+#include "apps/options/scene_options.h"
+#include "apps/shell/command.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/program.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
+#include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
 #include "fathom/text/parse_json.h"
+#include "validation/scenes/generated/generated_scene.h"
 
 namespace fathom::app {
 namespace {
+
+/// The arguments of fathom_mpi_bench: the scene that is made, and of what `fathom-mpi render` takes
+/// that which costs something.
+struct MpiBenchArguments {
+  bench::GeneratedArguments scene;
+  Size size{1920, 1080};
+  MpiArguments rendering;
+
+  MpiBenchArguments();
+  void add_to(Command& command);
+};
+
+bench::GeneratedKind parse_kind(const std::string& text) {
+  using bench::GeneratedKind;
+  return parse_word<GeneratedKind>(
+      text, {{"terrain", GeneratedKind::terrain}, {"soup", GeneratedKind::soup}});
+}
+
+MpiBenchArguments::MpiBenchArguments() {
+  rendering.render.channels = {Channel::Z};
+  rendering.render.scene.threads = 1;
+}
+
+void MpiBenchArguments::add_to(Command& command) {
+  RenderArguments& render = rendering.render;
+  command.option(
+      "--scene", "NAME", into(scene.kind, parse_kind),
+      "Scene: terrain (default; neighbouring triangles follow each other) or soup (random order)");
+  command.option("--triangles", "N", into(scene.triangles, parse_positive),
+                 "Number of triangles (default 1000000)");
+  command.option("--edge", "LENGTH", into(scene.edge, parse_scale),
+                 "Triangle size for the soup scene, which fills a unit cube (default 2 / √N)");
+  command.option("--size", "WxH", into(size, parse_size), "Image size (default 1920x1080)");
+  command.option("--channels", "LIST", into(render.channels, parse_channels),
+                 "Channels of the map (default Z)");
+  command.option("--partition", "NAME", into(rendering.partition, parse_partition),
+                 "Distribute the tiles by load (default), rows or round-robin");
+  command.option("--memory", "SIZE", into(rendering.memory, parse_bytes),
+                 "Maximum memory of a rank for its triangles; see 'fathom-mpi render --help'");
+  command.option("--threads", "N", into(render.scene.threads, parse_thread_count),
+                 "Threads per rank (default 1)");
+  command.option("--traffic", "FILE", rendering.traffic,
+                 "Write the report of 'fathom-mpi render --traffic' to this file");
+  add_output_option(command, "FILE", render.output, "The map").required();
+}
 
 using Json = nlohmann::ordered_json;
 
@@ -113,6 +163,7 @@ void add_measuring(Command& program) {
 }
 
 }  // namespace
+
 }  // namespace fathom::app
 
 int main(int argc, char** argv) {

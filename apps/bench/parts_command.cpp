@@ -6,11 +6,11 @@
 #include <optional>
 #include <utility>
 
-#include "apps/bench/json_report.h"
-#include "apps/bench/machine_line.h"
+#include "apps/bench/machine.h"
 #include "apps/bench/parts/ideas.h"
 #include "apps/bench/parts/parts_report.h"
 #include "apps/shell/failures.h"
+#include "apps/shell/output_file.h"
 #include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/fast/render_fast.h"
@@ -106,18 +106,19 @@ class PartsRun {
 }  // namespace
 
 int run_parts(const BenchArguments& arguments, const Console& console) {
-  JsonReport json(arguments.json);
+  TextOutput json(arguments.json);
+  const bool shows_tables = arguments.json != "-";
   const bench::Machine machine = bench::this_machine();
-  if (json.leaves_tables()) {
-    print(machine_line(machine));
+  if (shows_tables) {
+    print(bench::machine_line(machine));
     print(fmt::format("Vector instructions: {}\n\n", vector_instructions()));
   }
-  PartsRun run(arguments, json.leaves_tables(), console);
+  PartsRun run(arguments, shows_tables, console);
   const auto& scenes = arguments.scenes.empty() ? default_scenes : arguments.scenes;
   const auto sizes = arguments.sizes.empty() ? std::vector<Size>{default_size} : arguments.sizes;
   for (const Size& size : sizes)
     for (const std::string& scene : scenes) run.run(scene, size);
-  json.write(run.finish(machine));
+  json.finish(run.finish(machine));
   return done;
 }
 

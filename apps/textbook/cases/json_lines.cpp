@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <utility>
 
 #include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
+#include "apps/shell/output_place.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
@@ -78,6 +78,12 @@ int answer_lines(const std::string& file, const AnswerLine& answer_line) {
                        ? first_failure
                        : fmt::format("{} (the first of {} cases of {} that cannot be done)",
                                      first_failure, failures, count));
+}
+
+std::string parse_svg_name(const std::string& text) {
+  if (!text.ends_with(".svg") && !is_written_through(text))
+    throw UsageError("'" + text + "' does not end in .svg");
+  return text;
 }
 
 }  // namespace fathom::app::cases

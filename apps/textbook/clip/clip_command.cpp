@@ -8,10 +8,9 @@
 #include "apps/shell/failures.h"
 #include "apps/shell/values.h"
 #include "apps/textbook/cases/json_lines.h"
-#include "apps/textbook/cases/steps_picture.h"
 #include "apps/textbook/clip/clip_algorithms.h"
 #include "apps/textbook/clip/clip_comparison.h"
-#include "apps/textbook/drawing/clip_drawing.h"
+#include "apps/textbook/drawing/drawings.h"
 #include "apps/textbook/textbook_commands.h"
 #include "fathom/failures/errors.h"
 

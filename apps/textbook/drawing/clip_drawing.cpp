@@ -1,11 +1,10 @@
-#include "apps/textbook/drawing/clip_drawing.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "apps/textbook/drawing/drawings.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::app::drawing {

@@ -1,5 +1,3 @@
-#include "apps/textbook/drawing/scan_drawing.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "apps/textbook/drawing/drawings.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::app::drawing {

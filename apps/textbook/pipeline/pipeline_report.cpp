@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/shell/standard_streams.h"
+#include "fathom/pipeline/geometry/window_transform.h"
 
 namespace fathom::app {
 namespace {
@@ -63,6 +64,14 @@ std::string as_json(const std::vector<PipelineReport>& maps) {
   Json list = Json::array();
   for (const PipelineReport& map : maps) list.push_back(to_json(map));
   return json_answer(list.size() == 1 ? list[0] : list);
+}
+
+void warn_of_windows(const Camera& camera, const pipeline::PipelineOptions& stages,
+                     const Console& console) {
+  if (pipeline::is_stretched(camera, stages))
+    console.warn("the viewport's width : height is not the camera's: the picture is stretched");
+  if (pipeline::drawable_window(camera, stages).is_empty())
+    console.warn("viewport and scissor box leave no pixel of the image: the map is background");
 }
 
 }  // namespace fathom::app

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/shell/console.h"
+#include "fathom/camera/camera.h"
 #include "fathom/pipeline/geometry/painters_algorithm.h"
 #include "fathom/pipeline/options.h"
 
@@ -20,5 +22,9 @@ struct PipelineReport {
 
 /// An object for a single map, a list for several.
 std::string as_json(const std::vector<PipelineReport>& maps);
+
+/// Warns of a viewport that stretches the picture, and of windows that leave nothing of the image.
+void warn_of_windows(const Camera& camera, const pipeline::PipelineOptions& stages,
+                     const Console& console);
 
 }  // namespace fathom::app
