@@ -10,6 +10,7 @@ from . import _core
 from ._arguments import Size, as_number, as_size, one_of
 
 Projection = Literal["perspective", "orthographic"]
+projections = ("perspective", "orthographic")
 
 if TYPE_CHECKING:
 
@@ -23,9 +24,6 @@ if TYPE_CHECKING:
         projection: Projection
         near: float
         far: float
-
-
-projections = ("perspective", "orthographic")
 
 
 class Lens:
