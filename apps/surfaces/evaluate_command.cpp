@@ -184,8 +184,8 @@ int run_evaluate(const EvaluateArguments& arguments, const Console& console) {
     options.progress = progress.reporter();
     evaluation = evaluate(reconstruction, truth, cameras, options);
   }
-  output.write(arguments.json ? app::as_json(evaluation, options.within)
-                              : app::as_text(evaluation, options.within));
+  output.write(arguments.json ? as_json(evaluation, options.within)
+                              : as_text(evaluation, options.within));
   accuracy.write(evaluation.surfaces.accuracy);
   completeness.write(evaluation.surfaces.completeness);
   std::vector<OutputFile*> outputs;
