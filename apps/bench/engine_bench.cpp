@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "fathom/failures/errors.h"
+#include "fathom/failures/unknown_name.h"
 #include "fathom/render.h"
+#include "fathom/triangle/option_names.h"
 #include "validation/scenes/scenes.h"
 
 /// Times render(), from mesh and camera in memory to the complete map in memory, without any peer, or
@@ -60,8 +62,7 @@ std::vector<Channel> channels_of(const std::string& list) {
 }
 
 Engine engine_named(const std::string& word) {
-  if (word == "fast") return Engine::fast;
-  if (word == "reference") return Engine::reference;
+  if (const auto engine = value_named(all_engines, word)) return *engine;
   refuse_word("--engine", word, "neither fast nor reference");
 }
 
@@ -74,9 +75,7 @@ StoredType type_named(const std::string& word) {
 }
 
 Cull cull_named(const std::string& word) {
-  if (word == "back") return Cull::back;
-  if (word == "front") return Cull::front;
-  if (word == "none") return Cull::none;
+  if (const auto cull = value_named(all_culls, word)) return *cull;
   refuse_word("--cull", word, "not one of back, front and none");
 }
 

@@ -88,9 +88,8 @@ int write_points(const DepthMap& map, const ConvertArguments& arguments, const C
   if (arguments.storage.background || !arguments.storage.channel_names.empty()) {
     throw UsageError("--background and --channel-name do not go with a point cloud");
   }
-  const PointCloudOptions options{
-      .frame = arguments.frame,
-      .binary64 = arguments.storage.dtype != StorageOptions::Float::binary32};
+  const PointCloudOptions options{.frame = arguments.frame,
+                                  .binary64 = arguments.storage.dtype != StoredType::binary32};
   const Camera camera = camera_for(map, arguments, console);
   OutputFile output(arguments.output);
   output.write([&](const auto& path) { write_point_cloud(map, camera, path, options); });
@@ -126,11 +125,9 @@ DepthMap only_parts(DepthMap map, const std::string& name) {
 /// Every channel, those of depth as wide as they are asked to be.
 DepthMap all_stored(DepthMap map, const StorageOptions& storage) {
   if (!storage.dtype) return map;
-  const bool wide = *storage.dtype == StorageOptions::Float::binary64;
   for (ImageChannel& channel : map.channels) {
     if (kind_of(channel) != ChannelKind::depth) continue;
-    const auto type = wide ? StoredType::binary64 : StoredType::binary32;
-    channel = std::move(with_storage(map, channel.name, type).channels.front());
+    channel = std::move(with_storage(map, channel.name, *storage.dtype).channels.front());
   }
   return map;
 }
@@ -231,13 +228,11 @@ void add_convert(Command& program) {
       "\nConversions start from the stored values, which are rounded already; 'fathom render "
       "--channels\ndistance' gives the exact ray distance, and render to .png or .npy rounds "
       "once.");
-  command
-      .argument("MAP", arguments->map,
-                "Map to convert: EXR, PFM, PNG, NPY, NPZ or a dense map of COLMAP (.bin)")
+  command.argument("MAP", arguments->map, "Map to convert (" + names_of_readable_maps() + ")")
       .required();
   add_output_option(command, "FILE", arguments->output,
-                    "Write this map (.exr, .pfm, .png, .npy, .npz, .bin for COLMAP, .tif for GIS) "
-                    "or point cloud (.ply)")
+                    "Write this map (" + suffixes_of_maps() +
+                        "; .bin is for COLMAP, .tif for GIS) or point cloud (.ply)")
       .required();
   command.option("--channel", "NAME", arguments->channel,
                  "Channel to convert (default Z, or the only channel)");

@@ -10,6 +10,7 @@
 #include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
+#include "fathom/image/map_formats.h"
 #include "fathom/image/preview.h"
 
 namespace fathom::app {
@@ -44,9 +45,7 @@ void add_preview(Command& program) {
       "  fathom preview spot.exr -o spot.png\n"
       "  fathom preview spot.exr --channel id -o triangles.png\n"
       "  fathom preview spot.exr --colormap magma --range 2,5 --unit m -o spot.png");
-  command
-      .argument("MAP", arguments->map,
-                "Map to draw: EXR, PFM, PNG, NPY, NPZ or a dense map of COLMAP")
+  command.argument("MAP", arguments->map, "Map to draw (" + names_of_readable_maps() + ")")
       .required();
   add_output_option(command, "FILE", into(arguments->output, parse_png_name),
                     "Write the picture here (PNG, 8 bit)")

@@ -6,6 +6,7 @@
 
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
+#include "fathom/triangle/option_names.h"
 
 namespace fathom::app {
 
@@ -61,9 +62,7 @@ FrontFace parse_front_face(const std::string& text) {
 }
 
 NormalSource parse_normal_source(const std::string& text) {
-  return parse_word<NormalSource>(text, {{"file", NormalSource::file},
-                                         {"vertex", NormalSource::vertex},
-                                         {"place", NormalSource::place}});
+  return parse_enumerator(text, all_normal_sources);
 }
 
 BlendDepth parse_blend_depth(const std::string& text) {

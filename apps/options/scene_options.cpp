@@ -19,6 +19,7 @@
 #include "fathom/files/sha256.h"
 #include "fathom/image/map_files.h"
 #include "fathom/scene/read_scene.h"
+#include "fathom/triangle/option_names.h"
 
 namespace fathom::app {
 namespace {
@@ -68,8 +69,7 @@ void refuse_map(const std::string& file) {
 }
 
 Cull parse_cull(const std::string& text) {
-  return parse_word<Cull>(text,
-                          {{"back", Cull::back}, {"front", Cull::front}, {"none", Cull::none}});
+  return parse_enumerator(text, all_culls);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <filesystem>
 #include <limits>
 
@@ -11,20 +12,17 @@
 #include "fathom/failures/errors.h"
 #include "fathom/image/background.h"
 #include "fathom/text/counted.h"
+#include "fathom/triangle/option_names.h"
 
 namespace fathom::app {
 namespace {
 
 Compression parse_compression(const std::string& text) {
   if (text == "pxr24" || text == "b44" || text == "b44a" || text == "dwaa" || text == "dwab") {
-    throw UsageError("'" + text +
-                     "' loses bits of the depth; there are none, rle, zips, zip and piz");
+    throw UsageError("'" + text + "' loses bits of the depth; there are " +
+                     joined(names_of(all_compressions)));
   }
-  return parse_word<Compression>(text, {{"none", Compression::none},
-                                        {"rle", Compression::rle},
-                                        {"zips", Compression::zips},
-                                        {"zip", Compression::zip},
-                                        {"piz", Compression::piz}});
+  return parse_enumerator(text, all_compressions);
 }
 
 /// Whether it is none.
@@ -32,9 +30,8 @@ bool parse_beyond(const std::string& text) {
   return parse_word<bool>(text, {{"error", false}, {"none", true}});
 }
 
-StorageOptions::Float parse_dtype(const std::string& text) {
-  return parse_word<StorageOptions::Float>(text, {{"float32", StorageOptions::Float::binary32},
-                                                  {"float64", StorageOptions::Float::binary64}});
+StoredType parse_dtype(const std::string& text) {
+  return parse_enumerator(text, std::array{StoredType::binary32, StoredType::binary64});
 }
 
 /// "Z=Y,distance=D"
@@ -83,8 +80,7 @@ MapFormat StorageOptions::format_of(const std::string& target) const {
   std::optional<MapFormat> format = map_format_of(target);
   if (!format && is_written_through(target)) format = MapFormat::exr;
   if (!format) {
-    throw UsageError(target +
-                     ": the suffix of a map is one of .exr, .pfm, .png, .npy, .npz, .bin and .tif");
+    throw UsageError(target + ": the suffix of a map is one of " + suffixes_of_maps(" and "));
   }
   if (compression && *format != MapFormat::exr) {
     throw UsageError("--compression is for .exr, not for " + target);
@@ -97,8 +93,9 @@ MapFormat StorageOptions::format_of(const std::string& target) const {
     throw UsageError("--channel-name is for .exr and .npz: no channel has a name in " + target);
   }
   if (background && *background != 0 && has_zero_for_none(*format)) {
-    throw UsageError(std::string("--background: it is always 0 in a ") +
-                     (*format == MapFormat::png ? ".png" : ".bin") + ", which " + target + " is");
+    throw UsageError("--background: it is always 0 in a " +
+                     std::string(description_of(*format).suffixes[0]) + ", which " + target +
+                     " is");
   }
   return *format;
 }
@@ -119,7 +116,7 @@ DepthEncoding StorageOptions::encoding_for(MapFormat format) const {
     encoding.scale = png_scale.value_or(encoding.scale);
     encoding.beyond_is_none = png_beyond_is_none.value_or(false);
   }
-  if (dtype == Float::binary64) encoding.type = DepthEncoding::Type::binary64;
+  if (dtype == StoredType::binary64) encoding.type = DepthEncoding::Type::binary64;
   return encoding;
 }
 

@@ -15,13 +15,11 @@ namespace fathom::app {
 /// How a map is stored: `--compression --png-scale --png-beyond --png-sidecar --dtype --channel-name`, each
 /// only where the format has it, and `--background`, which the command declares.
 struct StorageOptions {
-  enum class Float { binary32, binary64 };
-
   std::optional<Compression> compression;  ///< of an EXR
   std::optional<double> png_scale;         ///< codes per unit of a PNG
   std::optional<bool> png_beyond_is_none;  ///< whether what is too deep for a PNG's codes gets 0
   bool png_sidecar = false;          ///< whether a JSON file beside a PNG says what codes mean
-  std::optional<Float> dtype;        ///< of an NPY or NPZ
+  std::optional<StoredType> dtype;   ///< of an NPY or NPZ: binary32 or binary64
   std::optional<double> background;  ///< of depth channels
   std::vector<ChannelName> channel_names;  ///< of an EXR or NPZ
 

@@ -11,13 +11,15 @@
 #include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
+#include "fathom/image/missing_channel.h"
+#include "fathom/triangle/option_names.h"
 
 namespace fathom::app {
 namespace {
 
 EngineName parse_engine(const std::string& text) {
-  return parse_word<EngineName>(text, {{"fast", EngineName::fast},
-                                       {"reference", EngineName::reference},
+  return parse_word<EngineName>(text, {{name_of(Engine::fast).data(), EngineName::fast},
+                                       {name_of(Engine::reference).data(), EngineName::reference},
                                        {"pipeline", EngineName::pipeline}});
 }
 
@@ -61,10 +63,10 @@ void add_camera(Command& command, RenderArguments& arguments) {
 
 void add_contents(Command& command, RenderArguments& arguments) {
   command.begin_group("Channels and engine");
-  command.option("--channels", "LIST", into(arguments.channels, parse_channels),
-                 "Channels of the map, from Z, A, Zlow, distance, id, face, object, material, "
-                 "group, part, label, N, P, bary, Nc, Ns (default Z,A in EXR and NPZ; Z in other "
-                 "formats and with --engine pipeline)");
+  command.option(
+      "--channels", "LIST", into(arguments.channels, parse_channels),
+      "Channels of the map, from " + joined(names_of_channels(), ", ") +
+          " (default Z,A in EXR and NPZ; Z in other formats and with --engine pipeline)");
   command.flag(
       "--deep", arguments.deep,
       "Write a deep EXR with all visible fragments of each pixel, sorted: depths Z and ZBack, "

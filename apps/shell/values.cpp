@@ -8,7 +8,6 @@
 #include <system_error>
 
 #include "fathom/failures/errors.h"
-#include "fathom/failures/unknown_name.h"
 
 namespace fathom::app {
 namespace {
@@ -125,15 +124,6 @@ std::vector<std::string> parse_list(const std::string& text) {
     }
   }
   return parts;
-}
-
-std::string joined(const std::vector<std::string>& names, std::string_view last) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) text += i + 1 < names.size() ? ", " : last;
-    text += names[i];
-  }
-  return text;
 }
 
 void refuse_word(const std::string& text, const std::vector<std::string>& words,

@@ -4,10 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "fathom/failures/unknown_name.h"
 
 namespace fathom::app {
 
@@ -55,9 +58,6 @@ std::vector<std::string> parse_list(const std::string& text);
 std::vector<std::string> parse_names(const std::string& list,
                                      const std::function<void(const std::string&)>& check);
 
-/// "a, b and c"
-std::string joined(const std::vector<std::string>& names, std::string_view last = " and ");
-
 /// Fails    UnknownName: "'text' is not one of …", with a suggestion. `other` is what else it could
 ///          have been: "a number".
 [[noreturn]] void refuse_word(const std::string& text, const std::vector<std::string>& words,
@@ -76,6 +76,13 @@ Value parse_word(const std::string& text, Words<Value> words, const std::string&
     names.emplace_back(name);
   }
   refuse_word(text, names, other);
+}
+
+/// One of the values of an enumeration, by the name that its name_of() returns.
+template <class Values>
+std::ranges::range_value_t<Values> parse_enumerator(const std::string& text, const Values& values) {
+  if (const auto value = value_named(values, text)) return *value;
+  refuse_word(text, names_of(values));
 }
 
 }  // namespace fathom::app

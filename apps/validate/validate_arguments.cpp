@@ -8,6 +8,7 @@
 #include "apps/shell/command.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/failures/unknown_name.h"
+#include "fathom/image/map_formats.h"
 #include "validation/scenes/validation_scenes.h"
 #include "validation/variants/peer.h"
 
@@ -75,7 +76,7 @@ void ValidateArguments::add_to(Command& command) {
   command.option("--render", "NAME", into(render, parse_renderer),
                  "Only draw with this renderer, and write its map");
   command.option("--map", "MAP", map,
-                 "Map of another renderer to check (EXR, PFM, PNG, NPY, NPZ or COLMAP)");
+                 "Map of another renderer to check (" + names_of_readable_maps() + ")");
   command.option("--channel", "NAME", channel, "Depth channel of --map (default: detected)");
   command.option("--png-scale", "N", into(png_scale, parse_scale),
                  "Codes per unit, if the integer map does not state them");

@@ -33,8 +33,7 @@ int validate_render(const ValidateArguments& arguments, const Console& console) 
   if (arguments.output.empty()) throw UsageError("-o MAP is missing: where the map goes");
   const auto format = map_format_of(arguments.output);
   if (!format)
-    throw UsageError("-o: '" + arguments.output +
-                     "' does not end in .exr, .pfm, .npy, .npz, .bin or .tif");
+    throw UsageError("-o: '" + arguments.output + "' does not end in " + suffixes_of_float_maps());
   if (arguments.scenes.empty()) throw UsageError("SCENE is missing: what is rendered");
   const SceneToMake scene = scenes_of(arguments, console).front();
   const Peer peer = peer_to_render(arguments);

@@ -347,13 +347,10 @@ fathom_status fathom_map_read(const char* file, fathom_map** map) {
 fathom_status fathom_map_write(const fathom_map* map, const char* file, const char* channel) {
   return status_of([&] {
     require(map && file, "map and file: NULL");
-    const auto format = map_format_of(file);
-    if (!format)
-      throw UsageError(std::string(file) +
-                       ": expected a name that ends in .exr, .npz, .pfm, .png, .npy, .bin or .tif");
+    const MapFormat format = require_map_format(file);
     WriteOptions options;
     if (channel) options.channel = channel;
-    write_map(map->map, file, *format, options);
+    write_map(map->map, file, format, options);
   });
 }
 

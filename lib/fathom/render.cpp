@@ -14,6 +14,7 @@
 #include "fathom/scene/scene_segments.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/map_of_camera.h"
+#include "fathom/triangle/option_names.h"
 #include "fathom/triangle/segment_channels.h"
 
 namespace fathom {
@@ -26,7 +27,7 @@ void describe(const Scene& scene, const Camera& camera, const RenderOptions& opt
               DepthMap& map) {
   describe_map(scene, camera, name_of(options.engine), map);
   if (options.cull != Cull::none) {
-    map.texts["fathom.cull"] = options.cull == Cull::back ? "back" : "front";
+    map.texts["fathom.cull"] = name_of(options.cull);
   }
   if (options.normals != NormalSource::file && map.find("Ns.X")) {
     map.texts["fathom.normals"] = name_of(options.normals);

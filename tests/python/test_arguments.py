@@ -60,7 +60,7 @@ cases = [
     ({"near": -1}, ValueError, "near"),
     ({"near": "x"}, TypeError, "near: expected a number"),
     ({"far": 0}, ValueError, "far"),
-    ({"cull": "both"}, ValueError, "cull: expected 'none', 'back', 'front', found 'both'"),
+    ({"cull": "both"}, ValueError, "cull: expected 'back', 'front', 'none', found 'both'"),
     ({"dtype": np.float16}, TypeError, "dtype: expected float32, float64 or uint16, found float16"),
     ({"dtype": "nonsense"}, TypeError, "dtype: expected float32"),
     ({"dtype": np.uint16, "scale": 0}, ValueError, "scale"),

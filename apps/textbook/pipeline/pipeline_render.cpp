@@ -50,10 +50,9 @@ void check_possible(const RenderArguments& a, MapFormat format) {
   if (a.samples || a.depth_buffer.against_exact) {
     throw UsageError("--samples and --against-exact are for exact engines, not for pipeline");
   }
-  if (format == MapFormat::png) {
-    throw UsageError(
-        "the pipeline writes its map as .exr, .pfm, .npy, .npz, .bin or .tif; --image is for the "
-        "picture");
+  if (!description_of(format).holds_floats) {
+    throw UsageError("the pipeline writes its map as " + suffixes_of_float_maps() +
+                     "; --image is for the picture");
   }
   if (a.storage.encoding_for(format).type != DepthEncoding::Type::binary32) {
     throw UsageError("--dtype: the pipeline's depths are float32");

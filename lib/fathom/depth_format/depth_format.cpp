@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <ranges>
+#include <string>
+#include <vector>
 
 #include "fathom/failures/errors.h"
 #include "fathom/failures/unknown_name.h"
@@ -15,21 +18,14 @@ constexpr std::string_view mapping_names[] = {
 constexpr std::string_view storage_names[] = {"unorm16", "unorm24", "unorm32",
                                               "float16", "float32", "float64"};
 
-template <std::size_t N>
-std::string list(const std::string_view (&names)[N]) {
-  std::string text;
-  for (const std::string_view name : names) text += (text.empty() ? "" : ", ") + std::string(name);
-  return text;
-}
-
-template <std::size_t N>
-std::size_t index_of(const std::string_view (&names)[N], std::string_view name, const char* what) {
-  for (std::size_t i = 0; i < N; ++i) {
-    if (names[i] == name) return i;
-  }
+template <class Values>
+std::ranges::range_value_t<Values> required(const Values& values, std::string_view name,
+                                            const std::string& what) {
+  if (const auto value = value_named(values, name)) return *value;
+  const std::vector<std::string> names = names_of(values);
   throw UnknownName(
-      "there is no " + std::string(what) + " '" + std::string(name) + "'; there are " + list(names),
-      std::string(name), {std::begin(names), std::end(names)});
+      "there is no " + what + " '" + std::string(name) + "'; there are " + joined(names, ", "),
+      std::string(name), names);
 }
 
 std::string text_of(double x) {
@@ -52,7 +48,7 @@ void require_meaningful(const DepthFormat& format) {
     throw UsageError("mapping " + std::string(name_of(format.mapping)) +
                      " needs a finite far; with far = inf there are infinite and "
                      "reversed-infinite, each with the storages " +
-                     list(storage_names));
+                     joined(names_of(all_storages), ", "));
   }
   if (!(format.c > 0) || std::isinf(format.c)) {
     throw UsageError("C = " + text_of(format.c) + " is not a positive number");
@@ -72,11 +68,11 @@ std::string_view name_of(Storage storage) {
 }
 
 Mapping mapping_named(std::string_view name) {
-  return static_cast<Mapping>(index_of(mapping_names, name, "mapping"));
+  return required(all_mappings, name, "mapping");
 }
 
 Storage storage_named(std::string_view name) {
-  return static_cast<Storage>(index_of(storage_names, name, "storage"));
+  return required(all_storages, name, "storage");
 }
 
 }  // namespace fathom

@@ -74,6 +74,15 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& na
   return text.empty() ? text : "; " + text;
 }
 
+std::string joined(const std::vector<std::string>& names, std::string_view last) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 < names.size() ? ", " : last;
+    text += names[i];
+  }
+  return text;
+}
+
 UnknownName::UnknownName(const std::string& message, std::string name,
                          std::vector<std::string> names)
     : UsageError(message + suggestion(name, names)),

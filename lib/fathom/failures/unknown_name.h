@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,5 +36,25 @@ class UnknownName : public UsageError {
   std::string name_;
   std::vector<std::string> names_;
 };
+
+/// "a, b and c"
+std::string joined(const std::vector<std::string>& names, std::string_view last = " and ");
+
+/// The names of the values of an enumeration, as its name_of() returns them.
+template <class Values>
+std::vector<std::string> names_of(const Values& values) {
+  std::vector<std::string> names;
+  for (const auto value : values) names.emplace_back(name_of(value));
+  return names;
+}
+
+/// The value with this name; nullopt if none of the values has it.
+template <class Values>
+std::optional<std::ranges::range_value_t<Values>> value_named(const Values& values,
+                                                              std::string_view name) {
+  for (const auto value : values)
+    if (name_of(value) == name) return value;
+  return std::nullopt;
+}
 
 }  // namespace fathom

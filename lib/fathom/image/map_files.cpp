@@ -60,19 +60,9 @@ bool starts_with(ByteView bytes, std::string_view magic) {
 
 }  // namespace
 
-std::optional<MapFormat> map_format_of(const std::filesystem::path& path) {
-  std::string suffix = path.extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](char c) {
-    return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  if (suffix == ".exr") return MapFormat::exr;
-  if (suffix == ".pfm") return MapFormat::pfm;
-  if (suffix == ".png") return MapFormat::png;
-  if (suffix == ".npy") return MapFormat::npy;
-  if (suffix == ".npz") return MapFormat::npz;
-  if (suffix == ".bin") return MapFormat::colmap;
-  if (suffix == ".tif" || suffix == ".tiff") return MapFormat::tiff;
-  return std::nullopt;
+std::string_view name_of(Compression compression) {
+  constexpr std::string_view names[] = {"none", "rle", "zips", "zip", "piz"};
+  return names[static_cast<std::size_t>(compression)];
 }
 
 bool is_colmap_map(ByteView bytes) {
@@ -83,29 +73,108 @@ bool is_colmap_map(ByteView bytes) {
   return end != 0 && end != std::string_view::npos && text[end] == '&';
 }
 
-void require_size(MapFormat format, std::uint32_t width, std::uint32_t height,
-                  const std::string& name) {
-  if (format == MapFormat::exr && std::max(width, height) > 0x3FFFFFFF) {
-    throw OutputError(name + ": EXR holds fewer than 2^30 pixels a side");
-  }
-  if (format == MapFormat::png && std::max(width, height) > 0x7FFFFFFF) {
-    throw OutputError(name + ": PNG holds fewer than 2^31 pixels a side");
-  }
-  // Of 4 bytes each, at least.
-  if (format == MapFormat::npz && std::uint64_t{width} * height >= (std::uint64_t{1} << 30)) {
-    throw OutputError(name + ": an NPZ holds less than 4 GiB; .exr holds more");
-  }
-  if (format == MapFormat::tiff && std::uint64_t{width} * height >= (std::uint64_t{1} << 30)) {
-    throw OutputError(name + ": a GeoTIFF holds less than 4 GiB; .exr holds more");
-  }
+namespace {
+
+const ImageChannel& one_of(const DepthMap& map, const WriteOptions& options) {
+  return channel_to_write(map, options.channel);
 }
+
+std::vector<const ImageChannel*> some_of(const DepthMap& map, const WriteOptions& options) {
+  return channels_to_write(map, options.channel);
+}
+
+[[noreturn]] DepthMap refuse_tiff(ByteView /*bytes*/, const std::string& name,
+                                  const MapMemory& /*memory*/) {
+  throw InputError(name + ": TIFF is written, not read: give the map as EXR, NPZ or NPY");
+}
+
+double nothing(Compression /*compression*/, std::uint32_t /*height*/, double /*bytes_of_map*/) {
+  return 0;
+}
+
+double as_much(Compression /*compression*/, std::uint32_t /*height*/, double bytes_of_map) {
+  return bytes_of_map;
+}
+
+/// How maps become files of a format, and files maps.
+struct Codec {
+  MapFormat format;
+  Bytes (*encode)(const DepthMap& map, const WriteOptions& options, const std::string& name);
+  bool (*begins)(ByteView bytes);
+  DepthMap (*decode)(ByteView bytes, const std::string& name, const MapMemory& memory);
+  /// As memory_to_encode().
+  double (*memory)(Compression compression, std::uint32_t height, double bytes_of_map);
+};
+
+/// In the order of MapFormat.
+constexpr auto codecs = std::to_array<Codec>({
+    {MapFormat::exr,
+     [](const DepthMap& map, const WriteOptions& options, const std::string& name) {
+       return encode_exr(map, options.compression, options.threads, name);
+     },
+     [](ByteView bytes) { return starts_with(bytes, "\x76\x2f\x31\x01"); }, decode_exr,
+     memory_to_encode_exr},
+    {MapFormat::pfm,
+     [](const DepthMap& map, const WriteOptions& options, const std::string& name) {
+       return encode_pfm(map, one_of(map, options), name);
+     },
+     [](ByteView bytes) { return starts_with(bytes, "Pf") || starts_with(bytes, "PF"); },
+     [](ByteView bytes, const std::string& name, const MapMemory& /*memory*/) {
+       return decode_pfm(bytes, name);
+     },
+     as_much},
+    {MapFormat::png,
+     [](const DepthMap& map, const WriteOptions& options, const std::string& name) {
+       return encode_png(map, one_of(map, options), name);
+     },
+     [](ByteView bytes) { return starts_with(bytes, "\x89PNG\r\n\x1a\n"); }, decode_png, nothing},
+    {MapFormat::npy,
+     [](const DepthMap& map, const WriteOptions& options, const std::string& name) {
+       return encode_npy(map, some_of(map, options), name);
+     },
+     [](ByteView bytes) { return starts_with(bytes, "\x93NUMPY"); },
+     [](ByteView bytes, const std::string& name, const MapMemory& /*memory*/) {
+       return decode_npy(bytes, name);
+     },
+     as_much},
+    {MapFormat::npz,
+     [](const DepthMap& map, const WriteOptions& /*options*/, const std::string& name) {
+       return encode_npz(map, name);
+     },
+     [](ByteView bytes) { return starts_with(bytes, "PK\x03\x04"); }, decode_npz, as_much},
+    {MapFormat::colmap,
+     [](const DepthMap& map, const WriteOptions& options, const std::string& name) {
+       return encode_colmap(map, some_of(map, options), name);
+     },
+     is_colmap_map,
+     [](ByteView bytes, const std::string& name, const MapMemory& /*memory*/) {
+       return decode_colmap(bytes, name);
+     },
+     as_much},
+    {MapFormat::tiff,
+     [](const DepthMap& map, const WriteOptions& options, const std::string& name) {
+       return encode_geotiff(map, options.camera, options.threads, name);
+     },
+     [](ByteView bytes) {
+       return starts_with(bytes, std::string_view("II*\0", 4)) ||
+              starts_with(bytes, std::string_view("MM\0*", 4));
+     },
+     refuse_tiff, nothing},
+});
+static_assert(std::ranges::equal(codecs, map_format_table, {}, &Codec::format,
+                                 &MapFormatDescription::format),
+              "each format has a codec");
+
+const Codec& codec_of(MapFormat format) {
+  return codecs[static_cast<std::size_t>(format)];
+}
+
+}  // namespace
 
 double memory_to_encode(MapFormat format, Compression compression, std::uint32_t height,
                         double bytes_of_map) {
   const StandardArithmetic standard;
-  if (format == MapFormat::png || format == MapFormat::tiff) return 0;
-  return format == MapFormat::exr ? memory_to_encode_exr(compression, height, bytes_of_map)
-                                  : bytes_of_map;
+  return codec_of(format).memory(compression, height, bytes_of_map);
 }
 
 std::vector<std::byte> encode_map(const DepthMap& map, const std::string& name, MapFormat format,
@@ -113,24 +182,9 @@ std::vector<std::byte> encode_map(const DepthMap& map, const std::string& name, 
   const StandardArithmetic standard;
   require_valid(map);
   require_thread_count(options.threads);
-  const auto one = [&]() -> const ImageChannel& { return channel_to_write(map, options.channel); };
-  switch (format) {
-    case MapFormat::exr:
-      return encode_exr(map, options.compression, options.threads, name);
-    case MapFormat::pfm:
-      return encode_pfm(map, one(), name);
-    case MapFormat::png:
-      return encode_png(map, one(), name);
-    case MapFormat::npy:
-      return encode_npy(map, channels_to_write(map, options.channel), name);
-    case MapFormat::npz:
-      return encode_npz(map, name);
-    case MapFormat::colmap:
-      return encode_colmap(map, channels_to_write(map, options.channel), name);
-    case MapFormat::tiff:
-      return encode_geotiff(map, options.camera, options.threads, name);
-  }
-  throw UsageError(name + ": there is no such format");
+  if (static_cast<std::size_t>(format) >= codecs.size())
+    throw UsageError(name + ": there is no such format");
+  return codec_of(format).encode(map, options, name);
 }
 
 void write_map(const DepthMap& map, const std::filesystem::path& path, MapFormat format,
@@ -142,16 +196,9 @@ void write_map(const DepthMap& map, const std::filesystem::path& path, MapFormat
 namespace {
 
 DepthMap decode_as_stored(ByteView bytes, const std::string& name, const MapMemory& memory) {
-  if (starts_with(bytes, "\x76\x2f\x31\x01")) return decode_exr(bytes, name, memory);
-  if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) return decode_png(bytes, name, memory);
-  if (starts_with(bytes, "\x93NUMPY")) return decode_npy(bytes, name);
-  if (starts_with(bytes, "PK\x03\x04")) return decode_npz(bytes, name, memory);
-  if (starts_with(bytes, "Pf") || starts_with(bytes, "PF")) return decode_pfm(bytes, name);
-  if (is_colmap_map(bytes)) return decode_colmap(bytes, name);
-  if (starts_with(bytes, std::string_view("II*\0", 4)) ||
-      starts_with(bytes, std::string_view("MM\0*", 4)))
-    throw InputError(name + ": TIFF is written, not read: give the map as EXR, NPZ or NPY");
-  throw InputError(name + ": not a map: expected an OpenEXR, PFM, PNG, NPY, NPZ or COLMAP file");
+  for (const Codec& codec : codecs)
+    if (codec.begins(bytes)) return codec.decode(bytes, name, memory);
+  throw InputError(name + ": not a map: expected an " + names_of_readable_maps() + " file");
 }
 
 }  // namespace

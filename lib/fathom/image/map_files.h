@@ -5,47 +5,17 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fathom/image/depth_map.h"
+#include "fathom/image/map_formats.h"
 #include "fathom/memory/available_memory.h"
 
 namespace fathom {
 
-enum class MapFormat { exr, pfm, png, npy, npz, colmap, tiff };
-
-/// Whether files of the format hold all channels of a map and all of its texts; the others hold one
-/// channel.
-constexpr bool holds_all_channels(MapFormat format) {
-  return format == MapFormat::exr || format == MapFormat::npz || format == MapFormat::tiff;
-}
-
-/// Whether read_map() gives them back under their names; a GeoTIFF is for other programs alone.
-constexpr bool keeps_all_channels(MapFormat format) {
-  return format == MapFormat::exr || format == MapFormat::npz;
-}
-
-/// Whether the one channel may have several parts: N.X, N.Y and N.Z.
-constexpr bool holds_parts(MapFormat format) {
-  return format == MapFormat::npy || format == MapFormat::colmap;
-}
-
-/// Whether depths are 0 where no surface is, and nothing else.
-constexpr bool has_zero_for_none(MapFormat format) {
-  return format == MapFormat::png || format == MapFormat::colmap;
-}
-
-/// The format that a path's suffix names (in any case); nullopt if none.
-std::optional<MapFormat> map_format_of(const std::filesystem::path& path);
-
 /// Whether a file begins as COLMAP's dense maps do, with a number that is ended by "&".
 bool is_colmap_map(std::span<const std::byte> bytes);
-
-/// Refuses images with more pixels on a side than the format holds, before any work is done.
-/// Fails    OutputError "NAME: EXR holds fewer than 2^30 pixels a side", "NAME: an NPZ holds less than
-///          4 GiB" or the like.
-void require_size(MapFormat format, std::uint32_t width, std::uint32_t height,
-                  const std::string& name);
 
 /// Refuses to write the map of a camera as a GeoTIFF, before any work is done, unless its pixels have a
 /// place in the world whatever their depth: it is orthographic and looks straight along the world's z.
@@ -54,6 +24,10 @@ void require_place_in_world(const Camera& camera, const std::string& name);
 
 /// Lossless EXR compressions.
 enum class Compression { none, rle, zips, zip, piz };
+inline constexpr std::array all_compressions{Compression::none, Compression::rle, Compression::zips,
+                                             Compression::zip, Compression::piz};
+/// "none", "rle", "zips", "zip" or "piz".
+std::string_view name_of(Compression compression);
 
 struct WriteOptions {
   Compression compression = Compression::zip;

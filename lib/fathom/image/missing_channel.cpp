@@ -45,12 +45,6 @@ std::string name_for_users(const DepthMap& map, const std::string& name) {
   return std::ranges::all_of(parts, is_there) ? stem : name;
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 /// `message`, and behind it the names that may be meant.
 UnknownName channel_suggested(const std::string& message, const std::string& name,
                               std::vector<std::string> names) {
@@ -64,12 +58,16 @@ UnknownName channel_suggested(const std::string& message, const std::string& nam
 
 }  // namespace
 
-UnknownName unknown_channel(const std::string& name) {
+std::vector<std::string> names_of_channels() {
   std::vector<std::string> names;
   names.reserve(channel_table.size());
   for (const ChannelDescription& channel : channel_table) names.emplace_back(channel.name);
+  return names;
+}
+
+UnknownName unknown_channel(const std::string& name) {
   return channel_suggested("there is no channel '" + name + "'; there are " + channel_names(), name,
-                           std::move(names));
+                           names_of_channels());
 }
 
 std::vector<std::string> names_of_channels(const DepthMap& map) {
@@ -82,26 +80,26 @@ std::vector<std::string> names_of_channels(const DepthMap& map) {
 }
 
 std::string list_of_channels(const DepthMap& map) {
-  return joined(names_of_channels(map));
+  return joined(names_of_channels(map), ", ");
 }
 
 std::string text_of_parts(const DepthMap& map, const std::string& name) {
   std::vector<std::string> names;
   for (const ImageChannel* part : image::parts_of(map, name)) names.push_back(part->name);
-  return names.empty() ? "" : name + " is " + joined(names);
+  return names.empty() ? "" : name + " is " + joined(names, ", ");
 }
 
 UsageError missing_channel(const DepthMap& map, const std::string& name, const std::string& which) {
   const std::string parts = text_of_parts(map, name);
   if (!parts.empty()) return UsageError(parts + "; name one");
   const std::vector<std::string> names = names_of_channels(map);
-  return channel_suggested(which + " has no channel '" + name + "', only " + joined(names), name,
-                           names);
+  return channel_suggested(which + " has no channel '" + name + "', only " + joined(names, ", "),
+                           name, names);
 }
 
 UsageError ambiguous_channel(const std::vector<std::string>& names, const std::string& refusal,
                              const std::string& use) {
-  return {Setting{"channel"}, refusal + " " + joined(names) + "; name the one to " + use};
+  return {Setting{"channel"}, refusal + " " + joined(names, ", ") + "; name the one to " + use};
 }
 
 }  // namespace fathom

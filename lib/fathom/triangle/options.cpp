@@ -8,10 +8,6 @@
 
 namespace fathom {
 
-std::string_view name_of(Engine engine) {
-  return engine == Engine::fast ? "fast" : "reference";
-}
-
 void add(RenderStatistics& sum, const RenderStatistics& part) {
   sum.degenerate_triangles += part.degenerate_triangles;
   sum.culled_triangles += part.culled_triangles;

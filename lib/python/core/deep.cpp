@@ -9,8 +9,10 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "fathom/image/deep_map.h"
+#include "fathom/image/map_files.h"
 #include "fathom/render.h"
 #include "maps.h"
+#include "named_value.h"
 #include "render_options.h"
 #include "running.h"
 #include "scene.h"
@@ -90,7 +92,7 @@ void bind_deep(Module& core) {
               const ContiguousArray<std::uint32_t>& counts, const std::filesystem::path& path,
               const std::string& compression, int threads) {
              const DeepMap map = deep_map_of(*description, front, back, area, alpha, id, counts);
-             const Compression stored = compression_named(compression);
+             const Compression stored = named_value("compression", all_compressions, compression);
              run([&](const auto&) { write_deep_map(map, path, stored, threads); });
            });
   core.def("cryptomatte", &cryptomatte);

@@ -7,6 +7,7 @@
 #include "fathom/depth_format/encode.h"
 #include "fathom/depth_format/resolution.h"
 #include "fathom/failures/errors.h"
+#include "fathom/failures/unknown_name.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/threads/threads.h"
@@ -91,14 +92,6 @@ double or_nan(const std::optional<double>& distance) {
   return distance.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-template <class Name, class List>
-std::vector<std::string> names_of(const List& all, const Name& name) {
-  std::vector<std::string> names;
-  names.reserve(std::size(all));
-  for (const auto each : all) names.emplace_back(name(each));
-  return names;
-}
-
 }  // namespace
 
 void bind_depth_formats(Module& core) {
@@ -147,8 +140,8 @@ void bind_depth_formats(Module& core) {
       .def_property_readonly("greatest", [](const DepthFormat& format) {
         return greatest_stored(format.storage).bits;
       });
-  core.attr("mappings") = names_of(all_mappings, [](Mapping each) { return name_of(each); });
-  core.attr("storages") = names_of(all_storages, [](Storage each) { return name_of(each); });
+  core.attr("mappings") = names_of(all_mappings);
+  core.attr("storages") = names_of(all_storages);
 }
 
 }  // namespace fathom::python

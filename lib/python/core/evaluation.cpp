@@ -5,6 +5,8 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "fathom/evaluate.h"
+#include "fathom/triangle/option_names.h"
+#include "named_value.h"
 #include "render_options.h"
 #include "running.h"
 #include "scene.h"
@@ -53,7 +55,7 @@ py::tuple evaluate_scenes(const SharedScene& made, const SharedScene& real,
   options.points = points;
   options.within = within;
   options.keep_points = keep_points;
-  options.cull = cull_named(cull);
+  options.cull = named_value("cull", all_culls, cull);
   options.threads = threads;
   const Evaluation found = run([&](const auto& progress) {
     options.progress = progress;

@@ -18,23 +18,13 @@
 #include "fathom/image/convert.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/point_cloud.h"
+#include "fathom/triangle/option_names.h"
+#include "named_value.h"
 #include "running.h"
 
 namespace py = pybind11;
 
 namespace fathom::python {
-
-Compression compression_named(const std::string& name) {
-  constexpr std::pair<std::string_view, Compression> names[] = {{"none", Compression::none},
-                                                                {"rle", Compression::rle},
-                                                                {"zips", Compression::zips},
-                                                                {"zip", Compression::zip},
-                                                                {"piz", Compression::piz}};
-  for (const auto& [known, compression] : names)
-    if (name == known) return compression;
-  throw UsageError("compression: expected none, rle, zips, zip or piz, found " + name);
-}
-
 namespace {
 
 /// The channels as arrays of height × width, each of which owns its memory; the map keeps none.
@@ -81,22 +71,16 @@ SharedMap read(const std::filesystem::path& path) {
   return run([&](const auto&) { return std::make_shared<DepthMap>(read_map(path)); });
 }
 
-MapFormat format_of(const std::filesystem::path& path) {
-  if (const auto format = map_format_of(path)) return *format;
-  throw UsageError(path.string() +
-                   ": expected a name that ends in .exr, .npz, .npy, .pfm, .png, .bin or .tif");
-}
-
 void write(const SharedMap& map, const std::filesystem::path& path, const std::string& channel,
            const std::string& compression, int threads,
            const std::vector<std::pair<std::string, std::string>>& names,
            const std::optional<Camera>& camera) {
-  const MapFormat format = format_of(path);
+  const MapFormat format = require_map_format(path);
   WriteOptions options;
   options.channel = channel;
   options.camera = camera;
   options.threads = threads;
-  options.compression = compression_named(compression);
+  options.compression = named_value("compression", all_compressions, compression);
   std::vector<ChannelName> others;
   others.reserve(names.size());
   for (const auto& [own, in_file] : names) others.push_back({own, in_file});
@@ -127,9 +111,7 @@ SharedMap convert(const SharedMap& map, const std::string& from, const std::stri
 
 SharedMap store(const DepthMap& map, const std::string& channel, const std::string& type,
                 std::optional<double> scale) {
-  const StoredType stored = type == "float32"   ? StoredType::binary32
-                            : type == "float64" ? StoredType::binary64
-                                                : StoredType::scaled_unorm16;
+  const StoredType stored = named_value("dtype", all_stored_types, type);
   return run([&](const auto&) {
     return std::make_shared<DepthMap>(with_storage(map, channel, stored, scale));
   });
@@ -273,7 +255,7 @@ void bind_maps(Module& core) {
       .def("with_channels", &with_channels);
   core.def("read_map", &read);
   core.def("write_map", &write);
-  core.def("require_map_name", [](const std::filesystem::path& path) { format_of(path); });
+  core.def("require_map_name", [](const std::filesystem::path& path) { require_map_format(path); });
   core.def("convert_quantity", &convert);
   core.def("with_storage",
            [](const SharedMap& map, const std::string& channel, const std::string& type,
@@ -287,6 +269,7 @@ void bind_maps(Module& core) {
   bind_metrics(core);
   bind_comparison(core);
   core.attr("background_text") = background_text;
+  core.attr("compressions") = names_of(all_compressions);
 }
 
 }  // namespace fathom::python

@@ -9,7 +9,9 @@
 #include "fathom/reference/probe.h"
 #include "fathom/reference/verify.h"
 #include "fathom/render.h"
+#include "fathom/triangle/option_names.h"
 #include "maps.h"
+#include "named_value.h"
 #include "render_options.h"
 #include "running.h"
 #include "scene.h"
@@ -23,7 +25,7 @@ py::list probe_pixel(const SharedScene& shared, const Camera& camera, std::uint3
                      std::uint32_t y, const std::string& cull) {
   const std::shared_ptr<const Scene> scene = shared.scene;
   const auto found = run([&](const auto& progress) {
-    return probe(*scene, camera, x, y, cull_named(cull), progress);
+    return probe(*scene, camera, x, y, named_value("cull", all_culls, cull), progress);
   });
   py::list list;
   for (const CoveringTriangle& each : found) {

@@ -14,7 +14,10 @@
 #include "fathom/scene/view_warnings.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
+#include "fathom/triangle/option_names.h"
+#include "fathom/triangle/segment_channels.h"
 #include "maps.h"
+#include "named_value.h"
 #include "render_options.h"
 #include "running.h"
 #include "scene.h"
@@ -23,14 +26,10 @@ namespace py = pybind11;
 
 namespace fathom::python {
 
-Cull cull_named(const std::string& name) {
-  return name == "back" ? Cull::back : name == "front" ? Cull::front : Cull::none;
-}
-
 RenderOptions options_of(const std::string& cull, int threads,
                          const std::function<void(double)>& progress) {
   RenderOptions options;
-  options.cull = cull_named(cull);
+  options.cull = named_value("cull", all_culls, cull);
   options.threads = threads;
   options.progress = progress;
   return options;
@@ -51,25 +50,20 @@ RenderOptions make_options(const std::vector<std::string>& channels, const std::
     }
     options.channels.push_back(*channel);
   }
-  options.cull = cull_named(cull);
-  options.depth_encoding.type = type == "float64"  ? StoredType::binary64
-                                : type == "uint16" ? StoredType::scaled_unorm16
-                                                   : StoredType::binary32;
+  options.cull = named_value("cull", all_culls, cull);
+  options.depth_encoding.type = named_value("dtype", all_stored_types, type);
   options.depth_encoding.scale = scale;
-  options.engine = engine == "reference" ? Engine::reference : Engine::fast;
+  options.engine = named_value("engine", all_engines, engine);
   options.threads = threads;
-  options.normals = normals == "vertex"  ? NormalSource::vertex
-                    : normals == "place" ? NormalSource::place
-                                         : NormalSource::file;
+  options.normals = named_value("normals", all_normal_sources, normals);
   require_meaningful(options);
   return options;
 }
 
 /// The type of NumPy's that a channel has; "" where it is the one that is asked for.
-const char* name_of(ChannelType type) {
-  return type == ChannelType::identifier ? "uint32"
-         : type == ChannelType::binary32 ? "float32"
-                                         : "";
+std::string numpy_type_of(ChannelType type) {
+  if (type == ChannelType::identifier) return "uint32";
+  return type == ChannelType::binary32 ? std::string(name_of(StoredType::binary32)) : "";
 }
 
 /// Where the values of one channel of all maps go: an array of Python's, of the channel's type, with
@@ -232,9 +226,16 @@ void bind_render(Module& core) {
     py::dict channels;
     for (const ChannelDescription& each : channel_table)
       channels[py::str(std::string(each.name))] =
-          py::make_tuple(std::string(each.parts), name_of(each.type));
+          py::make_tuple(std::string(each.parts), numpy_type_of(each.type));
     return channels;
   });
+  core.attr("culls") = names_of(all_culls);
+  core.attr("engines") = names_of(all_engines);
+  core.attr("normal_sources") = names_of(all_normal_sources);
+  core.attr("stored_types") = names_of(all_stored_types);
+  py::list segments;
+  for (const Channel each : segment_channels) segments.append(description_of(each).name);
+  core.attr("segment_channels") = segments;
   core.attr("no_surface") = no_surface;
   core.attr("no_segment") = no_segment;
 }

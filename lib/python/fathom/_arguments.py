@@ -94,7 +94,7 @@ def as_number(name: str, value: Any) -> float:
 
 
 #: The values of `cull`.
-culls = ("none", "back", "front")
+culls = tuple(_core.culls)
 
 most_threads = 1024
 

@@ -14,6 +14,12 @@ version: str
 no_surface: int
 no_segment: int
 background_text: str
+compressions: list[str]
+culls: list[str]
+engines: list[str]
+normal_sources: list[str]
+segment_channels: list[str]
+stored_types: list[str]
 mappings: list[str]
 storages: list[str]
 class_names: list[str]

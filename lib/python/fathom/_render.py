@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 Cull = Literal["none", "back", "front"]
 Background = Union[float, Literal["inf", "nan"]]
 Normals = Literal["file", "vertex", "place"]
-normal_sources = ("file", "vertex", "place")
+
 
 #: The channels that fathom renders: the letters of their parts, and their type, or "" for the
 #: requested type.
@@ -56,9 +56,9 @@ def render_cameras(
         one_of("cull", cull, culls),
         stored,
         as_number("scale", scale),
-        one_of("engine", engine, ("fast", "reference")),
+        one_of("engine", engine, _core.engines),
         as_threads(threads),
-        one_of("normals", normals, normal_sources),
+        one_of("normals", normals, _core.normal_sources),
     )
     is_stack = not isinstance(camera, Camera)
     cameras = [camera] if isinstance(camera, Camera) else list_of_cameras(camera)
@@ -180,7 +180,7 @@ def stored_type(dtype: npt.DTypeLike) -> str:
         name = "None" if dtype is None else np.dtype(dtype).name
     except TypeError:
         name = str(dtype)
-    if name not in ("float32", "float64", "uint16"):
+    if name not in _core.stored_types:
         raise TypeError(f"dtype: expected float32, float64 or uint16, found {name}")
     return name
 

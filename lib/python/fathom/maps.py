@@ -26,7 +26,7 @@ NO_SURFACE = _core.no_surface
 #: The value of material, group, part and label if the visible triangle has no such name or label.
 NO_SEGMENT = _core.no_segment
 #: The channels that can have this value.
-segment_channels = ("material", "group", "part", "label")
+segment_channels = tuple(_core.segment_channels)
 
 #: The channels with several parts, which are one array with a last axis: N is N.X, N.Y, N.Z in
 #: files.
@@ -276,7 +276,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         """A map with only one depth channel, stored as float32, float64 or uint16 codes of
         round(scale · depth)."""
         try:
-            name = one_of("dtype", np.dtype(dtype).name, ("float32", "float64", "uint16"))
+            name = one_of("dtype", np.dtype(dtype).name, _core.stored_types)
         except TypeError:
             raise TypeError(f"dtype: expected float32, float64 or uint16, found {dtype!r}") from None
         factor = None if scale is None else as_number("scale", scale)

@@ -285,7 +285,7 @@ Bytes assembled_tiff(const TiffDirectory& description, const std::vector<Bytes>&
     at += strips[i].size();
   }
   if (at > std::numeric_limits<std::uint32_t>::max())
-    refuse_tiff(name, "a GeoTIFF holds less than 4 GiB; .exr holds more");
+    refuse_tiff(name, std::string(description_of(MapFormat::tiff).limit));
   Bytes file;
   file.reserve(at);
   append(file, std::string("II*\0", 4));

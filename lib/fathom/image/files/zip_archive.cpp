@@ -177,7 +177,8 @@ bool inflate_into(Bytes& room, ByteView packed) {
 
 void ZipWriter::require_space(std::size_t more) const {
   const std::uint64_t whole = std::uint64_t{bytes_.size()} + directory_.size() + end_size + more;
-  if (whole >= beyond) throw OutputError(name_ + ": an NPZ holds less than 4 GiB; .exr holds more");
+  if (whole >= beyond)
+    throw OutputError(name_ + ": " + std::string(description_of(MapFormat::npz).limit));
   if (files_ >= 0xFFFE) throw OutputError(name_ + ": an NPZ holds at most 65534 arrays");
 }
 
