@@ -18,6 +18,7 @@
 #include "fathom/files/input_file.h"
 #include "fathom/files/sha256.h"
 #include "fathom/image/map_files.h"
+#include "fathom/image/map_texts.h"
 #include "fathom/scene/read_scene.h"
 #include "fathom/triangle/option_names.h"
 
@@ -175,7 +176,7 @@ Scene MotionOptions::placed(Scene scene) const {
 }
 
 void MotionOptions::describe(DepthMap& map, double at) const {
-  if (is_given()) map.texts["fathom.time"] = fmt::format("{}", at);
+  if (is_given()) map.texts[time_text] = fmt::format("{}", at);
 }
 
 void add_cull_option(Command& command, Cull& cull) {

@@ -8,6 +8,7 @@
 #include "apps/render/render_outputs.h"
 #include "apps/shell/progress.h"
 #include "fathom/area/sampled_coverage.h"
+#include "fathom/image/map_texts.h"
 #include "fathom/reference/verify.h"
 #include "fathom/text/counted.h"
 
@@ -22,7 +23,7 @@ DepthBufferReport add_depth_buffer_channels(DepthMap& map, const DepthBufferPlan
   DepthBufferReport report{format_for(plan, camera), plan.against_exact, {}};
   report.seen =
       add_depth_buffer(map, triangles, camera, {report.format, plan.against_exact, options});
-  map.texts["fathom.depth_format"] = json_of(report.format).dump();
+  map.texts[depth_format_text] = json_of(report.format).dump();
   return report;
 }
 
@@ -111,7 +112,7 @@ void add_planned(DepthMap& map, const MapPlan& plan, const std::string& name,
   for (const MatteKind& by : plan.mattes) add_mattes(map, from.mattes(by));
   if (plan.samples) {
     add_sampled_coverage(map, from.triangles, from.camera, *plan.samples, from.options);
-    map.texts["fathom.samples"] = plan.samples->name;
+    map.texts[samples_text] = plan.samples->name;
   }
   report.seconds.render += stopwatch.lap();
   if (plan.depth_buffer) {

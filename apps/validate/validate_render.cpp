@@ -9,6 +9,7 @@
 #include "fathom/camera/camera_files.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/map_files.h"
+#include "fathom/image/map_texts.h"
 #include "validation/peers/drawing.h"
 
 namespace fathom::app {
@@ -42,8 +43,8 @@ int validate_render(const ValidateArguments& arguments, const Console& console) 
   if (!drawing.drawn) throw InputError(drawing.failure);
   DepthMap map = attribution::as_depth_map(drawing.drawn->map);
   const Camera camera = scene.make().camera;
-  map.texts["fathom.camera"] = to_json(camera);
-  map.texts["fathom.engine"] = drawing.drawn->version;
+  map.texts[camera_text] = to_json(camera);
+  map.texts[engine_text] = drawing.drawn->version;
   output.write([&](const std::filesystem::path& path) {
     write_map(map, path, *format,
               {.channel = holds_all_channels(*format) ? "" : "Z", .camera = camera});

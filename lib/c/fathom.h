@@ -127,7 +127,8 @@ typedef struct {
 
 /* Renders the exact map: every value is the exact number, rounded once.
  *
- *   channels   one channel or several: "Z", "Z,A,id,N"
+ *   channels   one channel or several, as "Z" or "Z,A,id,N": Z, A, Zlow, distance, id, face, object, material, group,
+ *              part, label, N, P, bary, Nc, Ns (docs/reference/channels.md)
  *   options    NULL: all options are 0
  */
 FATHOM_API fathom_status fathom_render(const fathom_scene* scene, const fathom_camera* camera,

@@ -1,5 +1,6 @@
 #include "fathom/map_description.h"
 
+#include "fathom/image/map_texts.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/text/json_text.h"
@@ -41,8 +42,8 @@ void describe_map(const Scene& scene, const Camera& camera, std::string_view eng
   map.camera = camera;
   for (const Object& object : scene.objects) map.object_names.push_back(object.name);
   add_tables(scene, map);
-  map.texts["fathom.sources"] = sources_as_json(scene.sources);
-  map.texts["fathom.engine"] = engine;
+  map.texts[sources_text] = sources_as_json(scene.sources);
+  map.texts[engine_text] = engine;
 }
 
 }  // namespace fathom

@@ -7,6 +7,7 @@
 #include "fathom/area/deep_pixels.h"
 #include "fathom/failures/errors.h"
 #include "fathom/fast/render_fast.h"
+#include "fathom/image/map_texts.h"
 #include "fathom/map_description.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/reference.h"
@@ -27,10 +28,10 @@ void describe(const Scene& scene, const Camera& camera, const RenderOptions& opt
               DepthMap& map) {
   describe_map(scene, camera, name_of(options.engine), map);
   if (options.cull != Cull::none) {
-    map.texts["fathom.cull"] = name_of(options.cull);
+    map.texts[cull_text] = name_of(options.cull);
   }
   if (options.normals != NormalSource::file && map.find("Ns.X")) {
-    map.texts["fathom.normals"] = name_of(options.normals);
+    map.texts[normals_text] = name_of(options.normals);
   }
 }
 
@@ -151,7 +152,7 @@ DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOption
   require_renderable(scene, camera);
   DeepMap map = visible_in_pixels(scene, camera, options, share);
   describe(scene, camera, options, map.description);
-  map.description.texts.erase("fathom.engine");
+  map.description.texts.erase(engine_text);
   return map;
 }
 

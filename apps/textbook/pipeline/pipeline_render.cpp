@@ -17,6 +17,7 @@
 #include "apps/textbook/pipeline/pipeline_report.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/failures/errors.h"
+#include "fathom/image/map_texts.h"
 #include "fathom/pipeline/render_moving.h"
 #include "fathom/render_by_pipeline.h"
 #include "fathom/text/counted.h"
@@ -146,10 +147,10 @@ PipelineReport report_of(const std::string& name, const PipelineRendering& rende
 void add_depth_buffer(PipelineRendering& rendering) {
   const PipelineDepthBuffer& buffer = rendering.depth_buffer;
   fathom::add_depth_buffer(rendering.map, buffer);
-  rendering.map.texts["fathom.depth_format"] = json_of(buffer.format).dump();
+  rendering.map.texts[depth_format_text] = json_of(buffer.format).dump();
   const auto& [near, far] = buffer.depth_range;
   if (near != 0 || far != 1) {
-    rendering.map.texts["fathom.depth_range"] = fmt::format("[{}, {}]", near, far);
+    rendering.map.texts[depth_range_text] = fmt::format("[{}, {}]", near, far);
   }
 }
 

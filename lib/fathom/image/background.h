@@ -4,15 +4,14 @@
 #include <string>
 
 #include "fathom/image/depth_map.h"
+#include "fathom/image/map_texts.h"
 
 /// The value that stands for "no surface" in the depth channels of a map.
 namespace fathom {
 
-/// The text of a map that names its background, where that is not +∞ (of codes: 0): "0", "nan", or
-/// the shortest decimal text of a number. EXR and NPZ hold it, PFM and NPY have no place for it.
-inline constexpr const char* background_text = "fathom.background";
-
-/// What a map says of its own background; +∞ is taken too.
+/// What a map says of its own background, in its text background_text (map_texts.h): "0", "nan", or the
+/// shortest decimal text of a number, where it is not +∞ (of codes: 0); +∞ is taken too. EXR and NPZ
+/// hold the text, PFM and NPY have no place for it.
 /// Fails    InputError if the text is neither a number nor "nan" nor "inf".
 std::optional<double> declared_background(const DepthMap& map);
 

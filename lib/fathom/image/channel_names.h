@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fathom/image/depth_map.h"
+#include "fathom/image/map_texts.h"
 
 /// Channels under the names that other programs look for: OpenCV, for one, shows of an EXR only
 /// channels R, G, B and Y.
@@ -14,11 +15,8 @@ struct ChannelName {
   std::string channel, in_file;
 };
 
-/// The text of a map whose channels have other names: "Z=Y,distance=D".
-inline constexpr const char* channel_names_text = "fathom.channel-names";
-
-/// The map with these channels called otherwise, and the text by which read_map() gives them their
-/// own names back. Files of PFM and NPY name no channel.
+/// The map with these channels called otherwise, and the text channel_names_text (map_texts.h),
+/// "Z=Y,distance=D", by which read_map() gives them their own names back. Files of PFM and NPY name no channel.
 /// Fails    UsageError if there is no such channel, it is named twice, a name is empty or holds one
 ///          of ",=" or NUL, or two channels would be called the same; InputError if the map has a
 ///          fault.

@@ -8,6 +8,7 @@
 
 #include "fathom/camera/camera_files.h"
 #include "fathom/failures/errors.h"
+#include "fathom/image/map_texts.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/counted.h"
 
@@ -56,12 +57,6 @@ std::optional<std::string> find_fault(const DepthMap& map) {
 void require_valid(const DepthMap& map) {
   if (const auto fault = find_fault(map)) throw InputError("map: " + *fault);
 }
-
-namespace {
-
-constexpr const char* camera_text = "fathom.camera";
-
-}  // namespace
 
 std::optional<Camera> camera_of(const DepthMap& map, const std::string& name) {
   const StandardArithmetic standard;

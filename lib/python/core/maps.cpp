@@ -17,6 +17,7 @@
 #include "fathom/image/compare.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/map_files.h"
+#include "fathom/image/map_texts.h"
 #include "fathom/image/point_cloud.h"
 #include "fathom/triangle/option_names.h"
 #include "named_value.h"
@@ -269,6 +270,8 @@ void bind_maps(Module& core) {
   bind_metrics(core);
   bind_comparison(core);
   core.attr("background_text") = background_text;
+  core.attr("camera_text") = camera_text;
+  core.attr("normals_text") = normals_text;
   core.attr("compressions") = names_of(all_compressions);
 }
 

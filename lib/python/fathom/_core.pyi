@@ -14,6 +14,8 @@ version: str
 no_surface: int
 no_segment: int
 background_text: str
+camera_text: str
+normals_text: str
 compressions: list[str]
 culls: list[str]
 engines: list[str]

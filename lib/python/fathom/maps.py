@@ -119,6 +119,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
 
         scale  codes of uint16 per scene unit for a .png of depths, as by stored_as("uint16",
                scale=…)
+        compression  of an EXR, lossless: none, rle, zips, zip or piz
         names  names of channels in an EXR: {"Z": "Y"} is for cv2.imread(), which only reads R, G, B
                and Y
         """
@@ -359,10 +360,10 @@ def _positive(name: str, value: object) -> float:
 def _camera_of(description: _core.Map) -> Camera | None:
     if description.camera is not None:
         return Camera._of(description.camera)
-    text = description.texts.get("fathom.camera")
+    text = description.texts.get(_core.camera_text)
     if text is None:
         return None
-    cameras = cameras_from_json(text, "fathom.camera")
+    cameras = cameras_from_json(text, _core.camera_text)
     return cameras[0] if len(cameras) == 1 else None
 
 

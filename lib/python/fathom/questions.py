@@ -123,7 +123,7 @@ def verify(map: Map, scene: Scene, camera: Camera | None = None, *, pixels: int 
     stored = "float32" if depths is None else stored_type(depths.dtype)
     options = _core.RenderOptions(channels, one_of("cull", cull, culls), stored, map.scale or 1000, "fast",
                                   as_threads(threads),
-                                  map.metadata.get("fathom.normals", "file"))
+                                  map.metadata.get(_core.normals_text, "file"))
     verified, differing, first = _core.verify(map._handle(), scene_handle(scene), camera_handle(view), options,
                                               as_count("pixels", pixels, 1, 2**63))
     return Verification(verified, differing, None if first is None else Disagreement(*first))

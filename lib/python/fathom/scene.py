@@ -186,7 +186,8 @@ class Scene:
         out: Mapping[str, npt.NDArray[Any]] | None = None,
     ) -> Map:
         """Renders the scene: H×W arrays for one camera, n×H×W arrays for a sequence of n cameras of
-        one image size. The other arguments, results and errors are as in fathom.render()."""
+        one image size. `engine` is "fast" or "reference", which returns the same map slowly. The
+        other arguments, results and errors are as in fathom.render()."""
         nothing = background_value(background, dtype)
         try:
             arrays, views, notes = render_cameras(self._handle, camera, channels, cull, dtype,
