@@ -24,6 +24,31 @@ def test_help_of_a_command_is_its_help_option(name):
     assert "--help" in command.long_options() and "--quiet" in command.long_options()
 
 
+# Patterns, long lists, which another option or the end of the help contains, and lists of another command.
+WORDS_ELSEWHERE = {("fathom-render", "--samples"), ("fathom-dataset-maps", "--channels"), ("fathom-study", "NAME"),
+                   ("fathom-validate", "--scene"), ("fathom-validate", "--render"), ("fathom-validate", "--model"),
+                   ("fathom-bench", "--scene"), ("fathom-bench", "--channels"), ("fathom-clip", "--against")}
+
+
+def words_of(command: Help) -> dict[str, list[str]]:
+    """The words that each option or argument of a command takes, as the shells complete them."""
+    lines = answer(*command.path, "--help=completion").split("\n")[1:]
+    own = lines[:next((i for i, line in enumerate(lines) if not line.startswith("option\t")), None)]
+    return {fields[1].split()[-1]: fields[4].split() for fields in (line.split("\t") for line in own)}
+
+
+@pytest.mark.parametrize("name", names)
+def test_help_contains_every_word_that_an_option_takes(name):
+    command = by_name(name)
+    told = {option[-1]: " ".join(text) for option, text in command.options.items()} | command.arguments
+    for option, words in words_of(command).items():
+        if (name, option) in WORDS_ELSEWHERE:
+            continue
+        explained = set(re.split(r"[^\w.-]+", told.get(option, "")))
+        explained |= {word.rstrip(".") for word in explained}
+        assert set(words) <= explained, (name, option)
+
+
 @pytest.mark.parametrize("name", names)
 def test_lines_fit_a_terminal(name):
     explained = by_name(name).text.partition("\nExamples:\n")[0]

@@ -1,0 +1,132 @@
+"""What the library's tables list, channels, formats of maps and names of options, is in the help, the docstrings, the C
+header and the pages that list it for users."""
+
+import os
+import pathlib
+import re
+import typing
+
+import pytest
+
+import fathom
+from fathom import _core, _render, maps
+
+source = pathlib.Path(os.environ["FATHOM_SOURCE"])
+
+
+def read(path):
+    return (source / path).read_text(encoding="utf-8")
+
+
+def between(text, first, last):
+    """The part from one text to another; both are there."""
+    assert first in text and last in text.partition(first)[2], (first, last)
+    return text.partition(first)[2].partition(last)[0]
+
+
+def missing(names, text):
+    return [name for name in names if not re.search(rf"(?<![\w.-]){re.escape(name)}(?![\w-])", text)]
+
+
+channels = list(maps.rendered)
+c_header = read("lib/c/fathom.h")
+specification = between(read("docs/specification.md"), "\n## 6.", "\n## 7.")
+lists_of_channels = {
+    "docs/specification.md, section 6": specification,
+    "docs/reference/channels.md": read("docs/reference/channels.md"),
+    "docs/python.md": between(read("docs/python.md"), "| `channels` |", "\n"),
+    "lib/c/fathom.h": between(c_header, "*   channels ", "*   options "),
+    "fathom.render()": between(fathom.render.__doc__, "channels  ", "\n    near, far  "),
+}
+
+
+@pytest.mark.parametrize("place", lists_of_channels)
+def test_every_channel_is_listed(place):
+    # Parts have rows of their own where a table has columns.
+    assert missing(channels, re.sub(r"\.[A-Z]\b", "", lists_of_channels[place])) == []
+
+
+def suffixes_of_maps():
+    with pytest.raises(ValueError, match="expected a name that ends in") as refusal:
+        fathom.Map({"Z": [[1.0]]}).write("map.nothing")
+    return re.findall(r"\.\w+", str(refusal.value).partition("ends in")[2])
+
+
+def test_suffixes_are_those_of_the_library():
+    assert len(suffixes_of_maps()) >= 7 and {".exr", ".npz", ".tif"} <= set(suffixes_of_maps())
+
+
+def help_of_output(run_program, command):
+    return between(run_program(command, "--help=completion"), "option\t-o --output\t", "\n")
+
+
+@pytest.mark.parametrize("command", ["render", "convert"])
+def test_every_suffix_is_in_the_help_of_output(command, run_program):
+    assert missing(suffixes_of_maps(), help_of_output(run_program, command)) == []
+
+
+lists_of_formats = {
+    "docs/reading-maps.md": read("docs/reading-maps.md"),
+    "Map.write()": fathom.Map.write.__doc__,
+    "lib/c/fathom.h": between(c_header, "fathom_map_read(", "fathom_map_write("),
+}
+
+
+@pytest.mark.parametrize("place", lists_of_formats)
+def test_every_format_is_listed(place):
+    assert missing(suffixes_of_maps(), lists_of_formats[place]) == []
+
+
+def names_of_readable_maps(tmp_path):
+    (tmp_path / "nothing").write_bytes(b"nothing")
+    with pytest.raises(_core.InputError, match="expected an") as refusal:
+        fathom.read_map(tmp_path / "nothing")
+    return re.findall(r"[A-Z]{3,}", str(refusal.value).partition("expected an")[2])
+
+
+def test_every_format_that_is_read_is_in_the_c_header(tmp_path):
+    names = names_of_readable_maps(tmp_path)
+    assert len(names) >= 6
+    assert missing(names, c_header.partition("fathom_map_read(")[0].rpartition("/*")[2]) == []
+
+
+def test_formats_that_are_read_and_written_are_in_the_specification(tmp_path):
+    assert missing([*names_of_readable_maps(tmp_path), "GeoTIFF"], specification) == []
+
+
+def test_the_header_for_c_has_every_cull():
+    assert {name.lower() for name in re.findall(r"FATHOM_CULL_(\w+) =", c_header)} == set(_core.culls)
+
+
+@pytest.mark.parametrize("words, kind", [(_core.culls, _render.Cull), (_core.normal_sources, _render.Normals)])
+def test_types_for_checkers_have_every_word(words, kind):
+    assert set(typing.get_args(kind)) == set(words)
+
+
+@pytest.mark.parametrize("words, text", [
+    ([word for word in _core.culls if word != "none"], between(fathom.render.__doc__, "cull  ", "dtype  ")),
+    (_core.stored_types, between(fathom.render.__doc__, "dtype  ", "background  ")),
+    (_core.normal_sources, between(fathom.render.__doc__, "normals  ", "threads  ")),
+    (_core.normal_sources, between(read("docs/python.md"), "| `normals` |", "\n")),
+    (_core.stored_types, between(read("docs/python.md"), "| `dtype` |", "\n")),
+    (_core.engines, fathom.Scene.render.__doc__),
+    (_core.compressions, fathom.Map.write.__doc__),
+    (_core.mappings, fathom.DepthFormat.__doc__),
+    (_core.storages, fathom.DepthFormat.__doc__),
+], ids=["cull", "dtype", "normals", "normals-page", "dtype-page", "engine", "compression", "mapping", "storage"])
+def test_docstrings_and_pages_have_every_word(words, text):
+    assert len(words) >= 2 and missing(words, text) == []
+
+
+def test_texts_of_maps_are_in_the_page():
+    keys = re.findall(r'"(fathom\.[a-z_-]+)"', read("lib/fathom/image/map_texts.h"))
+    assert len(keys) >= 10 and missing(keys, between(read("docs/reading-maps.md"), "## The header of an EXR", "OpenEXR multiplies")) == []
+
+
+def test_texts_of_maps_have_one_spelling():
+    """Nothing in the library or the programs spells a key itself."""
+    files = [path for folder in ("lib/fathom", "apps", "validation") for path in (source / folder).rglob("*")
+             if path.suffix in (".h", ".cpp") and path.name != "map_texts.h"]
+    assert len(files) > 500
+    keys = re.findall(r'"(fathom\.[a-z_-]+)"', read("lib/fathom/image/map_texts.h"))
+    assert [path for path in files if any(f'"{key}"' in path.read_text(encoding="utf-8") for key in keys)] == []
