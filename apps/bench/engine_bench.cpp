@@ -11,7 +11,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/failures/unknown_name.h"
 #include "fathom/render.h"
-#include "fathom/triangle/option_names.h"
+#include "fathom/rendering/option_names.h"
 #include "validation/scenes/scenes.h"
 
 /// Times render(), from mesh and camera in memory to the complete map in memory, without any peer, or
@@ -163,16 +163,15 @@ void time_scene(const std::string& name, const Arguments& arguments) {
   std::vector<double> milliseconds;
   std::size_t covered = 0;
   RenderMemory memory;
-  RenderOptions options = arguments.options;
-  if (arguments.keep) options.kept = &memory;
-  DepthMap map;
+  const RenderContext context{.kept = arguments.keep ? &memory : nullptr};
+  Rendered rendered;
   for (int run = 0; run <= arguments.repeat; ++run) {
-    if (!arguments.keep) map = {};
+    if (!arguments.keep) rendered = {};
     const auto start = Clock::now();
-    render_into(map, bench.scene, bench.camera, options);
+    render_into(rendered, bench.scene, bench.camera, arguments.options, context);
     const std::chrono::duration<double, std::milli> time = Clock::now() - start;
     if (run > 0) milliseconds.push_back(time.count());
-    if (const auto* Z = map.values<float>("Z"); Z != nullptr && run == 0) {
+    if (const auto* Z = rendered.map.values<float>("Z"); Z != nullptr && run == 0) {
       covered = static_cast<std::size_t>(
           std::count_if(Z->begin(), Z->end(), [](float z) { return std::isfinite(z); }));
     }
@@ -181,12 +180,7 @@ void time_scene(const std::string& name, const Arguments& arguments) {
   std::printf("%-16s %10llu triangles %9zu pixels  median %9.2f ms  min %9.2f ms\n", name.c_str(),
               static_cast<unsigned long long>(triangle_count(bench.scene)), covered,
               milliseconds[milliseconds.size() / 2], milliseconds.front());
-  if (arguments.tiers) {
-    RenderStatistics statistics;
-    options.statistics = &statistics;
-    render(bench.scene, bench.camera, options);
-    print_tiers(statistics);
-  }
+  if (arguments.tiers) print_tiers(rendered.statistics);
   std::fflush(stdout);
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/triangle/options.h"
+#include "fathom/rendering/options.h"
 
 namespace fathom::bench {
 

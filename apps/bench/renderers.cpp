@@ -29,18 +29,18 @@ enum class Kept { nothing, map_and_memory };
 std::vector<Measurement> measure_engine(const std::string& name, Engine engine, Kept kept,
                                         const BenchScene& bench, const Plan& plan,
                                         std::uint64_t idle_bytes) {
-  RenderOptions options{.engine = engine, .channels = plan.channels, .threads = plan.threads};
+  const RenderOptions options{.engine = engine, .channels = plan.channels, .threads = plan.threads};
   RenderMemory memory;
-  if (kept == Kept::map_and_memory) options.kept = &memory;
+  const RenderContext context{.kept = kept == Kept::map_and_memory ? &memory : nullptr};
   forget_peak();
-  DepthMap map;
+  Rendered rendered;
   Frames frames = time_frames(
-      plan.repeat, [&] { render_into(map, bench.scene, bench.camera, options); },
+      plan.repeat, [&] { render_into(rendered, bench.scene, bench.camera, options, context); },
       [&] {
-        if (kept == Kept::nothing) map = {};
+        if (kept == Kept::nothing) rendered = {};
       });
   return {{name, "", frames.first_ms, std::move(frames.milliseconds),
-           peak_resident_bytes() - idle_bytes, covered_pixels(map)}};
+           peak_resident_bytes() - idle_bytes, covered_pixels(rendered.map)}};
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ void resolve(benchmark::State& state, const std::string& scene) {
     tiles.back()->start(stages.frame.grid.area(i));
     draw_tile(*tiles.back(), i, bins, objects, context);
   }
-  DepthMap map = triangle::make_background(camera, stages.options);
+  DepthMap map = rendering::make_background(camera, stages.options);
   ChannelWriter writer(map, stages.source, camera, stages.options);
   FastOutput output(map, writer, stages.rays);
   for (auto _ : state) {

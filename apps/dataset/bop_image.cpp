@@ -140,9 +140,8 @@ BopImageMaker::Silhouette BopImageMaker::silhouette_of(const BopImage& image,
                                                        std::size_t instance) {
   const Scene& scene = models_.scene_of(std::span(image.instances).subspan(instance, 1));
   const Camera wide = around(image.camera);
-  RenderOptions options = rendering({Channel::object});
-  options.kept = &memory_of_silhouettes_;
-  const DepthMap map = render(scene, wide, options);
+  const DepthMap map =
+      render(scene, wide, rendering({Channel::object}), {.kept = &memory_of_silhouettes_}).map;
   Silhouette silhouette;
   silhouette.whole = mask_of(*map.values<std::uint32_t>("object"), wide.width, std::nullopt);
   silhouette.mask = middle_of(silhouette.whole.mask, image.camera.width, image.camera.height);
@@ -160,14 +159,13 @@ Result BopImageMaker::make(const BopImage& image, const std::filesystem::path& f
   }
   const Scene& scene = models_.scene_of(image.instances);
   RenderOptions options = rendering({Channel::Z, Channel::object});
-  options.kept = &memory_;
   options.depth_encoding.type = DepthEncoding::Type::scaled_unorm16;
   options.depth_encoding.scale = 1;
   options.depth_encoding.divisor = image.depth_scale;
   options.depth_encoding.beyond_is_none = options_.beyond_is_none;
   const std::string name = (folder / files_of(image).front()).string();
-  const auto map = std::make_shared<const DepthMap>(
-      about_output(name, [&] { return render(scene, image.camera, options); }));
+  const auto map = std::make_shared<const DepthMap>(about_output(
+      name, [&] { return render(scene, image.camera, options, {.kept = &memory_}).map; }));
   codes_beyond_.note(*map);
   VisibleAreas areas;
   if (options_.areas) areas = visible_areas(scene, image.camera, rendering({Channel::Z}));

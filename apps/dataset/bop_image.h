@@ -7,8 +7,8 @@
 #include "apps/dataset/views.h"
 #include "apps/jobs/job.h"
 #include "fathom/fast/render_memory.h"
+#include "fathom/rendering/options.h"
 #include "fathom/scene/bop_scene.h"
-#include "fathom/triangle/options.h"
 
 namespace fathom::app {
 

@@ -71,7 +71,6 @@ std::string description_of(const Scene& scene, const MapPlan& plan) {
 ViewMaker::ViewMaker(Scene scene, std::vector<Camera> cameras, MapPlan plan)
     : scene_(std::move(scene)), cameras_(std::move(cameras)), plan_(std::move(plan)) {
   inputs_ = description_of(scene_, plan_);
-  plan_.rendering.kept = &memory_;
   check_cameras(cameras_, plan_, "a map");
 }
 
@@ -88,14 +87,12 @@ std::size_t ViewMaker::memory_of(std::size_t camera) const {
 }
 
 std::shared_ptr<const DepthMap> ViewMaker::make(std::size_t camera, const std::string& name) {
-  RenderStatistics statistics;
-  RenderOptions options = plan_.rendering;
-  options.statistics = &statistics;
-  DepthMap map = about_output(name, [&] { return render(scene_, cameras_[camera], options); });
-  warnings_.note(scene_, cameras_[camera], statistics.pixels_with_surface);
-  codes_beyond_.note(map);
-  return std::make_shared<const DepthMap>(
-      plan_.storage.dressed(std::move(map), name, std::numeric_limits<double>::infinity()));
+  Rendered rendered = about_output(
+      name, [&] { return render(scene_, cameras_[camera], plan_.rendering, {.kept = &memory_}); });
+  warnings_.note(scene_, cameras_[camera], rendered.statistics.pixels_with_surface);
+  codes_beyond_.note(rendered.map);
+  return std::make_shared<const DepthMap>(plan_.storage.dressed(
+      std::move(rendered.map), name, std::numeric_limits<double>::infinity()));
 }
 
 void ViewMaker::warn(const Console& console) const {

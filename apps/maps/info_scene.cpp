@@ -9,11 +9,11 @@
 
 #include "apps/maps/info.h"
 #include "apps/shell/standard_streams.h"
+#include "fathom/rendering/segment_channels.h"
 #include "fathom/scene/bounds.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/printable.h"
-#include "fathom/triangle/segment_channels.h"
 
 namespace fathom::app {
 namespace {

@@ -1,13 +1,11 @@
 #include "apps/mpi/map_together.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <exception>
 #include <filesystem>
 #include <limits>
-#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "apps/mpi/banded_exr.h"
 #include "apps/mpi/gathered_rows.h"
@@ -68,12 +66,12 @@ class MapTogether {
 
   /// What each rank has counted, but for the triangles of the scene, which all know.
   void sum_up_statistics() {
-    static_assert(std::has_unique_object_representations_v<RenderStatistics>,
-                  "expected counts alone, without padding and floating-point numbers");
-    using Counts = std::array<std::uint64_t, sizeof(RenderStatistics) / sizeof(std::uint64_t)>;
-    auto counts = std::bit_cast<Counts>(drawing_.statistics());
-    ranks_.add_up(counts);
-    report_.statistics = std::bit_cast<RenderStatistics>(counts);
+    report_.statistics = drawing_.statistics();
+    std::vector<std::uint64_t> numbers;
+    for_each_number(report_.statistics, [&](std::uint64_t n) { numbers.push_back(n); });
+    ranks_.add_up(numbers);
+    auto sum = numbers.begin();
+    for_each_number(report_.statistics, [&](std::uint64_t& n) { n = *sum++; });
     report_.statistics.triangles = job_.scene.first_numbers().back();
   }
 
@@ -176,7 +174,9 @@ class MapTogether {
     const MapPlan& plan = job_.plan;
     const std::string& name = traffic_.map;
     describe(map_);
-    const auto render_again = [&](const RenderOptions& o) { (void)job_.scene.render(camera_, o); };
+    const auto render_again = [&](const RenderOptions& other) {
+      return job_.scene.render(camera_, other);
+    };
     const auto mattes = [found = mattes_.begin()](const MatteKind&) mutable {
       return std::move(*found++);
     };

@@ -55,10 +55,11 @@ void RunOutputs::commit(const std::vector<MapTraffic>& traffic, int ranks) {
 
 /// In the first rank, with the samples of all.
 DeepMap make_deep_map(const Ranks& ranks, const Scene& scene, const Camera& camera,
-                      const RenderOptions& options, MapTraffic& traffic) {
+                      const RenderOptions& options, const std::function<void(double)>& progress,
+                      MapTraffic& traffic) {
   DeepMap map;
   Stopwatch stopwatch;
-  together(ranks, [&] { map = render_deep(scene, camera, options, share_of(ranks)); });
+  together(ranks, [&] { map = render_deep(scene, camera, options, share_of(ranks), progress); });
   traffic.drawing = stopwatch.lap();
   gather_rows(ranks, camera.width, map.counts, map.samples, traffic.of_pixels);
   return map;
@@ -86,10 +87,10 @@ int render_deep_together(const Ranks& ranks, const MpiArguments& arguments,
   {
     Progress progress(console, "rendering");
     for (std::size_t i = 0; i < cameras.size(); ++i) {
-      plan.rendering.progress = progress.reporter(i, cameras.size());
       traffic[i].triangles = traffic[i].drawn = shared.first_numbers().back();
       traffic[i].most_drawn = traffic[i].drawn;
-      DeepMap map = make_deep_map(ranks, scene, cameras[i], plan.rendering, traffic[i]);
+      DeepMap map = make_deep_map(ranks, scene, cameras[i], plan.rendering,
+                                  progress.reporter(i, cameras.size()), traffic[i]);
       sum_up(traffic[i], ranks);
       together(ranks, [&] {
         if (!outputs) return;

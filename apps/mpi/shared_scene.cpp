@@ -109,7 +109,7 @@ TriangleSource SharedScene::triangles() const {
   return streamed_ ? TriangleSource(*streamed_) : TriangleSource(scene_);
 }
 
-DepthMap SharedScene::render(const Camera& camera, const RenderOptions& options) const {
+Rendered SharedScene::render(const Camera& camera, const RenderOptions& options) const {
   return streamed_ ? fathom::render(*streamed_, camera, options, stream_limits(camera, options))
                    : fathom::render(scene_, camera, options);
 }

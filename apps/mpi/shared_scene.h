@@ -13,6 +13,7 @@
 #include "apps/shell/console.h"
 #include "fathom/camera/camera.h"
 #include "fathom/fast/some_tiles.h"
+#include "fathom/rendering/rendered.h"
 #include "fathom/scene/scene.h"
 #include "fathom/scene/streamed_scene.h"
 #include "fathom/scene/triangle_source.h"
@@ -69,7 +70,7 @@ class SharedScene {
   [[nodiscard]] bool is_whole() const { return !streamed_; }
   [[nodiscard]] TriangleSource triangles() const;
   /// Renders a map of it in this rank alone.
-  [[nodiscard]] DepthMap render(const Camera& camera, const RenderOptions& options) const;
+  [[nodiscard]] Rendered render(const Camera& camera, const RenderOptions& options) const;
   /// Which of its triangles are a rank's to read.
   [[nodiscard]] TriangleRange part_of(const Ranks& ranks) const;
   /// The numbers of the objects' first triangles, and of all triangles.

@@ -7,7 +7,7 @@
 
 #include "apps/shell/command.h"
 #include "fathom/pipeline/options.h"
-#include "fathom/triangle/options.h"
+#include "fathom/rendering/options.h"
 
 namespace fathom::app {
 

@@ -6,7 +6,7 @@
 
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
-#include "fathom/triangle/option_names.h"
+#include "fathom/rendering/option_names.h"
 
 namespace fathom::app {
 

@@ -19,8 +19,8 @@
 #include "fathom/files/sha256.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/map_texts.h"
+#include "fathom/rendering/option_names.h"
 #include "fathom/scene/read_scene.h"
-#include "fathom/triangle/option_names.h"
 
 namespace fathom::app {
 namespace {

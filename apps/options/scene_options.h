@@ -9,9 +9,9 @@
 #include "apps/shell/command.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/mesh_files/read_options.h"
+#include "fathom/rendering/options.h"
 #include "fathom/scene/motion.h"
 #include "fathom/scene/scene.h"
-#include "fathom/triangle/options.h"
 
 namespace fathom::app {
 

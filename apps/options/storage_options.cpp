@@ -11,8 +11,8 @@
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/background.h"
+#include "fathom/rendering/option_names.h"
 #include "fathom/text/counted.h"
-#include "fathom/triangle/option_names.h"
 
 namespace fathom::app {
 namespace {

@@ -8,7 +8,7 @@
 #include "apps/shell/console.h"
 #include "fathom/image/channel_names.h"
 #include "fathom/image/map_files.h"
-#include "fathom/triangle/options.h"
+#include "fathom/rendering/options.h"
 
 namespace fathom::app {
 

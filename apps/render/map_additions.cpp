@@ -39,19 +39,16 @@ struct VerificationRequest {
   const RenderOptions& options;
   std::uint64_t pixels;
   /// Renders the same map with other options.
-  std::function<void(const RenderOptions&)> render;
+  std::function<Rendered(const RenderOptions&)> render;
 };
 
 /// Adds them to the choice; how many of them there are.
 std::uint64_t choose_nearly_unsettled(const VerificationRequest& request, PixelChoice& chosen) {
   if (request.options.engine != Engine::fast) return 0;
-  std::vector<std::uint64_t> doubtful;
   RenderOptions options = request.options;
-  options.statistics = nullptr;
-  options.progress = {};
   options.fast.widening = 16;
-  options.fast.doubtful = &doubtful;
-  request.render(options);
+  options.fast.find_doubtful = true;
+  const std::vector<std::uint64_t> doubtful = request.render(options).doubtful;
   PixelChoice near(chosen.size(), false);
   std::uint64_t count = 0;
   for (const std::uint64_t pixel : doubtful) {
@@ -87,9 +84,8 @@ MapVerification verify_map(const DepthMap& map, const std::string& name,
   MapVerification result;
   result.nearly_unsettled = choose_nearly_unsettled(request, chosen);
   Progress progress(console, "verifying");
-  RenderOptions options = request.options;
-  options.progress = progress.reporter();
-  const Verification seen = verify(map, request.triangles, camera, options, chosen);
+  const Verification seen =
+      verify(map, request.triangles, camera, request.options, chosen, progress.reporter());
   result.verified = seen.verified;
   result.differing = seen.differing;
   if (seen.first) {

@@ -9,6 +9,7 @@
 #include "fathom/camera/camera.h"
 #include "fathom/image/cryptomatte.h"
 #include "fathom/image/depth_map.h"
+#include "fathom/rendering/rendered.h"
 #include "fathom/scene/triangle_source.h"
 
 namespace fathom::app {
@@ -19,7 +20,7 @@ struct RenderedFrom {
   const Camera& camera;
   const RenderOptions& options;
   /// Renders the same map with other options.
-  std::function<void(const RenderOptions&)> render;
+  std::function<Rendered(const RenderOptions&)> render;
   /// Those of the plan, each asked for once, in its order.
   std::function<Mattes(const MatteKind&)> mattes;
 };

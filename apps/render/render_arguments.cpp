@@ -12,7 +12,7 @@
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/missing_channel.h"
-#include "fathom/triangle/option_names.h"
+#include "fathom/rendering/option_names.h"
 
 namespace fathom::app {
 namespace {

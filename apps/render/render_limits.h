@@ -7,7 +7,7 @@
 #include "apps/render/render_plan.h"
 #include "fathom/camera/camera.h"
 #include "fathom/fast/stream.h"
-#include "fathom/triangle/options.h"
+#include "fathom/rendering/options.h"
 
 namespace fathom::app {
 

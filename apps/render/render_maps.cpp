@@ -20,8 +20,8 @@
 #include "fathom/image/depth_map.h"
 #include "fathom/image/png_sidecar.h"
 #include "fathom/render.h"
+#include "fathom/rendering/options.h"
 #include "fathom/scene/triangle_source.h"
-#include "fathom/triangle/options.h"
 
 namespace fathom::app {
 namespace {
@@ -47,7 +47,8 @@ class RenderInput {
   /// Fails    UsageError where the scene stays in its files; as MotionOptions::placed.
   void place(const MotionOptions& motion);
   [[nodiscard]] TriangleSource triangles() const;
-  [[nodiscard]] DepthMap render(const Camera& camera, const RenderOptions& options) const;
+  [[nodiscard]] Rendered render(const Camera& camera, const RenderOptions& options,
+                                const RenderContext& context) const;
 
  private:
   Scene scene_;
@@ -90,31 +91,34 @@ TriangleSource RenderInput::triangles() const {
   return streamed_ ? TriangleSource(*streamed_) : TriangleSource(scene_);
 }
 
-DepthMap RenderInput::render(const Camera& camera, const RenderOptions& options) const {
-  return streamed_ ? fathom::render(*streamed_, camera, options, stream_limits(camera, options))
-                   : fathom::render(scene_, camera, options);
+Rendered RenderInput::render(const Camera& camera, const RenderOptions& options,
+                             const RenderContext& context) const {
+  return streamed_
+             ? fathom::render(*streamed_, camera, options, stream_limits(camera, options), context)
+             : fathom::render(scene_, camera, options, context);
 }
 
 /// Makes the map of a camera, checks it where that is asked for, and writes it.
 MapReport make_map(const MapPlan& plan, const RenderInput& scene, const MotionOptions& motion,
                    const Camera& camera, RenderOutputs& outputs, std::size_t number,
-                   const std::function<void(double)>& progress, const Console& console) {
+                   const RenderContext& context, const Console& console) {
   const std::string& name = outputs.map_name(number);
   MapReport report{.map = name, .engine = plan.rendering.engine};
-  RenderOptions options = plan.rendering;
-  options.statistics = &report.statistics;
-  options.progress = progress;
-
+  const RenderOptions& options = plan.rendering;
   Stopwatch stopwatch;
   // A depth that the file cannot hold is told with the name of its map.
-  DepthMap map = about_output(name, [&] { return scene.render(camera, options); });
+  Rendered rendered = about_output(name, [&] { return scene.render(camera, options, context); });
+  DepthMap map = std::move(rendered.map);
+  report.statistics = rendered.statistics;
   motion.describe(map, motion.time_or_start());
   report.width = map.width;
   report.height = map.height;
   report.seconds.render = stopwatch.lap();
-  const auto render_again = [&](const RenderOptions& o) { (void)scene.render(camera, o); };
+  const auto render_again = [&](const RenderOptions& other) {
+    return scene.render(camera, other, {.kept = context.kept});
+  };
   const auto mattes = [&](const MatteKind& by) {
-    return find_mattes(scene.outline(), camera, options, by);
+    return find_mattes(scene.outline(), camera, options, by, {}, context.progress);
   };
   add_planned(map, plan, name, {scene.triangles(), camera, options, render_again, mattes}, report,
               console);
@@ -128,7 +132,7 @@ MapReport make_map(const MapPlan& plan, const RenderInput& scene, const MotionOp
   return report;
 }
 
-int render_maps(const RenderArguments& arguments, MapPlan plan, const Console& console) {
+int render_maps(const RenderArguments& arguments, const MapPlan& plan, const Console& console) {
   const ThreadLimit limit(plan.rendering.threads);
   Stopwatch stopwatch;
   const auto place = arguments.stream ? RenderInput::Place::files : RenderInput::Place::memory;
@@ -144,7 +148,7 @@ int render_maps(const RenderArguments& arguments, MapPlan plan, const Console& c
 
   RenderMemory memory;
   // Files are read to keep memory small.
-  if (cameras.size() > 1 && !arguments.stream) plan.rendering.kept = &memory;
+  RenderMemory* const kept = cameras.size() > 1 && !arguments.stream ? &memory : nullptr;
   std::vector<MapReport> reports;
   bool all_agree = true;
   CameraWarnings warnings;
@@ -152,7 +156,8 @@ int render_maps(const RenderArguments& arguments, MapPlan plan, const Console& c
     Progress progress(console, "rendering");
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       reports.push_back(make_map(plan, scene, arguments.motion, cameras[i], outputs, i,
-                                 progress.reporter(i, cameras.size()), console));
+                                 {.kept = kept, .progress = progress.reporter(i, cameras.size())},
+                                 console));
       MapReport& report = reports.back();
       report.seconds.read = seconds_reading;
       if (i == 0) warn_of(report.statistics, console);
@@ -168,7 +173,7 @@ int render_maps(const RenderArguments& arguments, MapPlan plan, const Console& c
 
 int render_deep_maps(const RenderArguments& arguments, const DeepMapPlan& plan,
                      const Console& console) {
-  RenderOptions options = plan.rendering;
+  const RenderOptions& options = plan.rendering;
   const ThreadLimit limit(options.threads);
   Scene scene = arguments.scene.read(console, {.hash = true});
   const std::vector<Camera> cameras = arguments.camera.get(scene, console);
@@ -180,8 +185,8 @@ int render_deep_maps(const RenderArguments& arguments, const DeepMapPlan& plan,
   {
     Progress progress(console, "rendering");
     for (std::size_t i = 0; i < cameras.size(); ++i) {
-      options.progress = progress.reporter(i, cameras.size());
-      DeepMap map = render_deep(scene, cameras[i], options);
+      DeepMap map =
+          render_deep(scene, cameras[i], options, {}, progress.reporter(i, cameras.size()));
       arguments.motion.describe(map.description, arguments.motion.time_or_start());
       outputs.map(i).write(
           [&](const auto& path) { write_deep_map(map, path, plan.compression, options.threads); });

@@ -10,7 +10,7 @@
 #include "fathom/depth_buffer/depth_buffer.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/deep_map.h"
-#include "fathom/triangle/segment_channels.h"
+#include "fathom/rendering/segment_channels.h"
 
 namespace fathom::app {
 namespace {

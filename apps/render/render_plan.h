@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "apps/render/render_arguments.h"
-#include "fathom/triangle/options.h"
+#include "fathom/rendering/options.h"
 
 namespace fathom::app {
 

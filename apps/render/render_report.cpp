@@ -3,14 +3,15 @@
 #include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "apps/render/render_outputs.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/image/depth_map.h"
+#include "fathom/rendering/deciders.h"
+#include "fathom/rendering/segment_channels.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/text/counted.h"
-#include "fathom/triangle/deciders.h"
-#include "fathom/triangle/segment_channels.h"
 
 namespace fathom::app {
 namespace {
@@ -31,26 +32,19 @@ Json decided_by(Engine engine) {
   return json;
 }
 
+/// All counts but two that are parts of others.
 Json to_json(const RenderStatistics& statistics) {
-  return {{"triangles", statistics.triangles},
-          {"degenerate_triangles", statistics.degenerate_triangles},
-          {"culled_triangles", statistics.culled_triangles},
-          {"samples_tested", statistics.samples_tested},
-          {"samples_covered", statistics.samples_covered},
-          {"pixels_with_surface", statistics.pixels_with_surface},
-          {"exact_setups", statistics.exact_setups},
-          {"same_plane", statistics.same_plane},
-          {"double_words", statistics.double_words},
-          {"samples_in_binary64", statistics.samples_in_binary64},
-          {"grid_setups", statistics.grid_setups},
-          {"decisions",
-           {{"facing", to_json(statistics.facing)},
-            {"edges", to_json(statistics.edges)},
-            {"visibility", to_json(statistics.visibility)},
-            {"range", to_json(statistics.range)},
-            {"coverage", to_json(statistics.coverage)},
-            {"coverage_rounding", to_json(statistics.coverage_rounding)},
-            {"rounding", to_json(statistics.rounding)}}}};
+  Json json = Json::object(), decisions = Json::object();
+  for_each_count([&](const std::string& name, auto member) {
+    const auto& count = statistics.*member;
+    if constexpr (std::is_same_v<decltype(count), const TierCounts&>) {
+      decisions[name] = to_json(count);
+    } else if (name != "double_word_roundings" && name != "areas_with_exact_ends") {
+      json[name] = count;
+    }
+  });
+  json["decisions"] = std::move(decisions);
+  return json;
 }
 
 Json to_json(const DepthBufferReport& report) {

@@ -10,9 +10,10 @@
 #include "fathom/depth_buffer/depth_buffer.h"
 #include "fathom/image/channel_table.h"
 #include "fathom/image/deep_map.h"
+#include "fathom/rendering/options.h"
+#include "fathom/rendering/rendered.h"
 #include "fathom/scene/triangle_source.h"
 #include "fathom/scene/view_warnings.h"
-#include "fathom/triangle/options.h"
 
 namespace fathom::app {
 

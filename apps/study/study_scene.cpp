@@ -106,7 +106,7 @@ SceneView scene_or_wheel(const StudyOptions& options) {
 }
 
 DepthMap visible_map(const SceneView& view) {
-  return render(view.scene, view.camera, {.channels = {Channel::Z, Channel::id}});
+  return render(view.scene, view.camera, {.channels = {Channel::Z, Channel::id}}).map;
 }
 
 Camera with_range(const SceneView& view, const StudyOptions& options) {

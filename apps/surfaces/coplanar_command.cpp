@@ -87,8 +87,7 @@ int run_coplanar(const CoplanarArguments& arguments, const Console& console) {
   std::vector<CoplanarPair> pairs;
   {
     Progress progress(console, "comparing");
-    options.progress = progress.reporter();
-    pairs = coplanar_pairs(scene, camera, arguments.within, options);
+    pairs = coplanar_pairs(scene, camera, arguments.within, options, progress.reporter());
   }
   print(arguments.json ? as_json(scene, pairs, arguments.within)
                        : as_text(scene, pairs, arguments.within));

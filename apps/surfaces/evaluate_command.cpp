@@ -181,8 +181,7 @@ int run_evaluate(const EvaluateArguments& arguments, const Console& console) {
   Evaluation evaluation;
   {
     Progress progress(console, "evaluating");
-    options.progress = progress.reporter();
-    evaluation = evaluate(reconstruction, truth, cameras, options);
+    evaluation = evaluate(reconstruction, truth, cameras, options, progress.reporter());
   }
   output.write(arguments.json ? as_json(evaluation, options.within)
                               : as_text(evaluation, options.within));

@@ -7,10 +7,10 @@
 
 #include "apps/shell/standard_streams.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/rendering/deciders.h"
+#include "fathom/rendering/segment_channels.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/text/printable.h"
-#include "fathom/triangle/deciders.h"
-#include "fathom/triangle/segment_channels.h"
 
 namespace fathom::app {
 namespace {

@@ -131,8 +131,7 @@ int run_visible(const VisibleArguments& arguments, const Console& console) {
   VisibleAreas areas;
   {
     Progress progress(console, "measuring");
-    options.progress = progress.reporter();
-    areas = visible_areas(scene, camera, options);
+    areas = visible_areas(scene, camera, options, progress.reporter());
   }
   const Answer answer{scene, camera, areas};
   output.finish(arguments.json  ? as_json(answer)

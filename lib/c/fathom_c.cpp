@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <new>
@@ -152,12 +153,14 @@ RenderOptions options_of(const fathom_options* given) {
                                                     : Cull::none;
   if (given->float64) options.depth_encoding.type = StoredType::binary64;
   options.threads = given->threads;
-  if (given->progress) {
-    options.progress = [given](double done) {
-      if (given->progress(done, given->data) != 0) throw Stopped();
-    };
-  }
   return options;
+}
+
+std::function<void(double)> progress_of(const fathom_options* given) {
+  if (!given || !given->progress) return {};
+  return [given](double done) {
+    if (given->progress(done, given->data) != 0) throw Stopped();
+  };
 }
 
 std::vector<Channel> channels_of(const char* names) {
@@ -332,8 +335,9 @@ fathom_status fathom_render(const fathom_scene* scene, const fathom_camera* came
     require(scene && map, "scene and map: NULL");
     RenderOptions asked = options_of(options);
     asked.channels = channels_of(channels);
-    DepthMap rendered = render(scene->scene, camera_of(camera), asked);
-    *map = std::make_unique<fathom_map>(std::move(rendered)).release();
+    Rendered rendered =
+        render(scene->scene, camera_of(camera), asked, {.progress = progress_of(options)});
+    *map = std::make_unique<fathom_map>(std::move(rendered.map)).release();
   });
 }
 
@@ -417,9 +421,9 @@ fathom_status fathom_verify(const fathom_map* map, const fathom_scene* scene,
     asked.channels = channels_of(map->map);
     const Camera view = camera_of(camera);
     require_valid(view);
-    *differing =
-        verify(map->map, scene->scene, view, asked, choose_pixels(view.width, view.height, pixels))
-            .differing;
+    *differing = verify(map->map, scene->scene, view, asked,
+                        choose_pixels(view.width, view.height, pixels), progress_of(options))
+                     .differing;
   });
 }
 

@@ -18,23 +18,23 @@ std::function<void(double)> part_of(const std::function<void(double)>& progress,
 
 DepthAgreement compare_depths(const Scene& reconstruction, const Scene& truth,
                               const std::vector<Camera>& cameras,
-                              const SurfaceComparisonOptions& options, double end) {
+                              const SurfaceComparisonOptions& options,
+                              const std::function<void(double)>& progress, double end) {
   RenderMemory of_truth, of_reconstruction;
   RenderOptions rendering;
   rendering.cull = options.cull;
   rendering.threads = options.threads;
   DepthAgreementSum sum;
-  DepthMap true_map, map;
+  Rendered true_map, map;
   const double step = end / (2 * static_cast<double>(cameras.size()));
   double done = 0;
   for (const Camera& camera : cameras) {
-    rendering.kept = &of_truth;
-    rendering.progress = part_of(options.progress, done, done + step);
-    render_into(true_map, truth, camera, rendering);
-    rendering.kept = &of_reconstruction;
-    rendering.progress = part_of(options.progress, done + step, done + 2 * step);
-    render_into(map, reconstruction, camera, rendering);
-    sum.add(true_map, map);
+    render_into(true_map, truth, camera, rendering,
+                {.kept = &of_truth, .progress = part_of(progress, done, done + step)});
+    render_into(
+        map, reconstruction, camera, rendering,
+        {.kept = &of_reconstruction, .progress = part_of(progress, done + step, done + 2 * step)});
+    sum.add(true_map.map, map.map);
     done += 2 * step;
   }
   return sum.result();
@@ -43,16 +43,17 @@ DepthAgreement compare_depths(const Scene& reconstruction, const Scene& truth,
 }  // namespace
 
 Evaluation evaluate(const Scene& reconstruction, const Scene& truth,
-                    const std::vector<Camera>& cameras, const SurfaceComparisonOptions& options) {
+                    const std::vector<Camera>& cameras, const SurfaceComparisonOptions& options,
+                    const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   require_meaningful(options);
   const double depths_end = cameras.empty() ? 0 : 0.5;
   Evaluation evaluation;
   if (!cameras.empty())
-    evaluation.depth = compare_depths(reconstruction, truth, cameras, options, depths_end);
-  SurfaceComparisonOptions rest = options;
-  rest.progress = part_of(options.progress, depths_end, 1);
-  evaluation.surfaces = compare_surfaces(reconstruction, truth, cameras, rest);
+    evaluation.depth =
+        compare_depths(reconstruction, truth, cameras, options, progress, depths_end);
+  evaluation.surfaces =
+      compare_surfaces(reconstruction, truth, cameras, options, part_of(progress, depths_end, 1));
   return evaluation;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -17,10 +18,11 @@ struct Evaluation {
 };
 
 /// Renders both scenes as each camera sees them and compares the depths, and compares the surfaces
-/// (compare_surfaces). The options count for both: culling, threads, progress.
+/// (compare_surfaces). Culling and threads count for both.
 /// Fails    as render() and compare_surfaces()
 Evaluation evaluate(const Scene& reconstruction, const Scene& truth,
                     const std::vector<Camera>& cameras,
-                    const SurfaceComparisonOptions& options = {});
+                    const SurfaceComparisonOptions& options = {},
+                    const std::function<void(double)>& progress = {});
 
 }  // namespace fathom

@@ -2,9 +2,9 @@
 
 #include "fathom/image/map_texts.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/rendering/segment_channels.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/text/json_text.h"
-#include "fathom/triangle/segment_channels.h"
 
 namespace fathom {
 using namespace text;

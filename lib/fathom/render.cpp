@@ -11,16 +11,16 @@
 #include "fathom/map_description.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/reference.h"
+#include "fathom/rendering/map_of_camera.h"
+#include "fathom/rendering/option_names.h"
+#include "fathom/rendering/segment_channels.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/threads/threads.h"
-#include "fathom/triangle/map_of_camera.h"
-#include "fathom/triangle/option_names.h"
-#include "fathom/triangle/segment_channels.h"
 
 namespace fathom {
 using namespace area;
-using namespace triangle;
+using namespace rendering;
 
 namespace {
 
@@ -50,13 +50,6 @@ void count_codes_beyond(const RenderOptions& options, const RenderStatistics& st
   map.codes_beyond = beyond;
 }
 
-/// The same options, with statistics in any case.
-RenderOptions counted(const RenderOptions& options, RenderStatistics& statistics) {
-  RenderOptions all = options;
-  if (!all.statistics) all.statistics = &statistics;
-  return all;
-}
-
 std::vector<std::uint32_t> ids_of(const std::vector<std::string>& names) {
   std::vector<std::uint32_t> ids;
   ids.reserve(names.size());
@@ -65,13 +58,13 @@ std::vector<std::uint32_t> ids_of(const std::vector<std::string>& names) {
 }
 
 Mattes mattes_by_object(const Scene& scene, const Camera& camera, const RenderOptions& options,
-                        const RowShare& share) {
+                        const RowShare& share, const std::function<void(double)>& progress) {
   std::vector<std::string> names;
   for (const Object& object : scene.objects) names.push_back(object.name);
   const std::vector<std::uint32_t> ids = ids_of(names);
   const TriangleSource triangles(scene);
   const auto matte_of = [&](std::uint32_t number) { return ids[triangles.origin(number).object]; };
-  Mattes mattes = mattes_in_pixels(triangles, camera, options, matte_of, share);
+  Mattes mattes = mattes_in_pixels(triangles, camera, options, matte_of, share, progress);
   mattes.layer = "CryptoObject";
   mattes.names = std::move(names);
   return mattes;
@@ -85,7 +78,8 @@ std::string layer_of(Segmentation by) {
 
 /// Triangles that belong to no segment have the empty name, which is listed where one is visible.
 Mattes mattes_by_segment(const Scene& scene, const Camera& camera, const RenderOptions& options,
-                         Segmentation by, const RowShare& share) {
+                         Segmentation by, const RowShare& share,
+                         const std::function<void(double)>& progress) {
   const TriangleSource triangles(scene);
   const SceneSegments segments(triangles, {by});
   const std::vector<std::uint32_t> ids = ids_of(segments.names(by));
@@ -96,7 +90,7 @@ Mattes mattes_by_segment(const Scene& scene, const Camera& camera, const RenderO
     some_without_name = true;
     return cryptomatte_id("");
   };
-  Mattes mattes = mattes_in_pixels(triangles, camera, options, matte_of, share);
+  Mattes mattes = mattes_in_pixels(triangles, camera, options, matte_of, share, progress);
   mattes.layer = layer_of(by);
   mattes.names = segments.names(by);
   if (some_without_name) mattes.names.emplace_back();
@@ -105,24 +99,23 @@ Mattes mattes_by_segment(const Scene& scene, const Camera& camera, const RenderO
 
 }  // namespace
 
-DepthMap render(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+Rendered render(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                const RenderContext& context) {
   const StandardArithmetic standard;
-  DepthMap map;
-  render_into(map, scene, camera, options);
-  return map;
+  Rendered rendered;
+  render_into(rendered, scene, camera, options, context);
+  return rendered;
 }
 
-void render_into(DepthMap& map, const Scene& scene, const Camera& camera,
-                 const RenderOptions& options) {
+void render_into(Rendered& rendered, const Scene& scene, const Camera& camera,
+                 const RenderOptions& options, const RenderContext& context) {
   const StandardArithmetic standard;
-  DepthMap before = std::exchange(map, {});
-  RenderStatistics statistics;
-  const RenderOptions all = counted(options, statistics);
-  DepthMap now = options.engine == Engine::fast
-                     ? render_fast(scene, camera, all, std::move(before))
-                     : render_reference(scene, camera, all, std::move(before));
-  finish_map(now, scene, camera, options, *all.statistics);
-  map = std::move(now);
+  DepthMap before = std::exchange(rendered, {}).map;
+  Rendered now = options.engine == Engine::fast
+                     ? render_fast(scene, camera, options, context, std::move(before))
+                     : render_reference(scene, camera, options, context, std::move(before));
+  finish_map(now.map, scene, camera, options, now.statistics);
+  rendered = std::move(now);
 }
 
 void finish_map(DepthMap& map, const Scene& scene, const Camera& camera,
@@ -132,46 +125,46 @@ void finish_map(DepthMap& map, const Scene& scene, const Camera& camera,
   describe(scene, camera, options, map);
 }
 
-DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOptions& options,
-                const StreamLimits& limits) {
+Rendered render(const StreamedScene& scene, const Camera& camera, const RenderOptions& options,
+                const StreamLimits& limits, const RenderContext& context) {
   const StandardArithmetic standard;
   if (options.engine != Engine::fast) {
     throw UsageError("only the fast engine renders a scene that stays in its files");
   }
-  RenderStatistics statistics;
-  const RenderOptions all = counted(options, statistics);
-  DepthMap map = render_streamed(scene, camera, all, limits);
-  finish_map(map, outline_of(scene), camera, options, *all.statistics);
-  return map;
+  Rendered rendered = render_streamed(scene, camera, options, limits, context);
+  finish_map(rendered.map, outline_of(scene), camera, options, rendered.statistics);
+  return rendered;
 }
 
 DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOptions& options,
-                    const RowShare& share) {
+                    const RowShare& share, const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   require_thread_count(options.threads);
   require_renderable(scene, camera);
-  DeepMap map = visible_in_pixels(scene, camera, options, share);
+  DeepMap map = visible_in_pixels(scene, camera, options, share, progress);
   describe(scene, camera, options, map.description);
   map.description.texts.erase(engine_text);
   return map;
 }
 
 void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,
-                     const RenderOptions& options, std::optional<Segmentation> by) {
+                     const RenderOptions& options, std::optional<Segmentation> by,
+                     const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   // A map that is yet to get its channels is of the size that its areas are computed for.
   if (!map.channels.empty()) require_map_of(camera, map);
-  add_mattes(map, find_mattes(scene, camera, options, by));
+  add_mattes(map, find_mattes(scene, camera, options, by, {}, progress));
 }
 
 Mattes find_mattes(const Scene& scene, const Camera& camera, const RenderOptions& options,
-                   std::optional<Segmentation> by, const RowShare& share) {
+                   std::optional<Segmentation> by, const RowShare& share,
+                   const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   if (by == Segmentation::label) throw UsageError("labels have no names, which Cryptomatte needs");
   require_thread_count(options.threads);
   require_renderable(scene, camera);
-  return by ? mattes_by_segment(scene, camera, options, *by, share)
-            : mattes_by_object(scene, camera, options, share);
+  return by ? mattes_by_segment(scene, camera, options, *by, share, progress)
+            : mattes_by_object(scene, camera, options, share, progress);
 }
 
 }  // namespace fathom

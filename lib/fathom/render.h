@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "fathom/camera/camera.h"
@@ -10,9 +11,10 @@
 #include "fathom/image/depth_map.h"
 #include "fathom/image/row_share.h"
 #include "fathom/mesh/segmentation.h"
+#include "fathom/rendering/options.h"
+#include "fathom/rendering/rendered.h"
 #include "fathom/scene/scene.h"
 #include "fathom/scene/streamed_scene.h"
-#include "fathom/triangle/options.h"
 
 /// The front door to the exact engines. What a graphics pipeline computes instead is behind
 /// render_by_pipeline.h.
@@ -24,19 +26,20 @@ namespace fathom {
 /// Fails    InputError if the scene or the camera has a fault (find_fault) or the image more than
 ///          2⁴⁴ pixels; UsageError for options that mean nothing (require_meaningful); OutputError
 ///          if a depth does not fit the encoding asked for.
-DepthMap render(const Scene& scene, const Camera& camera, const RenderOptions& options = {});
+Rendered render(const Scene& scene, const Camera& camera, const RenderOptions& options = {},
+                const RenderContext& context = {});
 
 /// Renders into a map of before: channels that are there with the same name, type and number of
-/// values are written where they are; all else of the map is replaced. With a RenderMemory in the
-/// options, a frame of the same scene and size takes no memory of the system.
-/// Fails    as render(); the map is empty then.
-void render_into(DepthMap& map, const Scene& scene, const Camera& camera,
-                 const RenderOptions& options = {});
+/// values are written where they are; all else is replaced. With a RenderMemory in the context, a
+/// frame of the same scene and size takes no memory of the system.
+/// Fails    as render(); `rendered` is empty then.
+void render_into(Rendered& rendered, const Scene& scene, const Camera& camera,
+                 const RenderOptions& options = {}, const RenderContext& context = {});
 
 /// The same map of a scene whose meshes stay in their files, by the fast engine.
 /// Fails    also InputError if a file changes meanwhile; UsageError if another engine is asked for.
-DepthMap render(const StreamedScene& scene, const Camera& camera, const RenderOptions& options = {},
-                const StreamLimits& limits = {});
+Rendered render(const StreamedScene& scene, const Camera& camera, const RenderOptions& options = {},
+                const StreamLimits& limits = {}, const RenderContext& context = {});
 
 /// Adds to a map whose channels have been put together from parts (fast/some_tiles.h) what render()
 /// adds to its own. Of the scene, objects, sources and segments count; of the statistics, the pixels
@@ -45,27 +48,29 @@ void finish_map(DepthMap& map, const Scene& scene, const Camera& camera,
                 const RenderOptions& options, const RenderStatistics& statistics);
 
 /// The visible fragments of every pixel with their exact areas (specification, section 8). Of the
-/// options culling, threads and progress count. `share`: the rows that are made, where several
-/// processes share them out; pixels of other rows have no samples.
+/// options culling and threads count. `share`: the rows that are made, where several processes
+/// share them out; pixels of other rows have no samples.
 /// Fails    InputError and UsageError as render().
 DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOptions& options = {},
-                    const RowShare& share = {});
+                    const RowShare& share = {}, const std::function<void(double)>& progress = {});
 
 /// Adds Cryptomatte channels by object, CryptoObject00.R and so on, with the exact visible area of
 /// each object in each pixel rounded once; or by material, group or part, as CryptoMaterial00.R and
 /// so on. What has the same name is one; triangles without a name have the empty one. The map is one
-/// of this scene and camera; of the options culling, threads and progress count.
+/// of this scene and camera; of the options culling and threads count.
 /// Fails    InputError and UsageError as render(); UsageError for labels, which have no names;
 ///          InputError also if the map has a fault or is not of the camera's size.
 void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,
                      const RenderOptions& options = {},
-                     std::optional<Segmentation> by = std::nullopt);
+                     std::optional<Segmentation> by = std::nullopt,
+                     const std::function<void(double)>& progress = {});
 
 /// What it adds. `share`: the rows that are looked at; pixels of other rows show nothing. The names
 /// are those of all segments, and the empty one, last, where a pixel of these rows shows a triangle
 /// without a name.
 /// Fails    as add_cryptomatte(), but for faults of the map.
 Mattes find_mattes(const Scene& scene, const Camera& camera, const RenderOptions& options,
-                   std::optional<Segmentation> by, const RowShare& share = {});
+                   std::optional<Segmentation> by, const RowShare& share = {},
+                   const std::function<void(double)>& progress = {});
 
 }  // namespace fathom

@@ -10,9 +10,9 @@
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/pipeline/geometry/vertex_transform.h"
 #include "fathom/pipeline/render_pipeline.h"
+#include "fathom/rendering/segment_channels.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/scene/triangle_source.h"
-#include "fathom/triangle/segment_channels.h"
 
 namespace fathom {
 namespace {

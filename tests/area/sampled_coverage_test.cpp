@@ -6,7 +6,7 @@
 #include <string>
 
 #include "fathom/render.h"
-#include "fathom/triangle/channels.h"
+#include "fathom/rendering/map_of_camera.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "tests/effort.h"
 #include "tests/inputs/random_scenes.h"

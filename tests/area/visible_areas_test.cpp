@@ -131,14 +131,14 @@ TEST(VisibleAreas, ProgressIsReportedFromTheBeginning) {
   std::vector<double> shares;
   RenderOptions options;
   options.threads = 1;
-  options.progress = [&](double share) { shares.push_back(share); };
-  visible_areas(scene, testing::camera_of(4, 4, 2), options);
+  const auto progress = [&](double share) { shares.push_back(share); };
+  visible_areas(scene, testing::camera_of(4, 4, 2), options, progress);
   EXPECT_TRUE(std::ranges::is_sorted(shares));
   EXPECT_EQ(shares.back(), 1);
   EXPECT_GT(shares.size(), count / 64 + 4);
   const std::size_t of_areas = shares.size();
   shares.clear();
-  coplanar_pairs(scene, testing::camera_of(4, 4, 2), 0, options);
+  coplanar_pairs(scene, testing::camera_of(4, 4, 2), 0, options, progress);
   EXPECT_EQ(shares.back(), 1);
   EXPECT_EQ(shares.size() - (count / 8 + 1), of_areas - (count / 64 + 1));
 }

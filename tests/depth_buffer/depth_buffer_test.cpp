@@ -33,7 +33,7 @@ Buffered buffered(const Scene& scene, const Camera& camera, const DepthFormat& f
                   Engine engine, Cull cull = Cull::none,
                   EqualDepths equal_depths = EqualDepths::first_wins) {
   RenderOptions options{.engine = engine, .channels = {Channel::Z, Channel::id}, .cull = cull};
-  Buffered result{render(scene, camera, options), {}};
+  Buffered result{render(scene, camera, options).map, {}};
   result.statistics =
       add_depth_buffer(result.map, scene, camera, {format, true, options, equal_depths});
   return result;
@@ -233,7 +233,7 @@ TEST(DepthBuffer, WhatMeansNothingIsRefused) {
   EXPECT_THROW(depth_format_of(camera, Mapping::linear, Storage::unorm16), UsageError);
   EXPECT_NO_THROW(depth_format_of(camera, Mapping::reversed_infinite, Storage::float32));
   const Scene scene = two_planes(2, 1, false);
-  DepthMap map = render(scene, camera, {.channels = {Channel::Z}});
+  DepthMap map = render(scene, camera, {.channels = {Channel::Z}}).map;
   EXPECT_THROW(add_depth_buffer(map, scene, camera,
                                 {{Mapping::infinite, Storage::unorm16, 1, infinity}, false, {}}),
                UsageError);
@@ -250,7 +250,7 @@ TEST(DepthBuffer, StoresTheSameInEveryRowWhetherOrNotItIsCompared) {
   for (const Engine engine : {Engine::fast, Engine::reference}) {
     const Buffered compared = buffered(scene, camera, format, engine);
     const RenderOptions options{.engine = engine, .channels = {Channel::Z, Channel::id}};
-    DepthMap alone = render(scene, camera, options);
+    DepthMap alone = render(scene, camera, options).map;
     const DepthBufferStatistics s =
         add_depth_buffer(alone, scene, camera, {format, false, options});
     for (const char* name : {"id", "Zwindow"}) {
@@ -277,7 +277,7 @@ TEST(DepthBuffer, MapsOfOtherScenesAreRefused) {
   const Scene scene = two_planes(2, 1, false);
   const DepthFormat format{Mapping::standard, Storage::unorm16, 0.5, 8};
   for (const std::uint32_t id : {1U, 2U, 3U}) {
-    DepthMap map = render(scene, camera, {.channels = {Channel::Z, Channel::id}});
+    DepthMap map = render(scene, camera, {.channels = {Channel::Z, Channel::id}}).map;
     (*map.values<std::uint32_t>("id"))[7] = id;
     if (id < 2) {
       EXPECT_NO_THROW(add_depth_buffer(map, scene, camera, {format, false, {}}));

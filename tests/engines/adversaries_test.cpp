@@ -80,13 +80,13 @@ std::variant<DepthMap, std::string> outcome(const Render& render) {
 std::variant<DepthMap, std::string> fast_map(const Case& c, const Combination& how) {
   const testing::OnlyTarget only(how.target);
   const testing::InMode mode(how.mode);
-  return outcome([&] { return render_fast(c.scene, c.camera, how.options); });
+  return outcome([&] { return render_fast(c.scene, c.camera, how.options).map; });
 }
 
 void expect_same(const Case& c, const Combination& how) {
   RenderOptions slow = how.options;
   slow.threads = 1;
-  const auto truth = outcome([&] { return render_reference(c.scene, c.camera, slow); });
+  const auto truth = outcome([&] { return render_reference(c.scene, c.camera, slow).map; });
   const auto ours = fast_map(c, how);
   ASSERT_EQ(ours.index(), truth.index());
   if (truth.index() == 1) {
@@ -101,7 +101,8 @@ int expect_as_rays(const Case& c) {
   RenderOptions options;
   options.channels = testing::all_channels();
   options.threads = 1;
-  return testing::expect_as_rays(render_reference(c.scene, c.camera, options), c.scene, c.camera);
+  return testing::expect_as_rays(render_reference(c.scene, c.camera, options).map, c.scene,
+                                 c.camera);
 }
 
 std::uint32_t matte_of(std::uint32_t triangle) {

@@ -62,7 +62,7 @@ struct Shared {
     camera = frame_scene(scene, {}, {.width = 90, .height = 70});
     camera.near = 0.1;
     camera.far = 100;
-    map = render(scene, camera, {.channels = {Channel::Z, Channel::id}});
+    map = render(scene, camera, {.channels = {Channel::Z, Channel::id}}).map;
     streamed = stream_scene({test::source_dir() / streamed_file}, {}, warnings);
   }
   static constexpr const char* streamed_file = "data/meshes/cube.stl";
@@ -74,12 +74,9 @@ std::map<std::string, Call> calls(const Shared& shared, const ScratchFolder& fol
   std::map<std::string, Call> calls;
   const auto render_with = [&](Engine engine, std::vector<Channel> channels) {
     return [&, engine, channels](int caller) {
-      RenderStatistics statistics;
-      return text_of(render(scene, camera,
-                            {.engine = engine,
-                             .channels = channels,
-                             .threads = caller % 4,
-                             .statistics = &statistics}));
+      return text_of(
+          render(scene, camera, {.engine = engine, .channels = channels, .threads = caller % 4})
+              .map);
     };
   };
   const std::vector<Channel> all{Channel::Z,        Channel::A,  Channel::Zlow,
@@ -96,7 +93,8 @@ std::map<std::string, Call> calls(const Shared& shared, const ScratchFolder& fol
   calls["streamed"] = [&](int caller) {
     return text_of(render(shared.streamed,
                           frame_scene(outline_of(shared.streamed), {}, {.width = 64, .height = 64}),
-                          {.threads = caller % 3}, {.triangles_at_once = 200}));
+                          {.threads = caller % 3}, {.triangles_at_once = 200})
+                       .map);
   };
   calls["cryptomatte"] = [&](int) {
     DepthMap map = shared.map;

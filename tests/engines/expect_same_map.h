@@ -55,14 +55,11 @@ inline void expect_same_map(const DepthMap& ours, const DepthMap& truth) {
 
 /// Renders with both engines and compares; returns the fast engine's statistics.
 inline RenderStatistics expect_same(const Scene& scene, const Camera& camera,
-                                    RenderOptions options) {
-  RenderStatistics statistics;
-  options.statistics = nullptr;
-  const DepthMap truth = render_reference(scene, camera, options);
-  options.statistics = &statistics;
-  const DepthMap ours = render_fast(scene, camera, options);
-  expect_same_map(ours, truth);
-  return statistics;
+                                    const RenderOptions& options) {
+  const DepthMap truth = render_reference(scene, camera, options).map;
+  const Rendered ours = render_fast(scene, camera, options);
+  expect_same_map(ours.map, truth);
+  return ours.statistics;
 }
 
 }  // namespace fathom::testing

@@ -76,7 +76,7 @@ std::map<std::string, Door> doors_of(const Scene& scene, const Camera& camera) {
       options.engine = engine;
       options.channels = testing::every_channel;
       options.threads = 2;
-      bytes.add(render(scene, camera, options));
+      bytes.add(render(scene, camera, options).map);
     };
   }
   doors["verify"] = [&](Bytes& bytes) {
@@ -85,7 +85,7 @@ std::map<std::string, Door> doors_of(const Scene& scene, const Camera& camera) {
     DepthMap map;
     {
       const StandardArithmetic standard;
-      map = render(scene, camera, options);
+      map = render(scene, camera, options).map;
     }
     const Verification result =
         verify(map, scene, camera, options, choose_pixels(camera.width, camera.height, 20));
@@ -226,10 +226,10 @@ TEST(FloatingPointMode, ChangesNothingOfWhatIsWritten) {
   testing::Case c = maker.make();
   c.camera.fx = 7.3;
   c.camera.world_to_camera[0][0] = 0.1;
-  const DepthMap map = render(c.scene, c.camera, {.channels = testing::every_channel});
+  const DepthMap map = render(c.scene, c.camera, {.channels = testing::every_channel}).map;
   RenderOptions in_codes;
   in_codes.depth_encoding = {DepthEncoding::Type::scaled_unorm16, 10.1};
-  const DepthMap codes = render(c.scene, c.camera, in_codes);
+  const DepthMap codes = render(c.scene, c.camera, in_codes).map;
   expect_same_in_all_modes("describe_map and encode_map", [&](Bytes& bytes) {
     DepthMap described = map;
     describe_map(c.scene, c.camera, "fast", described);
@@ -243,7 +243,7 @@ TEST(FloatingPointMode, ChangesNothingOfMapsAndDepthBuffers) {
   testing::Case c = maker.make();
   c.camera.near = 0.1;
   c.camera.far = 20.3;
-  const DepthMap map = render(c.scene, c.camera, {.channels = testing::every_channel});
+  const DepthMap map = render(c.scene, c.camera, {.channels = testing::every_channel}).map;
   expect_same_in_all_modes("depth buffer", [&](Bytes& bytes) {
     DepthMap with_buffer = map;
     add_depth_buffer(with_buffer, c.scene, c.camera,

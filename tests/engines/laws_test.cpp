@@ -100,18 +100,14 @@ TEST(Laws, SplittingATriangleChangesNothingThatIsSeen) {
     }
     const Camera camera = camera_of(width, height, 8);
     const auto channels = with({Channel::Z, Channel::N, Channel::P, Channel::distance});
-    RenderStatistics before_counts, after_counts;
-    auto options = channels;
-    options.statistics = &before_counts;
-    const DepthMap before = testing::render_tested(whole, camera, options);
-    options.statistics = &after_counts;
-    const DepthMap after = testing::render_tested(split, camera, options);
+    const Rendered before = testing::render_and_count(whole, camera, channels);
+    const Rendered after = testing::render_and_count(split, camera, channels);
     for (const char* c : {"Z", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "distance"}) {
-      ASSERT_EQ(bits(before, c), bits(after, c)) << c << ", trial " << trial;
+      ASSERT_EQ(bits(before.map, c), bits(after.map, c)) << c << ", trial " << trial;
     }
-    ASSERT_EQ(before_counts.pixels_with_surface, after_counts.pixels_with_surface) << trial;
+    ASSERT_EQ(before.statistics.pixels_with_surface, after.statistics.pixels_with_surface) << trial;
     if (testing::tested_engine() == Engine::fast) continue;  // it counts samples by draw order
-    ASSERT_EQ(before_counts.samples_covered, after_counts.samples_covered) << trial;
+    ASSERT_EQ(before.statistics.samples_covered, after.statistics.samples_covered) << trial;
   }
 }
 

@@ -37,16 +37,16 @@ class Lender {
   std::map<std::string, std::vector<std::byte>> lent_;
 };
 
-void expect_same_in_lent_memory(const Scene& scene, const Camera& camera, RenderOptions options) {
-  const auto render = [&] {
-    return options.engine == Engine::fast ? render_fast(scene, camera, options)
-                                          : render_reference(scene, camera, options);
+void expect_same_in_lent_memory(const Scene& scene, const Camera& camera,
+                                const RenderOptions& options) {
+  const auto render = [&](const RenderContext& context) {
+    return options.engine == Engine::fast ? render_fast(scene, camera, options, context).map
+                                          : render_reference(scene, camera, options, context).map;
   };
-  options.memory = nullptr;
-  const DepthMap expected = render();
+  const DepthMap expected = render({});
   Lender lender(camera);
-  options.memory = [&](const std::string& channel) { return lender(channel); };
-  const DepthMap found = render();
+  const DepthMap found =
+      render({.memory = [&](const std::string& channel) { return lender(channel); }});
   expect_same_map(found, expected);
   for (const ImageChannel& channel : found.channels)
     std::visit([&](const auto& values) { EXPECT_TRUE(lender.has_lent(values.data())); },
@@ -85,8 +85,9 @@ std::map<std::string, const void*> places_of(const DepthMap& map) {
 TEST(RenderInto, GivesTheMapOfRenderWhereTheChannelsWereBefore) {
   CaseMaker cases(21, Kind::few_bits);
   RenderMemory memory;
-  DepthMap map;
-  map.texts["left"] = "over";
+  Rendered rendered;
+  const DepthMap& map = rendered.map;
+  rendered.map.texts["left"] = "over";
   for (int i = 0; i < 24; ++i) {
     const auto [scene, camera] = cases.make();
     RenderOptions options;
@@ -94,13 +95,12 @@ TEST(RenderInto, GivesTheMapOfRenderWhereTheChannelsWereBefore) {
     options.channels = i % 3 == 0 ? std::vector{Channel::Z} : every_channel;
     if (i % 4 == 3) options.depth_encoding.type = StoredType::binary64;
     if (i % 2 == 0) options.threads = 1;
-    const DepthMap expected = render(scene, camera, options);
-    options.kept = &memory;
+    const DepthMap expected = render(scene, camera, options).map;
     const std::size_t pixels = std::size_t{map.width} * map.height;
     const bool same_size = std::size_t{camera.width} * camera.height == pixels;
     for (const bool again : {false, true}) {
       const auto before = places_of(map);
-      render_into(map, scene, camera, options);
+      render_into(rendered, scene, camera, options, {.kept = &memory});
       expect_same_map(map, expected);
       EXPECT_EQ(texts_of(map), texts_of(expected));
       if (!again && !same_size) continue;
@@ -123,11 +123,12 @@ TEST(RenderInto, WorksWithMemoryThatOtherThreadsHaveUsed) {
   for (int i = 0; i < 12; ++i) {
     const testing::Case one = cases.make();
     RenderOptions options;
-    const DepthMap expected = render(one.scene, one.camera, options);
-    options.kept = &memory;
-    DepthMap map;
-    std::thread([&] { render_into(map, one.scene, one.camera, options); }).join();
-    expect_same_map(map, expected);
+    const DepthMap expected = render(one.scene, one.camera, options).map;
+    Rendered rendered;
+    std::thread([&] {
+      render_into(rendered, one.scene, one.camera, options, {.kept = &memory});
+    }).join();
+    expect_same_map(rendered.map, expected);
   }
 }
 
@@ -135,24 +136,22 @@ TEST(RenderInto, LeavesAnEmptyMapWhereItFails) {
   CaseMaker cases(22, Kind::few_bits);
   auto [scene, camera] = cases.make();
   RenderMemory memory;
-  RenderOptions options;
-  options.kept = &memory;
-  DepthMap map = render(scene, camera, options);
+  const RenderOptions options;
+  const RenderContext context{.kept = &memory};
+  Rendered rendered = render(scene, camera, options, context);
   Scene broken = scene;
   broken.meshes[0].triangles[0][0] = static_cast<std::uint32_t>(broken.meshes[0].vertices.size());
-  EXPECT_THROW(render_into(map, broken, camera, options), InputError);
-  EXPECT_TRUE(map.channels.empty());
-  render_into(map, scene, camera, options);
-  expect_same_map(map, render(scene, camera));
+  EXPECT_THROW(render_into(rendered, broken, camera, options, context), InputError);
+  EXPECT_TRUE(rendered.map.channels.empty());
+  render_into(rendered, scene, camera, options, context);
+  expect_same_map(rendered.map, render(scene, camera).map);
 }
 
 TEST(LentMemory, IsOfTheMapsOwnWhereNoneIsLent) {
   CaseMaker cases(1, Kind::few_bits);
   const auto [scene, camera] = cases.make();
-  RenderOptions options;
-  const DepthMap expected = render_fast(scene, camera, options);
-  options.memory = [](const std::string&) -> void* { return nullptr; };
-  expect_same_map(render_fast(scene, camera, options), expected);
+  const RenderContext none{.memory = [](const std::string&) -> void* { return nullptr; }};
+  expect_same_map(render_fast(scene, camera, {}, none).map, render_fast(scene, camera, {}).map);
 }
 
 }  // namespace

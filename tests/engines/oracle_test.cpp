@@ -32,9 +32,7 @@ void check(const Case& c, Tally& tally) {
   RenderOptions options;
   options.channels = testing::all_channels();
   options.threads = 1;
-  RenderStatistics statistics;
-  options.statistics = &statistics;
-  const DepthMap map = testing::render_tested(c.scene, c.camera, options);
+  const auto [map, statistics, doubtful] = testing::render_and_count(c.scene, c.camera, options);
   add(tally.statistics, statistics);
   const oracle::RayCaster rays = testing::cast_at(c.scene, c.camera);
   for (int y = 0; y < 5; ++y) {

@@ -24,9 +24,9 @@ using testing::every_channel;
 using testing::expect_same_map;
 using testing::Kind;
 
-/// A map, or the message of the failure.
+/// What is rendered, or the message of the failure.
 struct Outcome {
-  DepthMap map;
+  Rendered rendered;
   std::string failure;
 };
 
@@ -34,7 +34,7 @@ template <class Render>
 Outcome outcome_of(const Render& render) {
   Outcome outcome;
   try {
-    outcome.map = render();
+    outcome.rendered = render();
   } catch (const OutputError& error) {
     outcome.failure = error.what();
   }
@@ -42,15 +42,14 @@ Outcome outcome_of(const Render& render) {
 }
 
 /// Renders with both engines and compares maps or failures; returns the fast engine's statistics.
-RenderStatistics expect_same(const Scene& scene, const Camera& camera, RenderOptions options) {
-  RenderStatistics statistics;
-  options.statistics = nullptr;
+RenderStatistics expect_same(const Scene& scene, const Camera& camera,
+                             const RenderOptions& options) {
   const Outcome truth = outcome_of([&] { return render_reference(scene, camera, options); });
-  options.statistics = &statistics;
   const Outcome ours = outcome_of([&] { return render_fast(scene, camera, options); });
   EXPECT_EQ(ours.failure, truth.failure);
-  if (truth.failure.empty() && ours.failure.empty()) expect_same_map(ours.map, truth.map);
-  return statistics;
+  if (truth.failure.empty() && ours.failure.empty())
+    expect_same_map(ours.rendered.map, truth.rendered.map);
+  return ours.rendered.statistics;
 }
 
 const std::vector<Channel> depth_channels{Channel::Z, Channel::Zlow, Channel::distance};

@@ -112,14 +112,12 @@ TEST(Fast, WiderBoundsGiveTheSameMapAndMoreDoubt) {
     std::set<std::uint64_t> before;
     for (const double widening : {1.0, 0x1p10, 0x1p24}) {
       SCOPED_TRACE(widening);
-      std::vector<std::uint64_t> doubtful;
       RenderOptions options;
       options.channels = quick_channels;
       options.fast.widening = widening;
-      options.fast.doubtful = &doubtful;
+      options.fast.find_doubtful = true;
       if (widening == 0x1p10) expect_same(scene, camera, options);
-      doubtful.clear();
-      render_fast(scene, camera, options);
+      const std::vector<std::uint64_t> doubtful = render_fast(scene, camera, options).doubtful;
       const std::set<std::uint64_t> now(doubtful.begin(), doubtful.end());
       EXPECT_TRUE(std::includes(now.begin(), now.end(), before.begin(), before.end()));
       EXPECT_TRUE(widening == 1 || now.size() > before.size());
@@ -308,9 +306,9 @@ TEST(Fast, TheSamePixelsAreNoneWhereDepthsBeyondTheCodesAre) {
   options.depth_encoding = {DepthEncoding::Type::scaled_unorm16, 20000, true};
   expect_same(scene, camera, options);
   options.engine = Engine::reference;
-  const DepthMap truth = render(scene, camera, options);
+  const DepthMap truth = render(scene, camera, options).map;
   options.engine = Engine::fast;
-  const DepthMap fast = render(scene, camera, options);
+  const DepthMap fast = render(scene, camera, options).map;
   std::uint64_t surfaces = 0, codes = 0;
   for (const std::uint32_t id : *truth.values<std::uint32_t>("id")) surfaces += id != no_surface;
   for (const std::uint16_t code : *truth.values<std::uint16_t>("distance")) codes += code != 0;
@@ -320,9 +318,9 @@ TEST(Fast, TheSamePixelsAreNoneWhereDepthsBeyondTheCodesAre) {
   EXPECT_EQ(fast.codes_beyond, surfaces - codes);
   // Where nothing lies beyond, that is said too.
   options.depth_encoding.scale = 1000;
-  EXPECT_EQ(render(scene, camera, options).codes_beyond, 0U);
+  EXPECT_EQ(render(scene, camera, options).map.codes_beyond, 0U);
   options.depth_encoding.beyond_is_none = false;
-  EXPECT_EQ(render(scene, camera, options).codes_beyond, std::nullopt);
+  EXPECT_EQ(render(scene, camera, options).map.codes_beyond, std::nullopt);
 }
 
 TEST(Fast, AnEmptySceneAndAnImageOfOnePixel) {

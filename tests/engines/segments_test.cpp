@@ -9,9 +9,9 @@
 #include "fathom/camera/camera_making.h"
 #include "fathom/render.h"
 #include "fathom/render_by_pipeline.h"
+#include "fathom/rendering/segment_channels.h"
 #include "fathom/scene/read_scene.h"
 #include "fathom/scene/scene_segments.h"
-#include "fathom/triangle/segment_channels.h"
 #include "tests/effort.h"
 #include "tests/engines/expect_same_map.h"
 #include "tests/inputs/spheres.h"
@@ -107,10 +107,10 @@ TEST(SegmentChannels, AreWhatTheSceneSaysInEveryEngine) {
   const Scene scene = named_spheres();
   const Camera camera = camera_of_spheres();
   RenderOptions options{.channels = channels};
-  const DepthMap fast = render(scene, camera, options);
+  const DepthMap fast = render(scene, camera, options).map;
   expect_truth(fast, scene);
   options.engine = Engine::reference;
-  const DepthMap reference = render(scene, camera, options);
+  const DepthMap reference = render(scene, camera, options).map;
   expect_truth(reference, scene);
   expect_same_map(fast, reference);
   EXPECT_EQ(fast.tables, reference.tables);
@@ -123,7 +123,7 @@ TEST(SegmentChannels, OfASceneWithoutSegmentsSayThatThereAreNone) {
   const Scene scene = testing::two_spheres(6);
   for (const Engine engine : {Engine::fast, Engine::reference}) {
     const DepthMap map =
-        render(scene, camera_of_spheres(), {.engine = engine, .channels = channels});
+        render(scene, camera_of_spheres(), {.engine = engine, .channels = channels}).map;
     EXPECT_TRUE(map.tables.empty());
     const auto& ids = *map.values<std::uint32_t>("id");
     for (const char* channel : {"material", "group", "part", "label"}) {
@@ -137,9 +137,9 @@ TEST(SegmentChannels, OfASceneWithoutSegmentsSayThatThereAreNone) {
 /// Tables belong to channels.
 TEST(SegmentChannels, HaveTablesOnlyWhereTheyAreInTheMap) {
   const Scene scene = named_spheres();
-  const DepthMap map = render(scene, camera_of_spheres(), {.channels = {Channel::part}});
+  const DepthMap map = render(scene, camera_of_spheres(), {.channels = {Channel::part}}).map;
   EXPECT_EQ(map.tables.size(), 1U);
-  EXPECT_TRUE(render(scene, camera_of_spheres(), {}).tables.empty());
+  EXPECT_TRUE(render(scene, camera_of_spheres(), {}).map.tables.empty());
 }
 
 /// The labels of a file that is streamed are those of the file in memory.
@@ -167,8 +167,8 @@ TEST(SegmentChannels, OfAStreamAreThoseOfTheSceneInMemory) {
   Warnings warnings;
   const Camera camera = camera_of_spheres();
   const RenderOptions options{.channels = {Channel::label, Channel::face}};
-  const DepthMap in_memory = render(read_scene({file}, reading, warnings), camera, options);
-  const DepthMap streamed = render(stream_scene({file}, reading, warnings), camera, options);
+  const DepthMap in_memory = render(read_scene({file}, reading, warnings), camera, options).map;
+  const DepthMap streamed = render(stream_scene({file}, reading, warnings), camera, options).map;
   expect_same_map(streamed, in_memory);
   const auto& faces = *streamed.values<std::uint32_t>("face");
   std::uint64_t labelled = 0;

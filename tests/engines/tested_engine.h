@@ -8,10 +8,15 @@ namespace fathom::testing {
 /// --engine=reference (the default) or --engine=fast.
 Engine tested_engine();
 
-inline DepthMap render_tested(const Scene& scene, const Camera& camera,
-                              RenderOptions options = {}) {
+inline Rendered render_and_count(const Scene& scene, const Camera& camera,
+                                 RenderOptions options = {}) {
   options.engine = tested_engine();
   return render(scene, camera, options);
+}
+
+inline DepthMap render_tested(const Scene& scene, const Camera& camera,
+                              const RenderOptions& options = {}) {
+  return render_and_count(scene, camera, options).map;
 }
 
 }  // namespace fathom::testing

@@ -45,10 +45,7 @@ TEST(Watertight, ABumpySheetWithASampleOnEveryVertexAndEdge) {
   const Scene sheet = bumpy_sheet();
   Camera camera = camera_of(2 * side + 1, 2 * side + 1, 4);
   camera.cx = camera.cy = side + 1.5;  // vertex (i, j) at pixel (2i + 1, 2j + 1)
-  RenderStatistics statistics;
-  RenderOptions options;
-  options.statistics = &statistics;
-  const DepthMap map = testing::render_tested(sheet, camera, options);
+  const auto [map, statistics, doubtful] = testing::render_and_count(sheet, camera);
   const Samples<float>& Z = *map.values<float>("Z");
   // The sheet spans the samples 1 … 2·side − 1; those on its right and bottom edges are another's.
   const auto inside = [](int x) { return x >= 1 && x < 2 * side - 1; };
@@ -106,10 +103,7 @@ TEST(Watertight, AClosedFanCoversEachSampleOnce) {
         }
       }
     }
-    RenderStatistics statistics;
-    RenderOptions options;
-    options.statistics = &statistics;
-    testing::render_tested(fan, camera, options);
+    const RenderStatistics statistics = testing::render_and_count(fan, camera).statistics;
     ASSERT_EQ(statistics.samples_covered, statistics.pixels_with_surface);
     ASSERT_GT(statistics.samples_covered, 0U);
   }

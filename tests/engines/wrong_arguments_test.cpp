@@ -59,7 +59,7 @@ Camera small_camera() {
 }
 
 DepthMap map_of_triangle(const RenderOptions& options = {.channels = {Channel::Z, Channel::id}}) {
-  return render(triangle(), small_camera(), options);
+  return render(triangle(), small_camera(), options).map;
 }
 
 /// What takes a scene and a camera; a map, where one is needed, is that of triangle().

@@ -4,8 +4,8 @@
 
 #include "fathom/camera/camera.h"
 #include "fathom/evaluation/surface_points.h"
+#include "fathom/rendering/options.h"
 #include "fathom/scene/scene.h"
-#include "fathom/triangle/options.h"
 
 /// The same questions answered by rational numbers, one triangle after another, by other formulas.
 namespace fathom::evaluation::test {

@@ -13,6 +13,7 @@ namespace fathom {
 namespace {
 
 using namespace fast;
+using namespace rendering;
 using namespace triangle;
 
 TEST(FirstFault, IsThatOfTheFirstPixel) {

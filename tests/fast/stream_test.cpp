@@ -42,8 +42,8 @@ void expect_same_render(const Both& both, const Camera& camera, const RenderOpti
   SCOPED_TRACE(std::to_string(limits.triangles_at_once) + " triangles at once, " +
                std::to_string(limits.tile_bytes) + " bytes of tiles, " +
                std::to_string(limits.kept_bytes) + " of triangles");
-  expect_same_map(render_streamed(both.streamed, camera, options, limits),
-                  render_fast(both.scene, camera, options));
+  expect_same_map(render_streamed(both.streamed, camera, options, limits).map,
+                  render_fast(both.scene, camera, options).map);
 }
 
 /// Under sanitizers images are smaller, unless told otherwise.
@@ -169,14 +169,12 @@ TEST(FastStream, StatisticsCountTrianglesOnce) {
   const Camera camera = cameras_for(both.scene, 1).at(1);
   RenderOptions options;
   options.cull = Cull::back;
-  RenderStatistics ours, truth;
-  options.statistics = &ours;
   std::vector<double> shares;
-  options.progress = [&](double share) { shares.push_back(share); };
-  render_streamed(both.streamed, camera, options, {.triangles_at_once = 500, .tile_bytes = 0});
-  options.statistics = &truth;
-  options.progress = nullptr;
-  render_fast(both.scene, camera, options);
+  const RenderStatistics ours =
+      render_streamed(both.streamed, camera, options, {.triangles_at_once = 500, .tile_bytes = 0},
+                      {.progress = [&](double share) { shares.push_back(share); }})
+          .statistics;
+  const RenderStatistics truth = render_fast(both.scene, camera, options).statistics;
   EXPECT_EQ(ours.triangles, truth.triangles);
   EXPECT_EQ(ours.facing.interval + ours.facing.exact, truth.facing.interval + truth.facing.exact);
   EXPECT_EQ(ours.culled_triangles, truth.culled_triangles);
@@ -200,8 +198,8 @@ TEST(FastStream, FrontDoorDescribesTheMap) {
   options.engine = Engine::fast;
   const Camera camera = frame_scene(outline_of(both.streamed), {}, {.width = 64, .height = 48});
   EXPECT_EQ(to_json(camera), to_json(frame_scene(both.scene, {}, {.width = 64, .height = 48})));
-  const DepthMap ours = render(both.streamed, camera, options);
-  const DepthMap truth = render(both.scene, camera, options);
+  const DepthMap ours = render(both.streamed, camera, options).map;
+  const DepthMap truth = render(both.scene, camera, options).map;
   expect_same_map(ours, truth);
   EXPECT_EQ(texts_of(ours), texts_of(truth));
   EXPECT_EQ(ours.object_names, truth.object_names);
@@ -219,7 +217,7 @@ TEST(FastStream, VerifiedFromTheFilesToo) {
   const Camera camera = cameras_for(both.scene).at(0);
   RenderOptions options;
   options.channels = streamed_channels;
-  DepthMap map = render_streamed(both.streamed, camera, options);
+  DepthMap map = render_streamed(both.streamed, camera, options).map;
   PixelChoice chosen(map.width * std::size_t{map.height}, false);
   for (std::size_t i = 0; i < chosen.size(); i += 7 * testing::effort) chosen[i] = true;
   const std::size_t within = map.height / 2 * std::size_t{map.width} + map.width / 2;

@@ -88,8 +88,8 @@ inline RenderOptions options_from(Bytes& bytes) {
 /// Ends the program unless both engines give the same map, bit for bit.
 inline void expect_same_maps(const Scene& scene, const Camera& camera,
                              const RenderOptions& options) {
-  const DepthMap truth = render_reference(scene, camera, options);
-  if (!are_same(render_fast(scene, camera, options), truth)) std::abort();
+  const DepthMap truth = render_reference(scene, camera, options).map;
+  if (!are_same(render_fast(scene, camera, options).map, truth)) std::abort();
 }
 
 }  // namespace fathom::fuzz

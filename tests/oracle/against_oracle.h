@@ -5,8 +5,8 @@
 
 #include "fathom/camera/camera.h"
 #include "fathom/image/depth_map.h"
+#include "fathom/rendering/options.h"
 #include "fathom/scene/scene.h"
-#include "fathom/triangle/options.h"
 #include "tests/oracle/areas.h"
 #include "tests/oracle/ray_caster.h"
 

@@ -97,7 +97,7 @@ Differences compare_coverage(const Scene& scene, const Camera& camera, int bits)
   RenderOptions exact_options;
   exact_options.engine = Engine::reference;
   exact_options.channels = {Channel::id};
-  const DepthMap exact = render(scene, camera, exact_options);
+  const DepthMap exact = render(scene, camera, exact_options).map;
   const auto& id = *exact.values<std::uint32_t>("id");
   const PipelineFrame frame = render_frame(scene, camera, precise(bits), false);
   // Snapping moves a corner by half a step along each axis; transform, division and viewport in
@@ -140,7 +140,7 @@ TEST(Engine, VisibleTriangleIsTheExactOneAtSixteenBits) {
     const Camera camera = camera_of(64, 48);
     RenderOptions options;
     options.channels = {Channel::id};
-    const DepthMap exact = render(scene, camera, options);
+    const DepthMap exact = render(scene, camera, options).map;
     const PipelineFrame frame = render_frame(scene, camera, precise(16), false);
     for (std::size_t k = 0; k < frame.id.size(); ++k, ++pixels)
       different += frame.id[k] != (*exact.values<std::uint32_t>("id"))[k];

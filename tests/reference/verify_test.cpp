@@ -107,8 +107,8 @@ TEST(Verify, AgreesWithBothEnginesOnRandomScenes) {
       options.channels = every_channel;
       options.cull = i % 5 == 0 ? Cull::back : i % 5 == 1 ? Cull::front : Cull::none;
       options.threads = 1 + i % 3;
-      expect_verified(i % 2 == 0 ? render_fast(c.scene, c.camera, options)
-                                 : render_reference(c.scene, c.camera, options),
+      expect_verified(i % 2 == 0 ? render_fast(c.scene, c.camera, options).map
+                                 : render_reference(c.scene, c.camera, options).map,
                       c.scene, c.camera, options);
       if (::testing::Test::HasFailure()) FAIL() << "case " << i << " of seed 71 + kind";
     }
@@ -127,7 +127,7 @@ TEST(Verify, AgreesOnHardScenes) {
     for (const Camera& camera : read_cameras(entry.path().parent_path() / name)) {
       RenderOptions options;
       options.channels = every_channel;
-      expect_verified(render_fast(scene, camera, options), scene, camera, options);
+      expect_verified(render_fast(scene, camera, options).map, scene, camera, options);
     }
     ++scenes;
   }
@@ -143,7 +143,7 @@ TEST(Verify, SceneOfSeveralObjectsAndPlacements) {
   const Camera camera = frame_scene(scene, {}, {.width = 96, .height = 64});
   RenderOptions options;
   options.channels = every_channel;
-  expect_verified(render_fast(scene, camera, options), scene, camera, options);
+  expect_verified(render_fast(scene, camera, options).map, scene, camera, options);
 }
 
 TEST(Verify, EveryEncoding) {
@@ -154,7 +154,7 @@ TEST(Verify, EveryEncoding) {
     RenderOptions options;
     options.channels = {Channel::Z, Channel::distance};
     options.depth_encoding = {.type = type, .scale = 1000.5};
-    DepthMap map = render_fast(scene, camera, options);
+    DepthMap map = render_fast(scene, camera, options).map;
     expect_verified(map, scene, camera, options);
     flip_last_bit(map.channels[1], 2 * 8 + 3);
     const Verification v = verify(map, scene, camera, options, all_pixels(camera));
@@ -169,7 +169,7 @@ TEST(Verify, FindsASingleWrongBit) {
   const Camera camera = camera_of(8, 6, 4);
   RenderOptions options;
   options.channels = every_channel;
-  const DepthMap right = render_fast(scene, camera, options);
+  const DepthMap right = render_fast(scene, camera, options).map;
   std::size_t corrupted = 0;
   for (std::size_t k = 0; k < right.channels.size(); ++k) {
     for (std::size_t pixel = 0; pixel < 48; ++pixel) {
@@ -193,7 +193,7 @@ TEST(Verify, NamesTheFirstPixelAndBothValues) {
   const Scene scene = two_squares();
   const Camera camera = camera_of(8, 6, 4);
   const RenderOptions options;
-  DepthMap map = render_fast(scene, camera, options);
+  DepthMap map = render_fast(scene, camera, options).map;
   auto& depth = std::get<Samples<float>>(map.channels[0].values);
   depth[4 * 8 + 7] = 3;
   depth[3 * 8 + 2] = std::nextafter(2.0F, 3.0F);
@@ -208,7 +208,7 @@ TEST(Verify, FindsWrongVisibility) {
   const Camera camera = camera_of(8, 6, 4);
   RenderOptions options;
   options.channels = {Channel::id};
-  const DepthMap right = render_fast(scene, camera, options);
+  const DepthMap right = render_fast(scene, camera, options).map;
   const auto& ids = std::get<Samples<std::uint32_t>>(right.channels[0].values);
   std::set<std::uint32_t> seen(ids.begin(), ids.end());
   EXPECT_EQ(seen, (std::set<std::uint32_t>{0, 1, 2, no_surface}));
@@ -226,11 +226,11 @@ TEST(Verify, KnowsCullingAndRange) {
   const Scene scene = two_squares();
   Camera camera = camera_of(8, 6, 4);
   RenderOptions options;
-  const DepthMap plain = render_fast(scene, camera, options);
+  const DepthMap plain = render_fast(scene, camera, options).map;
   options.cull = Cull::back;
-  const DepthMap back = render_fast(scene, camera, options);
+  const DepthMap back = render_fast(scene, camera, options).map;
   options.cull = Cull::front;
-  const DepthMap front = render_fast(scene, camera, options);
+  const DepthMap front = render_fast(scene, camera, options).map;
   EXPECT_EQ(verify(front, scene, camera, options, all_pixels(camera)).differing, 0U);
   EXPECT_GT(verify(back, scene, camera, options, all_pixels(camera)).differing, 0U);
   options.cull = Cull::back;
@@ -239,9 +239,10 @@ TEST(Verify, KnowsCullingAndRange) {
   options.cull = Cull::none;
   camera.near = 2.5;
   EXPECT_GT(verify(plain, scene, camera, options, all_pixels(camera)).differing, 0U);
-  EXPECT_EQ(verify(render_fast(scene, camera, options), scene, camera, options, all_pixels(camera))
-                .differing,
-            0U);
+  EXPECT_EQ(
+      verify(render_fast(scene, camera, options).map, scene, camera, options, all_pixels(camera))
+          .differing,
+      0U);
 }
 
 /// Only the chosen pixels are looked at.
@@ -249,7 +250,7 @@ TEST(Verify, LooksAtTheChosenPixelsAlone) {
   const Scene scene = two_squares();
   const Camera camera = camera_of(8, 6, 4);
   const RenderOptions options;
-  const DepthMap right = render_fast(scene, camera, options);
+  const DepthMap right = render_fast(scene, camera, options).map;
   for (const std::uint64_t count : {1U, 5U, 20U}) {
     const PixelChoice chosen = choose_pixels(8, 6, count);
     for (std::size_t pixel = 0; pixel < 48; ++pixel) {
@@ -268,7 +269,7 @@ TEST(Verify, ADepthWithoutACode) {
   const Camera camera = camera_of(8, 6, 4);
   RenderOptions options;
   options.depth_encoding = {.type = DepthEncoding::Type::scaled_unorm16, .scale = 1000};
-  const DepthMap map = render_fast(scene, camera, options);
+  const DepthMap map = render_fast(scene, camera, options).map;
   options.depth_encoding.scale = 33000;
   const Verification v = verify(map, scene, camera, options, all_pixels(camera));
   ASSERT_TRUE(v.first);

@@ -84,7 +84,7 @@ PictureError error_with(const Judged& judged, const pipeline::PipelineOptions& o
 /// The star's rays are white and hide nothing: its truth is the channel A.
 TEST(JudgedScenes, TheStarIsItsCoverage) {
   const Judged judged = star();
-  const DepthMap map = render(judged.scene, judged.camera, {.channels = {Channel::A}});
+  const DepthMap map = render(judged.scene, judged.camera, {.channels = {Channel::A}}).map;
   const auto& A = *map.values<float>("A");
   for (std::size_t i = 0; i < A.size(); ++i) {
     // Some thirty rays meet in the middle, each area rounded by itself.

@@ -87,7 +87,7 @@ double quantile(const std::vector<Corners>& triangles, double share, const Measu
 }
 
 double covered_share(const BenchScene& bench) {
-  const DepthMap map = render(bench.scene, bench.camera, {.engine = Engine::fast});
+  const DepthMap map = render(bench.scene, bench.camera, {.engine = Engine::fast}).map;
   const Samples<float>& Z = *map.values<float>("Z");
   const auto covered = std::count_if(Z.begin(), Z.end(), [](float z) { return std::isfinite(z); });
   return static_cast<double>(covered) / static_cast<double>(Z.size());
@@ -223,8 +223,8 @@ TEST_P(SmallScenes, BothEnginesSeeTheSame) {
   const Camera camera = GetParam().name == "city"
                             ? make_scene("city", 64, 36).camera
                             : frame_scene(scene, {}, {.width = 64, .height = 36});
-  const DepthMap fast = render(scene, camera, {.engine = Engine::fast});
-  const DepthMap reference = render(scene, camera, {.engine = Engine::reference});
+  const DepthMap fast = render(scene, camera, {.engine = Engine::fast}).map;
+  const DepthMap reference = render(scene, camera, {.engine = Engine::reference}).map;
   EXPECT_EQ(*fast.values<float>("Z"), *reference.values<float>("Z"));
 }
 

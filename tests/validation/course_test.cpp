@@ -178,7 +178,7 @@ TEST(Course, PicturesOfAnEdgeAreTheShareOfCoveredSamples) {
     }
   }
   // Channel A of the command that the page names.
-  const DepthMap map = render(view.scene, view.camera, {.channels = {Channel::A}});
+  const DepthMap map = render(view.scene, view.camera, {.channels = {Channel::A}}).map;
   const auto& area = *map.values<float>("A");
   for (std::size_t k = 0; k < area.size(); ++k)
     ASSERT_EQ(p.exact_picture.pixels[k][0], std::lround(255 * static_cast<double>(area[k])));

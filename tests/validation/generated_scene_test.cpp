@@ -118,17 +118,15 @@ TEST(GeneratedScene, TheMapIsThatOfTheSameTrianglesInMemory) {
     const StreamedScene streamed = scene_of(kind, 100000);
     const Camera camera = camera_of(kind, {320, 180});
     const RenderOptions options{.channels = {Channel::Z, Channel::id}};
-    testing::expect_same_map(render(streamed, camera, options),
-                             render(as_scene_in_memory(streamed), camera, options));
+    testing::expect_same_map(render(streamed, camera, options).map,
+                             render(as_scene_in_memory(streamed), camera, options).map);
   }
 }
 
 double part_with_surface(GeneratedKind kind, const ImageSize& size) {
-  RenderStatistics statistics;
-  RenderOptions options{.channels = {Channel::Z}};
-  options.statistics = &statistics;
-  render(scene_of(kind, 100000), camera_of(kind, size), options);
-  return static_cast<double>(statistics.pixels_with_surface) / size.width / size.height;
+  const Rendered rendered =
+      render(scene_of(kind, 100000), camera_of(kind, size), {.channels = {Channel::Z}});
+  return static_cast<double>(rendered.statistics.pixels_with_surface) / size.width / size.height;
 }
 
 TEST(GeneratedScene, ATerrainFillsItsImage) {

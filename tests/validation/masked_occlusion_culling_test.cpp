@@ -27,7 +27,7 @@ struct Agreement {
 };
 
 Agreement agreement(const Scene& scene, const Camera& camera, const MaskedWay& way) {
-  const DepthMap map = render(scene, camera, {.engine = Engine::fast});
+  const DepthMap map = render(scene, camera, {.engine = Engine::fast}).map;
   const Samples<float>& ours = *map.values<float>("Z");
   MaskedBuffer buffer(attribution::world_mesh(scene), camera, way);
   buffer.draw();

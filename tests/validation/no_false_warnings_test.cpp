@@ -38,10 +38,7 @@ std::vector<Camera> cameras_from(const std::filesystem::path& file) {
 
 /// What is warned of when the scene is rendered.
 std::vector<ViewWarning> warnings_for(const Scene& scene, const Camera& camera) {
-  RenderStatistics statistics;
-  RenderOptions options;
-  options.statistics = &statistics;
-  (void)render(scene, camera, options);
+  const RenderStatistics statistics = render(scene, camera).statistics;
   std::vector<ViewWarning> warnings = warnings_of_camera(camera);
   for (ViewWarning& of_view : warnings_of_view(scene, camera, statistics.pixels_with_surface))
     warnings.push_back(std::move(of_view));

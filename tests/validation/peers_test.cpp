@@ -62,7 +62,7 @@ class Peers : public testing::TestWithParam<Projection> {
   const Camera camera = odd_camera(GetParam());
   const Scene scene = bench::as_scene({bench::sphere(800)}, "sphere");
   const WorldMesh mesh = world_mesh(scene);
-  const DepthMap map = render(scene, camera, {.engine = Engine::fast});
+  const DepthMap map = render(scene, camera, {.engine = Engine::fast}).map;
   const Samples<float>& ours = *map.values<float>("Z");
 };
 
@@ -121,7 +121,7 @@ TEST_P(Peers, VtkNumbersTrianglesAsWeDo) {
   VtkRenderer renderer(mesh, camera, clip_range(mesh, camera), {.numbers = true});
   renderer.draw();
   const std::vector<std::uint32_t> theirs = renderer.drawing().triangles;
-  const DepthMap exact = render(scene, camera, {.channels = {Channel::id}});
+  const DepthMap exact = render(scene, camera, {.channels = {Channel::id}}).map;
   const auto& ids = *exact.values<std::uint32_t>("id");
   std::size_t differing = 0;
   for (std::size_t i = 0; i < ids.size(); ++i) differing += ids[i] != theirs[i] ? 1 : 0;

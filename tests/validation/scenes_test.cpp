@@ -33,7 +33,7 @@ void expect_closed(const Mesh& mesh) {
 
 /// Share of the pixels that show a surface.
 double covered_share(const BenchScene& bench) {
-  const DepthMap map = render(bench.scene, bench.camera, {.engine = Engine::fast});
+  const DepthMap map = render(bench.scene, bench.camera, {.engine = Engine::fast}).map;
   const Samples<float>& Z = *map.values<float>("Z");
   const auto covered = std::count_if(Z.begin(), Z.end(), [](float z) { return std::isfinite(z); });
   return static_cast<double>(covered) / static_cast<double>(Z.size());
@@ -99,7 +99,7 @@ TEST(BenchScenes, SoupHasDepthComplexityFifty) {
 TEST(BenchScenes, FewLargeTrianglesCoverTheImageAndAreAllSeen) {
   const BenchScene bench = make_scene("few-large", 320, 180);
   const DepthMap map =
-      render(bench.scene, bench.camera, {.engine = Engine::fast, .channels = {Channel::id}});
+      render(bench.scene, bench.camera, {.engine = Engine::fast, .channels = {Channel::id}}).map;
   std::map<std::uint32_t, int> seen;
   for (const std::uint32_t id : *map.values<std::uint32_t>("id")) ++seen[id];
   EXPECT_EQ(seen.count(no_surface), 0U);

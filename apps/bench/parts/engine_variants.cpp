@@ -40,18 +40,10 @@ Variant pipeline_variant(std::string name, const BenchScene& bench, const Pipeli
 
 Variant fast_variant(std::string name, const BenchScene& bench, const RenderOptions& options,
                      std::function<Counts(const RenderStatistics&)> counts) {
-  struct Drawn {
-    DepthMap map;
-    RenderStatistics statistics;
-  };
-  const auto drawn = std::make_shared<Drawn>();
+  const auto drawn = std::make_shared<Rendered>();
   Variant variant{.name = std::move(name)};
   variant.prepare = [drawn] { *drawn = {}; };
-  variant.draw = [drawn, &bench, options] {
-    RenderOptions with_statistics = options;
-    with_statistics.statistics = &drawn->statistics;
-    drawn->map = render(bench.scene, bench.camera, with_statistics);
-  };
+  variant.draw = [drawn, &bench, options] { *drawn = render(bench.scene, bench.camera, options); };
   variant.picture = [drawn] {
     const Samples<float>& Z = *drawn->map.values<float>("Z");
     return Picture(Z.begin(), Z.end());

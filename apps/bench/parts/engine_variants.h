@@ -2,7 +2,8 @@
 
 #include "apps/bench/parts/idea.h"
 #include "fathom/pipeline/options.h"
-#include "fathom/triangle/options.h"
+#include "fathom/rendering/options.h"
+#include "fathom/rendering/rendered.h"
 #include "validation/scenes/scenes.h"
 
 /// Variants that draw with the pipeline and the fast engine; the picture of the latter is channel Z.

@@ -74,7 +74,7 @@ std::vector<EdgeSeen> measure_edges() {
 }  // namespace
 
 DepthMap exact_coverage(const SceneView& view) {
-  return render(view.scene, view.camera, {.channels = {Channel::A}});
+  return render(view.scene, view.camera, {.channels = {Channel::A}}).map;
 }
 
 CoverageBySamples measure_coverage_by_samples(const SceneView& view, const DepthMap& exact,

@@ -33,7 +33,7 @@ Scene oblique_quadrangle() {
 Checkerboard coordinate_errors(const Scene& scene, const Camera& camera,
                                const PipelineOptions& options) {
   const PipelineFrame coordinates = render_frame(scene, camera, options, true);
-  const DepthMap exact = render(scene, camera, {.channels = {Channel::id, Channel::bary}});
+  const DepthMap exact = render(scene, camera, {.channels = {Channel::id, Channel::bary}}).map;
   const auto& id = *exact.values<std::uint32_t>("id");
   const auto &b = *exact.values<float>("bary.U"), &c = *exact.values<float>("bary.V");
   Checkerboard result;

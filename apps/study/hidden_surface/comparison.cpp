@@ -21,7 +21,7 @@ Scene pair(MeshPoint a, MeshPoint b, MeshPoint c, MeshPoint d, MeshPoint e, Mesh
 std::vector<std::uint32_t> exact_ids(const Scene& scene, const Camera& camera) {
   RenderOptions options;
   options.channels = {Channel::id};
-  const DepthMap map = render(scene, camera, options);
+  const DepthMap map = render(scene, camera, options).map;
   const auto& ids = *map.values<std::uint32_t>("id");
   return {ids.begin(), ids.end()};
 }

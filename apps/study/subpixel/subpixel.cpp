@@ -53,7 +53,7 @@ Row compare(const SnappedMap& snapped, const DepthMap& exact, int bits) {
 std::vector<Row> compare_all(const SceneView& view, const std::function<void(double)>& tick) {
   RenderOptions options{.channels = {Channel::Z, Channel::id}};
   options.depth_encoding.type = DepthEncoding::Type::binary64;
-  const DepthMap exact = render(view.scene, view.camera, options);
+  const DepthMap exact = render(view.scene, view.camera, options).map;
   std::vector<Row> rows;
   for (int bits = 0; bits <= most_bits; ++bits) {
     rows.push_back(compare(draw_snapped(view, bits), exact, bits));

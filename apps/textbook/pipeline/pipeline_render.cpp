@@ -20,8 +20,8 @@
 #include "fathom/image/map_texts.h"
 #include "fathom/pipeline/render_moving.h"
 #include "fathom/render_by_pipeline.h"
+#include "fathom/rendering/segment_channels.h"
 #include "fathom/text/counted.h"
-#include "fathom/triangle/segment_channels.h"
 
 namespace fathom::app {
 namespace {

@@ -235,7 +235,8 @@ class PairFinder {
 }  // namespace
 
 std::vector<CoplanarPair> coplanar_pairs(const TriangleSource& triangles, const Camera& camera,
-                                         double within, const RenderOptions& options) {
+                                         double within, const RenderOptions& options,
+                                         const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   if (!(within >= 0) || !std::isfinite(within)) {
     throw UsageError(Setting{"within"}, "expected a distance of 0 or more");
@@ -244,13 +245,13 @@ std::vector<CoplanarPair> coplanar_pairs(const TriangleSource& triangles, const 
     require_renderable(triangles, camera);
     constexpr std::uint32_t chunk = 8;
     const std::uint32_t chunks = triangles.count() / chunk + 1;
-    Progress progress(options.progress, SceneSurfaces::parts(triangles.count()) + chunks);
-    const PairFinder finder({triangles, camera, options.cull}, within, progress);
+    Progress done(progress, SceneSurfaces::parts(triangles.count()) + chunks);
+    const PairFinder finder({triangles, camera, options.cull}, within, done);
     std::vector<std::vector<CoplanarPair>> found(finder.count());
     parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t k) {
       const std::uint32_t end = std::min(finder.count(), (k + 1) * chunk);
       for (std::uint32_t t = k * chunk; t < end; ++t) found[t] = finder.pairs_of(t);
-      progress.part_done();
+      done.part_done();
     });
     std::vector<CoplanarPair> all;
     for (const auto& pairs : found) all.insert(all.end(), pairs.begin(), pairs.end());

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "fathom/camera/camera.h"
 #include "fathom/geometry/pixel_box.h"
+#include "fathom/rendering/options.h"
 #include "fathom/scene/triangle_source.h"
-#include "fathom/triangle/options.h"
 
 namespace fathom {
 
@@ -21,8 +22,8 @@ struct CoplanarPair {
 };
 
 /// All coplanar pairs for the distance `within` ≥ 0, in scene units, by the numbers of their
-/// triangles; without pairs that share the position of a corner. Of the options, only culling,
-/// threads and progress matter.
+/// triangles; without pairs that share the position of a corner. Of the options, only culling
+/// and threads matter.
 ///
 /// Exact    every decision. On a line D_s − D_t ≤ δ is a quadratic inequality, because D is a
 ///          quotient of affine forms; the least separation lies on the rim of the region, where the
@@ -30,6 +31,7 @@ struct CoplanarPair {
 /// Fails    InputError where scene or camera has a fault (find_fault); UsageError for a distance
 ///          that is negative or not finite.
 std::vector<CoplanarPair> coplanar_pairs(const TriangleSource& triangles, const Camera& camera,
-                                         double within, const RenderOptions& options);
+                                         double within, const RenderOptions& options,
+                                         const std::function<void(double)>& progress = {});
 
 }  // namespace fathom

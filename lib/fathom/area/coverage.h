@@ -5,8 +5,8 @@
 
 #include "fathom/camera/camera.h"
 #include "fathom/numeric/ratio.h"
+#include "fathom/rendering/options.h"
 #include "fathom/scene/triangle_source.h"
-#include "fathom/triangle/options.h"
 
 namespace fathom {
 

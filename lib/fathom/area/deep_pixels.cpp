@@ -207,7 +207,8 @@ std::vector<MatteShare> shares(const PixelSurfaces& surfaces,
 /// pixel after another, and how many each has.
 template <class Item, class Compute>
 void gather(const CoverageFrame& frame, const RenderOptions& options, const RowShare& share,
-            const Compute& compute, std::vector<std::uint32_t>& counts, std::vector<Item>& items) {
+            const std::function<void(double)>& progress, const Compute& compute,
+            std::vector<std::uint32_t>& counts, std::vector<Item>& items) {
   const std::size_t width = frame.camera.width;
   counts.assign(width * frame.camera.height, 0);
   // One thread does a row, from left to right.
@@ -219,7 +220,7 @@ void gather(const CoverageFrame& frame, const RenderOptions& options, const RowS
     counts[row * width + column] = static_cast<std::uint32_t>(found.size());
     rows[row].insert(rows[row].end(), found.begin(), found.end());
   };
-  Progress parts(options.progress, std::max(1U, share.bands(frame.camera.height)));
+  Progress parts(progress, std::max(1U, share.bands(frame.camera.height)));
   with_threads(options.threads, [&] {
     for_each_pixel(
         frame, visit, [&] { parts.part_done(); }, share);
@@ -233,7 +234,8 @@ void gather(const CoverageFrame& frame, const RenderOptions& options, const RowS
 }  // namespace
 
 DeepMap visible_in_pixels(const TriangleSource& triangles, const Camera& camera,
-                          const RenderOptions& options, const RowShare& share) {
+                          const RenderOptions& options, const RowShare& share,
+                          const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   DeepMap map;
   map.description.width = camera.width;
@@ -241,20 +243,22 @@ DeepMap visible_in_pixels(const TriangleSource& triangles, const Camera& camera,
   const auto compute = [](ImageCell& pixel, std::span<const SurfaceRegion* const> surfaces) {
     return deep_samples(pixel, look_into(pixel, surfaces));
   };
-  gather({triangles, camera, options.cull}, options, share, compute, map.counts, map.samples);
+  gather({triangles, camera, options.cull}, options, share, progress, compute, map.counts,
+         map.samples);
   return map;
 }
 
 Mattes mattes_in_pixels(const TriangleSource& triangles, const Camera& camera,
                         const RenderOptions& options,
                         const std::function<std::uint32_t(std::uint32_t)>& matte_of,
-                        const RowShare& share) {
+                        const RowShare& share, const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   Mattes mattes;
   const auto compute = [&](ImageCell& pixel, std::span<const SurfaceRegion* const> surfaces) {
     return shares(look_into(pixel, surfaces), matte_of);
   };
-  gather({triangles, camera, options.cull}, options, share, compute, mattes.counts, mattes.shares);
+  gather({triangles, camera, options.cull}, options, share, progress, compute, mattes.counts,
+         mattes.shares);
   return mattes;
 }
 

@@ -5,12 +5,12 @@
 
 #include "fathom/area/triangle_bands.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/rendering/map_of_camera.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/interruption.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/certified_surfaces.h"
-#include "fathom/triangle/map_of_camera.h"
 #include "fathom/triangle/referee.h"
 #include "fathom/triangle/sampling.h"
 
@@ -18,6 +18,7 @@
 // filled one by one: each triangle is tested at the samples of its box that no other has covered.
 namespace fathom {
 using namespace area;
+using namespace rendering;
 using namespace triangle;
 
 namespace {

@@ -3,8 +3,8 @@
 #include "fathom/camera/camera.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/image/sample_pattern.h"
+#include "fathom/rendering/options.h"
 #include "fathom/scene/triangle_source.h"
-#include "fathom/triangle/options.h"
 
 namespace fathom {
 

@@ -158,11 +158,12 @@ VisibleArea rounded(const SceneAreas& areas, const ObjectSums& sums, std::uint32
   return rounded_exactly(areas, object);
 }
 
-VisibleAreas areas_in_arena(const CoverageFrame& frame, const RenderOptions& options) {
+VisibleAreas areas_in_arena(const CoverageFrame& frame,
+                            const std::function<void(double)>& progress) {
   constexpr std::uint32_t chunk = 64;
   const std::uint32_t chunks = frame.triangles.count() / chunk + 1;
-  Progress progress(options.progress, SceneSurfaces::parts(frame.triangles.count()) + chunks);
-  const SceneAreas areas(frame, progress);
+  Progress done(progress, SceneSurfaces::parts(frame.triangles.count()) + chunks);
+  const SceneAreas areas(frame, done);
   const std::size_t objects = frame.triangles.objects().size();
   VisibleAreas result;
   result.triangles.resize(areas.count());
@@ -176,7 +177,7 @@ VisibleAreas areas_in_arena(const CoverageFrame& frame, const RenderOptions& opt
       sums.visible.add(enclosed_sum(exact.visible));
       sums.in_object.add(enclosed_sum(exact.in_object));
     }
-    progress.part_done();
+    done.part_done();
   });
   std::vector<ObjectSums> sums(objects);
   parts.for_each([&](const std::vector<ObjectSums>& part) {
@@ -194,11 +195,12 @@ VisibleAreas areas_in_arena(const CoverageFrame& frame, const RenderOptions& opt
 }  // namespace
 
 VisibleAreas visible_areas(const TriangleSource& triangles, const Camera& camera,
-                           const RenderOptions& options) {
+                           const RenderOptions& options,
+                           const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   return with_threads(options.threads, [&] {
     require_renderable(triangles, camera);
-    return areas_in_arena({triangles, camera, options.cull}, options);
+    return areas_in_arena({triangles, camera, options.cull}, progress);
   });
 }
 

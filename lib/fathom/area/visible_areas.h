@@ -1,11 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "fathom/camera/camera.h"
+#include "fathom/rendering/options.h"
 #include "fathom/scene/triangle_source.h"
-#include "fathom/triangle/options.h"
 
 namespace fathom {
 
@@ -27,10 +28,11 @@ struct VisibleAreas {
 };
 
 /// Computed from the triangles' outlines as a whole, not pixel by pixel: the size of the image does
-/// not matter. Of the options, only culling, threads and progress matter.
+/// not matter. Of the options, only culling and threads matter.
 /// Exact    every area, and the ratio of exact areas; each rounded once.
 /// Fails    InputError where scene or camera has a fault (find_fault).
 VisibleAreas visible_areas(const TriangleSource& triangles, const Camera& camera,
-                           const RenderOptions& options);
+                           const RenderOptions& options,
+                           const std::function<void(double)>& progress = {});
 
 }  // namespace fathom

@@ -11,7 +11,7 @@ namespace {
 
 void set_maps(Truth& truth, const Scene& scene) {
   const DepthMap map =
-      render(scene, truth.camera, {.channels = {Channel::Z, Channel::Zlow, Channel::id}});
+      render(scene, truth.camera, {.channels = {Channel::Z, Channel::Zlow, Channel::id}}).map;
   const auto& high = *map.values<float>("Z");
   const auto& low = *map.values<float>("Zlow");
   const auto& id = *map.values<std::uint32_t>("id");

@@ -6,14 +6,15 @@
 #include "fathom/depth_buffer/buffer_work.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/rendering/map_of_camera.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/text/counted.h"
 #include "fathom/threads/threads.h"
-#include "fathom/triangle/map_of_camera.h"
 
 namespace fathom {
 using namespace area;
 using namespace depth_buffer;
+using namespace rendering;
 using namespace triangle;
 
 DepthFormat depth_format_of(const Camera& camera, Mapping mapping, Storage storage, double c) {

@@ -5,8 +5,8 @@
 #include "fathom/camera/camera.h"
 #include "fathom/depth_format/depth_format.h"
 #include "fathom/image/depth_map.h"
+#include "fathom/rendering/options.h"
 #include "fathom/scene/triangle_source.h"
-#include "fathom/triangle/options.h"
 
 /// What a depth buffer would hold for a rendered map (specification, section 9, the ideal model).
 namespace fathom {

@@ -8,7 +8,7 @@
 #include "fathom/evaluation/surface_points.h"
 #include "fathom/evaluation/triangle_tree.h"
 #include "fathom/numeric/certified_arithmetic.h"
-#include "fathom/triangle/options.h"
+#include "fathom/rendering/options.h"
 
 namespace fathom::evaluation {
 

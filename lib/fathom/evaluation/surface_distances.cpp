@@ -177,17 +177,17 @@ void require_room(const TriangleSource& reconstruction, const TriangleSource& tr
 
 SurfaceComparison compare_in_arena(const TriangleSource& reconstruction,
                                    const TriangleSource& truth, const std::vector<Camera>& cameras,
-                                   const SurfaceComparisonOptions& options) {
+                                   const SurfaceComparisonOptions& options,
+                                   const std::function<void(double)>& progress) {
   require_room(reconstruction, truth, options);
   const long power = std::max(power_of_unit(reconstruction), power_of_unit(truth));
   const Surface made(reconstruction, power), real(truth, power);
   const std::vector<SurfacePoint> on_made = points_on(made, "the reconstruction", options.points);
   const std::vector<SurfacePoint> on_real = points_on(real, "the truth", options.points);
-  Progress progress(options.progress, 2 * parts_of(options.points));
+  Progress done(progress, 2 * parts_of(options.points));
   const auto measure = [&](const Surface& from, const Surface& to,
                            const std::vector<SurfacePoint>& points) {
-    return summary_of(distances_of(points, Measurement(from, to, cameras, options), progress),
-                      options);
+    return summary_of(distances_of(points, Measurement(from, to, cameras, options), done), options);
   };
   SurfaceComparison comparison{measure(made, real, on_made), measure(real, made, on_real), {}};
   for (std::size_t i = 0; i < options.within.size(); ++i) {
@@ -213,14 +213,15 @@ void require_meaningful(const SurfaceComparisonOptions& options) {
 
 SurfaceComparison compare_surfaces(const Scene& reconstruction, const Scene& truth,
                                    const std::vector<Camera>& cameras,
-                                   const SurfaceComparisonOptions& options) {
+                                   const SurfaceComparisonOptions& options,
+                                   const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   require_meaningful(options);
   return with_threads(options.threads, [&] {
     require_valid(reconstruction);
     require_valid(truth);
     for (const Camera& camera : cameras) require_valid(camera);
-    return compare_in_arena(reconstruction, truth, cameras, options);
+    return compare_in_arena(reconstruction, truth, cameras, options, progress);
   });
 }
 

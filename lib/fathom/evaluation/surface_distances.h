@@ -6,8 +6,8 @@
 
 #include "fathom/camera/camera.h"
 #include "fathom/evaluation/measured_points.h"
+#include "fathom/rendering/options.h"
 #include "fathom/scene/scene.h"
-#include "fathom/triangle/options.h"
 
 namespace fathom {
 
@@ -36,8 +36,6 @@ struct SurfaceComparisonOptions {
   bool keep_points = false;
   /// Threads to use; 0: all.
   int threads = 0;
-  /// Called now and then, never from two threads at once, with the fraction done, in [0, 1].
-  std::function<void(double)> progress;
 };
 
 /// Refuses options that mean nothing.
@@ -68,6 +66,7 @@ struct SurfaceComparison {
 /// Source   [KPZK17] for precision, recall and F-score
 SurfaceComparison compare_surfaces(const Scene& reconstruction, const Scene& truth,
                                    const std::vector<Camera>& cameras,
-                                   const SurfaceComparisonOptions& options = {});
+                                   const SurfaceComparisonOptions& options = {},
+                                   const std::function<void(double)>& progress = {});
 
 }  // namespace fathom

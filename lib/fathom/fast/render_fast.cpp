@@ -19,6 +19,7 @@
 // (triangle/referee), which computes exactly.
 namespace fathom {
 using namespace fast;
+using namespace rendering;
 using namespace triangle;
 
 namespace {
@@ -33,22 +34,23 @@ ImageObjects transform(const Scene& scene, const Camera& camera, VertexMemory* k
   return objects;
 }
 
-DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderOptions& options,
-                         RenderMemory::Parts& memory, DepthMap before) {
-  const FastFrame frame(camera, options);
+Rendered render_in_arena(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                         const RenderContext& context, RenderMemory::Parts& memory,
+                         DepthMap before) {
+  const FastFrame frame(camera, options, context.kept != nullptr);
   const TriangleSource triangles(scene);
   const SceneRays rays(triangles, camera);
   PerThread<TakenTile> tiles([&] { return TakenTile(memory.tiles); });
   FastWorkers workers([&] { return FastWorker(triangles, camera, rays); });
 
-  const ImageObjects objects = transform(scene, camera, options.kept ? &memory.vertices : nullptr);
+  const ImageObjects objects = transform(scene, camera, context.kept ? &memory.vertices : nullptr);
   memory.vertices.forget();
   const std::vector<Bins>& bins = memory.bins =
       sort_into_tiles(objects, 0, static_cast<std::uint32_t>(triangles.count()), parts_of_scene,
                       frame, workers, std::move(memory.bins));
 
   const MapRows rows{.past_caches = !before.channels.empty()};
-  auto [map, background] = make_unfilled_map(camera, options, std::move(before));
+  auto [map, background] = make_unfilled_map(camera, options, context, std::move(before));
   ChannelWriter writer(map, triangles, camera, options);
   float* const coverage = writer.values().coverage;
   const CoverageFrame coverage_frame{triangles, camera, options.cull};
@@ -58,38 +60,36 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
   FastOutput output(map, writer, rays, std::move(background), rows);
   const MapLayout layout{camera.width};
   FirstFault fault;
-  Progress progress(options.progress, frame.grid.count());
+  Progress progress(context.progress, frame.grid.count());
   parallel_for(std::uint32_t{0}, frame.grid.count(), [&](std::uint32_t number) {
     if (!is_met(bins, number)) {
       output.write_background(frame.grid.area(number), layout);
     } else {
-      const DrawContext context = frame.context(workers.local());
+      const DrawContext drawing = frame.context(workers.local());
       Tile& tile = *tiles.local();
       tile.start(frame.grid.area(number));
-      draw_tile(tile, number, bins, objects, context);
-      fault.add(output.write(tile, layout, context));
-      if (coverage) coverages.local().write(tile, number, context, coverage, layout);
+      draw_tile(tile, number, bins, objects, drawing);
+      fault.add(output.write(tile, layout, drawing));
+      if (coverage) coverages.local().write(tile, number, drawing, coverage, layout);
     }
     progress.part_done();
   });
   if (fault.get()) fail(*fault.get(), map);
-  collect_doubtful(workers, camera, options);
-  if (options.statistics) *options.statistics = sum_of(workers, triangles.count());
-  return std::move(map);
+  return {std::move(map), sum_of(workers, triangles.count()), doubtful_pixels(workers, camera)};
 }
 
 }  // namespace
 
-DepthMap render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options,
-                     DepthMap before) {
+Rendered render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                     const RenderContext& context, DepthMap before) {
   const StandardArithmetic standard;
   require_meaningful(options);
   RenderMemory for_once;
-  RenderMemory::Parts& memory = (options.kept ? *options.kept : for_once).parts();
+  RenderMemory::Parts& memory = (context.kept ? *context.kept : for_once).parts();
   return with_threads(options.threads, [&] {
     scene::require_renderable_but_elements(scene, camera);
     try {
-      return render_in_arena(scene, camera, options, memory, std::move(before));
+      return render_in_arena(scene, camera, options, context, memory, std::move(before));
     } catch (const scene::ElementFault&) {
       require_valid(scene);
       throw;

@@ -2,8 +2,9 @@
 
 #include "fathom/camera/camera.h"
 #include "fathom/image/depth_map.h"
+#include "fathom/rendering/options.h"
+#include "fathom/rendering/rendered.h"
 #include "fathom/scene/scene.h"
-#include "fathom/triangle/options.h"
 
 namespace fathom {
 
@@ -15,8 +16,8 @@ namespace fathom {
 /// Exact    every value is the exact number rounded once.
 /// Fails    as render_reference().
 /// `before`  a map that is not needed any more: its channels lend their memory where they fit.
-DepthMap render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options,
-                     DepthMap before = {});
+Rendered render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                     const RenderContext& context = {}, DepthMap before = {});
 
 /// The kind of vector instructions that the fast engine uses on this machine, by Highway's names:
 /// "AVX2", "AVX3", … The map does not depend on it.

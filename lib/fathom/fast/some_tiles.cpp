@@ -17,6 +17,7 @@
 // rounds; rows() writes what is visible in the end.
 namespace fathom {
 using namespace fast;
+using namespace rendering;
 using namespace triangle;
 
 struct SortedTriangles::State {

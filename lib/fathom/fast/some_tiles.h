@@ -9,8 +9,9 @@
 #include "fathom/camera/camera.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/mesh/mesh.h"
+#include "fathom/rendering/options.h"
+#include "fathom/rendering/rendered.h"
 #include "fathom/scene/triangle_source.h"
-#include "fathom/triangle/options.h"
 
 /// A map that is drawn in several places, each of which has some tiles of the image and is given the
 /// triangles that may touch them, some at a time. What a tile shows depends neither on the others nor

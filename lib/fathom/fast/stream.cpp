@@ -1,6 +1,7 @@
 #include "fathom/fast/stream.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -23,6 +24,7 @@
 // of the band (CoverageInRounds).
 namespace fathom {
 using namespace fast;
+using namespace rendering;
 using namespace triangle;
 
 namespace {
@@ -135,14 +137,15 @@ class RowsOfParts {
 
 /// Reports progress from the thread that reads: rows of tiles that are done, and, of the band under
 /// way, the share of its triangles.
-void report(const RenderOptions& options, const Band& band, const TileGrid& grid,
+void report(const std::function<void(double)>& progress, const Band& band, const TileGrid& grid,
             std::uint32_t first_row, double share_of_triangles) {
-  if (!options.progress) return;
-  options.progress((first_row + share_of_triangles * (band.end_row() - first_row)) / grid.rows);
+  if (!progress) return;
+  progress((first_row + share_of_triangles * (band.end_row() - first_row)) / grid.rows);
 }
 
-DepthMap render_in_arena(const StreamedScene& scene, const Camera& camera,
-                         const RenderOptions& options, const StreamLimits& limits) {
+Rendered render_in_arena(const StreamedScene& scene, const Camera& camera,
+                         const RenderOptions& options, const StreamLimits& limits,
+                         const RenderContext& context) {
   const FastFrame frame(camera, options);
   const TriangleSource triangles(scene);
   const SceneRays rays(triangles, camera);
@@ -151,7 +154,7 @@ DepthMap render_in_arena(const StreamedScene& scene, const Camera& camera,
   // Sorts triangles for bands after the first, whose statistics would count them again.
   FastWorkers sorting_again(new_worker);
 
-  DepthMap map = make_background(camera, options);
+  DepthMap map = make_background(camera, options, context);
   ChannelWriter writer(map, triangles, camera, options);
   FastOutput output(map, writer, rays);
   float* const coverage = writer.values().coverage;
@@ -178,7 +181,7 @@ DepthMap render_in_arena(const StreamedScene& scene, const Camera& camera,
         kept->give_up_from(band.end());
         kept->add(objects, bins);
       }
-      report(options, band, frame.grid, first_row,
+      report(context.progress, band, frame.grid, first_row,
              static_cast<double>(end) / static_cast<double>(triangles.count()));
     };
     triangles.for_each_part(limits.triangles_at_once, draw, [&](std::uint32_t first_number) {
@@ -187,18 +190,17 @@ DepthMap render_in_arena(const StreamedScene& scene, const Camera& camera,
     if (kept) band.write_coverage(*kept, coverage, frame, workers);
     band.resolve(output, frame, workers, fault);
     if (fault.get()) fail(*fault.get(), map);
-    report(options, band, frame.grid, first_row, 1);
+    report(context.progress, band, frame.grid, first_row, 1);
     first_row = band.end_row();
   }
-  collect_doubtful(workers, camera, options);
-  if (options.statistics) *options.statistics = sum_of(workers, triangles.count());
-  return map;
+  return {std::move(map), sum_of(workers, triangles.count()), doubtful_pixels(workers, camera)};
 }
 
 }  // namespace
 
-DepthMap render_streamed(const StreamedScene& scene, const Camera& camera,
-                         const RenderOptions& options, const StreamLimits& limits) {
+Rendered render_streamed(const StreamedScene& scene, const Camera& camera,
+                         const RenderOptions& options, const StreamLimits& limits,
+                         const RenderContext& context) {
   const StandardArithmetic standard;
   require_meaningful(options);
   if (limits.triangles_at_once == 0) {
@@ -207,7 +209,7 @@ DepthMap render_streamed(const StreamedScene& scene, const Camera& camera,
   return with_threads(options.threads, [&] {
     require_renderable(scene, camera);
     try {
-      return render_in_arena(scene, camera, options, limits);
+      return render_in_arena(scene, camera, options, limits, context);
     } catch (const scene::ElementFault&) {
       throw InputError("scene: a file has changed since it was opened");
     }

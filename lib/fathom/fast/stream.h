@@ -4,8 +4,9 @@
 
 #include "fathom/camera/camera.h"
 #include "fathom/image/depth_map.h"
+#include "fathom/rendering/options.h"
+#include "fathom/rendering/rendered.h"
 #include "fathom/scene/streamed_scene.h"
-#include "fathom/triangle/options.h"
 
 namespace fathom {
 
@@ -34,7 +35,8 @@ struct StreamLimits {
 /// Fails    as render_reference(); UsageError for limits that allow no triangle; InputError if a
 ///          file changes in the meantime; for channel A, OutputError if there is no room for what
 ///          does not fit into the memory.
-DepthMap render_streamed(const StreamedScene& scene, const Camera& camera,
-                         const RenderOptions& options, const StreamLimits& limits = {});
+Rendered render_streamed(const StreamedScene& scene, const Camera& camera,
+                         const RenderOptions& options, const StreamLimits& limits = {},
+                         const RenderContext& context = {});
 
 }  // namespace fathom

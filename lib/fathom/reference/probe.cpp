@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/rendering/deciders.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
-#include "fathom/triangle/deciders.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "fathom/triangle/sample_sides.h"
 #include "fathom/triangle/sampling.h"

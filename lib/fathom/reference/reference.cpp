@@ -7,6 +7,7 @@
 
 #include "fathom/area/coverage_image.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/rendering/map_of_camera.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/channels.h"
@@ -18,6 +19,7 @@
 // box, in the order of the triangles' numbers, and the nearest is kept.
 namespace fathom {
 using namespace area;
+using namespace rendering;
 using namespace triangle;
 
 namespace {
@@ -215,19 +217,19 @@ std::optional<EncodingFault> render_band(const Scene& scene, const Camera& camer
   return band.resolve(writer, statistics);
 }
 
-DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderOptions& options,
-                         DepthMap before) {
+Rendered render_in_arena(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                         const RenderContext& context, DepthMap before) {
   RenderStatistics statistics;
   statistics.triangles = triangle_count(scene);
   const std::vector<Candidate> candidates =
       find_candidates(scene, camera, options.cull, statistics);
 
-  DepthMap map = make_background(camera, options, std::move(before));
+  DepthMap map = make_background(camera, options, context, std::move(before));
   ChannelWriter writer(map, scene, camera, options);
   const std::uint32_t bands = (camera.height - 1) / rows_per_band + 1;
   std::vector<RenderStatistics> parts(bands);
   std::vector<std::optional<EncodingFault>> faults(bands);
-  Progress progress(options.progress, bands);
+  Progress progress(context.progress, bands);
   parallel_for(std::uint32_t{0}, bands, [&](std::uint32_t band) {
     faults[band] =
         render_band(scene, camera, candidates, band * rows_per_band, writer, parts[band]);
@@ -241,19 +243,18 @@ DepthMap render_in_arena(const Scene& scene, const Camera& camera, const RenderO
     if (faults[band]) fail(*faults[band], map);
     add(statistics, parts[band]);
   }
-  if (options.statistics) *options.statistics = statistics;
-  return map;
+  return {std::move(map), statistics, {}};
 }
 
 }  // namespace
 
-DepthMap render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options,
-                          DepthMap before) {
+Rendered render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                          const RenderContext& context, DepthMap before) {
   const StandardArithmetic standard;
   require_meaningful(options);
   return with_threads(options.threads, [&] {
     require_renderable(scene, camera);
-    return render_in_arena(scene, camera, options, std::move(before));
+    return render_in_arena(scene, camera, options, context, std::move(before));
   });
 }
 

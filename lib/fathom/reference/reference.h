@@ -2,8 +2,9 @@
 
 #include "fathom/camera/camera.h"
 #include "fathom/image/depth_map.h"
+#include "fathom/rendering/options.h"
+#include "fathom/rendering/rendered.h"
 #include "fathom/scene/scene.h"
-#include "fathom/triangle/options.h"
 
 namespace fathom {
 
@@ -16,7 +17,7 @@ namespace fathom {
 ///          mean nothing (require_meaningful); OutputError if a depth does not fit
 ///          options.depth_encoding; it names the first such pixel in row order.
 /// `before`  a map that is not needed any more: its channels lend their memory where they fit.
-DepthMap render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options,
-                          DepthMap before = {});
+Rendered render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                          const RenderContext& context = {}, DepthMap before = {});
 
 }  // namespace fathom

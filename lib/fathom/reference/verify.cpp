@@ -12,10 +12,10 @@
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/verify_samples.h"
+#include "fathom/rendering/map_of_camera.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/channels.h"
-#include "fathom/triangle/map_of_camera.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "fathom/triangle/sampling.h"
 #include "fathom/triangle/triangle_boxes.h"
@@ -27,6 +27,7 @@
 // compared with the map.
 namespace fathom {
 using namespace reference;
+using namespace rendering;
 using namespace triangle;
 
 namespace {
@@ -281,10 +282,11 @@ void require_channels(const DepthMap& map, Camera camera, const RenderOptions& o
   }
 }
 
-Verification verify_in_arena(const Frame& frame, const PixelChoice& chosen) {
+Verification verify_in_arena(const Frame& frame, const PixelChoice& chosen,
+                             const std::function<void(double)>& progress) {
   Verification result;
   const Camera& camera = frame.camera;
-  Progress progress(frame.options.progress, (camera.height - 1) / rows_per_band + 1);
+  Progress bands_done(progress, (camera.height - 1) / rows_per_band + 1);
   for (std::uint32_t row = 0; row < camera.height;) {
     const ChosenRows rows(chosen, camera.width, camera.height, row, pixels_per_group);
     row = rows.end_row();
@@ -294,7 +296,7 @@ Verification verify_in_arena(const Frame& frame, const PixelChoice& chosen) {
     ExactRow exact(frame, rows);
     parallel_for(std::size_t{0}, bands.size(), [&](std::size_t band) {
       exact.compute(bands[band]);
-      progress.part_done();
+      bands_done.part_done();
     });
     compare(frame, rows, exact, result);
   }
@@ -317,7 +319,8 @@ PixelChoice choose_pixels(std::uint32_t width, std::uint32_t height, std::uint64
 }
 
 Verification verify(const DepthMap& map, const TriangleSource& triangles, const Camera& camera,
-                    const RenderOptions& options, const PixelChoice& chosen) {
+                    const RenderOptions& options, const PixelChoice& chosen,
+                    const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   require_meaningful(options);
   require_map_of(camera, map);
@@ -327,7 +330,7 @@ Verification verify(const DepthMap& map, const TriangleSource& triangles, const 
   }
   return with_threads(options.threads, [&] {
     require_renderable(triangles, camera);
-    return verify_in_arena({map, triangles, camera, options}, chosen);
+    return verify_in_arena({map, triangles, camera, options}, chosen, progress);
   });
 }
 

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "fathom/camera/camera.h"
 #include "fathom/image/depth_map.h"
+#include "fathom/rendering/options.h"
 #include "fathom/scene/triangle_source.h"
-#include "fathom/triangle/options.h"
 
 namespace fathom {
 
@@ -49,11 +50,12 @@ struct Verification {
 ///          box that certainly contains it; only triangles whose box contains a chosen pixel are
 ///          looked at exactly.
 /// Needs    in `options` the channels, culling and encoding with which the map was rendered;
-///          threads and progress are this call's own.
+///          threads are this call's own.
 /// Fails    InputError where map, scene or camera has a fault (find_fault), or the map is not of the
 ///          camera's size; UsageError for options that mean nothing (require_meaningful), a channel
 ///          of theirs that the map does not have so, or another number of choices than pixels.
 Verification verify(const DepthMap& map, const TriangleSource& triangles, const Camera& camera,
-                    const RenderOptions& options, const PixelChoice& chosen);
+                    const RenderOptions& options, const PixelChoice& chosen,
+                    const std::function<void(double)>& progress = {});
 
 }  // namespace fathom

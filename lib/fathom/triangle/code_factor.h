@@ -4,7 +4,7 @@
 
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/unit_roundoff.h"
-#include "fathom/triangle/options.h"
+#include "fathom/rendering/options.h"
 
 namespace fathom::triangle {
 

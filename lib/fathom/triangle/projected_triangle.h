@@ -6,8 +6,8 @@
 #include "fathom/camera/camera.h"
 #include "fathom/geometry/pixel_box.h"
 #include "fathom/numeric/certified.h"
+#include "fathom/rendering/options.h"
 #include "fathom/scene/scene.h"
-#include "fathom/triangle/options.h"
 
 namespace fathom::triangle {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <unordered_map>
 
+#include "fathom/rendering/rendered.h"
 #include "fathom/scene/triangle_source.h"
 #include "fathom/triangle/double_word_referee.h"
-#include "fathom/triangle/options.h"
 #include "fathom/triangle/projected_triangle.h"
 
 namespace fathom::triangle {

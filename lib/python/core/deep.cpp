@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "arrays.h"
@@ -27,7 +28,7 @@ py::tuple deep(const SharedScene& shared, const Camera& camera, const std::strin
                int threads) {
   const std::shared_ptr<const Scene> scene = shared.scene;
   DeepMap map = run([&](const auto& progress) {
-    return render_deep(*scene, camera, options_of(cull, threads, progress));
+    return render_deep(*scene, camera, options_of(cull, threads), {}, progress);
   });
   const std::size_t count = map.samples.size();
   Samples<float> front(count), back(count), area(count), alpha(count);
@@ -76,7 +77,7 @@ SharedMap cryptomatte(const SharedScene& shared, const Camera& camera, const std
   map->width = camera.width;
   map->height = camera.height;
   run([&](const auto& progress) {
-    add_cryptomatte(*map, *scene, camera, options_of(cull, threads, progress));
+    add_cryptomatte(*map, *scene, camera, options_of(cull, threads), std::nullopt, progress);
   });
   return map;
 }

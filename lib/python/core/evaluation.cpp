@@ -5,7 +5,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "fathom/evaluate.h"
-#include "fathom/triangle/option_names.h"
+#include "fathom/rendering/option_names.h"
 #include "named_value.h"
 #include "render_options.h"
 #include "running.h"
@@ -58,8 +58,7 @@ py::tuple evaluate_scenes(const SharedScene& made, const SharedScene& real,
   options.cull = named_value("cull", all_culls, cull);
   options.threads = threads;
   const Evaluation found = run([&](const auto& progress) {
-    options.progress = progress;
-    return evaluate(*reconstruction, *truth, cameras, options);
+    return evaluate(*reconstruction, *truth, cameras, options, progress);
   });
   return py::make_tuple(tuple_of(found.depth), tuple_of(found.surfaces.accuracy, keep_points),
                         tuple_of(found.surfaces.completeness, keep_points),

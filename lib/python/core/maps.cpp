@@ -19,7 +19,7 @@
 #include "fathom/image/map_files.h"
 #include "fathom/image/map_texts.h"
 #include "fathom/image/point_cloud.h"
-#include "fathom/triangle/option_names.h"
+#include "fathom/rendering/option_names.h"
 #include "named_value.h"
 #include "running.h"
 

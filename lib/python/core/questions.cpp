@@ -9,7 +9,7 @@
 #include "fathom/reference/probe.h"
 #include "fathom/reference/verify.h"
 #include "fathom/render.h"
-#include "fathom/triangle/option_names.h"
+#include "fathom/rendering/option_names.h"
 #include "maps.h"
 #include "named_value.h"
 #include "render_options.h"
@@ -57,7 +57,7 @@ py::tuple visible(const SharedScene& shared, const Camera& camera, const std::st
                   int threads) {
   const std::shared_ptr<const Scene> scene = shared.scene;
   const VisibleAreas areas = run([&](const auto& progress) {
-    return visible_areas(*scene, camera, options_of(cull, threads, progress));
+    return visible_areas(*scene, camera, options_of(cull, threads), progress);
   });
   return py::make_tuple(columns(areas.triangles), columns(areas.objects));
 }
@@ -66,9 +66,8 @@ py::tuple verify_map(const SharedMap& map, const SharedScene& shared, const Came
                      const RenderOptions& asked, std::uint64_t count) {
   const std::shared_ptr<const Scene> scene = shared.scene;
   const Verification found = run([&](const auto& progress) {
-    RenderOptions options = asked;
-    options.progress = progress;
-    return verify(*map, *scene, camera, options, choose_pixels(camera.width, camera.height, count));
+    return verify(*map, *scene, camera, asked, choose_pixels(camera.width, camera.height, count),
+                  progress);
   });
   py::object first = py::none();
   if (found.first) {

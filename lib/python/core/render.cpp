@@ -11,11 +11,11 @@
 #include "fathom/image/depth_map.h"
 #include "fathom/image/missing_channel.h"
 #include "fathom/memory/available_memory.h"
+#include "fathom/rendering/option_names.h"
+#include "fathom/rendering/segment_channels.h"
 #include "fathom/scene/view_warnings.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
-#include "fathom/triangle/option_names.h"
-#include "fathom/triangle/segment_channels.h"
 #include "maps.h"
 #include "named_value.h"
 #include "render_options.h"
@@ -26,12 +26,10 @@ namespace py = pybind11;
 
 namespace fathom::python {
 
-RenderOptions options_of(const std::string& cull, int threads,
-                         const std::function<void(double)>& progress) {
+RenderOptions options_of(const std::string& cull, int threads) {
   RenderOptions options;
   options.cull = named_value("cull", all_culls, cull);
   options.threads = threads;
-  options.progress = progress;
   return options;
 }
 
@@ -99,30 +97,29 @@ void interleave(const Target& target, const DepthMap& map, std::size_t number) {
 }
 
 /// A map without its channels, and what is probably not meant in its view.
-struct Rendered {
+struct Described {
   DepthMap map;
   std::vector<ViewWarning> warnings;
 };
 
 /// Renders one map into its place in the arrays.
-Rendered render_into(const Scene& scene, const Camera& camera, const RenderOptions& asked,
-                     const std::vector<Target>& targets, std::size_t number) {
+Described render_into(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                      RenderContext context, const std::vector<Target>& targets,
+                      std::size_t number) {
   const std::size_t pixels = std::size_t{camera.width} * camera.height;
-  RenderOptions options = asked;
-  options.memory = [&](const std::string& name) -> void* {
+  context.memory = [&](const std::string& name) -> void* {
     for (const Target& target : targets)
       if (target.names.size() == 1 && target.names[0] == name) return target.of_map(number, pixels);
     return nullptr;
   };
-  RenderStatistics statistics;
-  options.statistics = &statistics;
-  DepthMap map = render(scene, camera, options);
+  Rendered rendered = render(scene, camera, options, context);
   with_threads(options.threads, [&] {
     for (const Target& target : targets)
-      if (target.names.size() > 1) interleave(target, map, number);
+      if (target.names.size() > 1) interleave(target, rendered.map, number);
   });
-  map.channels.clear();
-  return {std::move(map), view_warnings(scene, camera, statistics.pixels_with_surface)};
+  rendered.map.channels.clear();
+  return {std::move(rendered.map),
+          view_warnings(scene, camera, rendered.statistics.pixels_with_surface)};
 }
 
 /// Whether each thread had better render maps of its own than all of them a map together: so they
@@ -132,27 +129,25 @@ bool one_thread_each(const Scene& scene, std::size_t cameras, int threads) {
   return threads != 1 && cameras >= 16 && triangle_count(scene) <= most_triangles;
 }
 
-std::vector<Rendered> render_all(const Scene& scene, const std::vector<Camera>& cameras,
-                                 const RenderOptions& options, const std::vector<Target>& targets) {
-  std::vector<Rendered> rendered(cameras.size());
+std::vector<Described> render_all(const Scene& scene, const std::vector<Camera>& cameras,
+                                  const RenderOptions& options,
+                                  const std::function<void(double)>& progress,
+                                  const std::vector<Target>& targets) {
+  std::vector<Described> rendered(cameras.size());
   if (!one_thread_each(scene, cameras.size(), options.threads)) {
     RenderMemory memory;
-    RenderOptions together = options;
-    together.kept = &memory;
+    const RenderContext together{.kept = &memory, .progress = progress};
     for (std::size_t i = 0; i < cameras.size(); ++i)
-      rendered[i] = render_into(scene, cameras[i], together, targets, i);
+      rendered[i] = render_into(scene, cameras[i], options, together, targets, i);
     return rendered;
   }
   RenderOptions alone = options;
   alone.threads = 1;
-  alone.progress = nullptr;
-  Progress done(options.progress, cameras.size());
+  Progress done(progress, cameras.size());
   PerThread<RenderMemory> memories;
   with_threads(options.threads, [&] {
     parallel_for(std::size_t{0}, cameras.size(), [&](std::size_t i) {
-      RenderOptions own = alone;
-      own.kept = &memories.local();
-      rendered[i] = render_into(scene, cameras[i], own, targets, i);
+      rendered[i] = render_into(scene, cameras[i], alone, {.kept = &memories.local()}, targets, i);
       done.part_done();
     });
   });
@@ -170,14 +165,12 @@ std::vector<Target> targets_of(const RenderOptions& options, std::vector<py::arr
 }
 
 std::pair<SharedMap, Warnings> render_one(const SharedScene& shared, const Camera& camera,
-                                          const RenderOptions& asked,
+                                          const RenderOptions& options,
                                           std::vector<py::array> arrays) {
   const std::shared_ptr<const Scene> scene = shared.scene;
-  const std::vector<Target> targets = targets_of(asked, arrays);
+  const std::vector<Target> targets = targets_of(options, arrays);
   return run([&](const auto& progress) {
-    RenderOptions options = asked;
-    options.progress = progress;
-    Rendered rendered = render_into(*scene, camera, options, targets, 0);
+    Described rendered = render_into(*scene, camera, options, {.progress = progress}, targets, 0);
     const std::array warnings{std::move(rendered.warnings)};
     return std::pair(std::make_shared<DepthMap>(std::move(rendered.map)), told_once(warnings));
   });
@@ -185,16 +178,14 @@ std::pair<SharedMap, Warnings> render_one(const SharedScene& shared, const Camer
 
 std::pair<std::vector<SharedMap>, Warnings> render_stack(const SharedScene& shared,
                                                          const std::vector<Camera>& cameras,
-                                                         const RenderOptions& asked,
+                                                         const RenderOptions& options,
                                                          std::vector<py::array> arrays) {
   const std::shared_ptr<const Scene> scene = shared.scene;
-  const std::vector<Target> targets = targets_of(asked, arrays);
+  const std::vector<Target> targets = targets_of(options, arrays);
   return run([&](const auto& progress) {
-    RenderOptions options = asked;
-    options.progress = progress;
     std::vector<SharedMap> maps;
     std::vector<std::vector<ViewWarning>> warnings;
-    for (Rendered& each : render_all(*scene, cameras, options, targets)) {
+    for (Described& each : render_all(*scene, cameras, options, progress, targets)) {
       maps.push_back(std::make_shared<DepthMap>(std::move(each.map)));
       warnings.push_back(std::move(each.warnings));
     }

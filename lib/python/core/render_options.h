@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include "fathom/render.h"
@@ -8,7 +7,6 @@
 namespace fathom::python {
 
 /// What counts of the options where areas are asked for.
-RenderOptions options_of(const std::string& cull, int threads,
-                         const std::function<void(double)>& progress);
+RenderOptions options_of(const std::string& cull, int threads);
 
 }  // namespace fathom::python

@@ -15,10 +15,10 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "fathom/failures/errors.h"
+#include "fathom/rendering/segment_channels.h"
 #include "fathom/scene/bounds.h"
 #include "fathom/scene/read_scene.h"
 #include "fathom/scene/scene_segments.h"
-#include "fathom/triangle/segment_channels.h"
 #include "running.h"
 
 namespace py = pybind11;

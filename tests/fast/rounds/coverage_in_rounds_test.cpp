@@ -50,12 +50,12 @@ void expect_same_coverage(const Both& both, const Camera& camera, Cull cull = Cu
   RenderOptions options;
   options.channels = {Channel::A, Channel::Z};
   options.cull = cull;
-  const DepthMap truth = render_fast(both.scene, camera, options);
+  const DepthMap truth = render_fast(both.scene, camera, options).map;
   for (const StreamLimits& limits : limits_for(triangle_count(both.streamed))) {
     SCOPED_TRACE(std::to_string(limits.triangles_at_once) + " triangles at once, " +
                  std::to_string(limits.tile_bytes) + " bytes of tiles, " +
                  std::to_string(limits.kept_bytes) + " of triangles");
-    testing::expect_same_map(render_streamed(both.streamed, camera, options, limits), truth);
+    testing::expect_same_map(render_streamed(both.streamed, camera, options, limits).map, truth);
   }
 }
 
@@ -248,7 +248,7 @@ TEST(CoverageInRounds, SomeTilesOfTrianglesFromAnywhere) {
   camera.near = 3;
   RenderOptions options;
   options.channels = {Channel::A};
-  const DepthMap map = render_fast(scene, camera, options);
+  const DepthMap map = render_fast(scene, camera, options).map;
   const auto& truth = std::get<Samples<float>>(map.channels[0].values);
   SomeTiles rank(scene, camera);
   const std::vector<std::uint32_t> tiles{0, 3, 4, 7, 8, 13, 19, 20, 22};

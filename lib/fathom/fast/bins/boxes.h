@@ -7,7 +7,7 @@
 
 #include "fathom/fast/bins/nearness.h"
 #include "fathom/fast/bins/tiles_met.h"
-#include "fathom/triangle/options.h"
+#include "fathom/rendering/options.h"
 #include "fathom/triangle/projected_triangle.h"
 
 namespace fathom::fast {

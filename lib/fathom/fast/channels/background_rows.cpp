@@ -4,7 +4,7 @@
 
 namespace fathom::fast {
 
-BackgroundRows::BackgroundRows(const triangle::MapBackground& background, MapRows rows)
+BackgroundRows::BackgroundRows(const rendering::MapBackground& background, MapRows rows)
     : rows_(rows) {
   background.for_each([&]<class T>(T* values, T value) {
     Row<T> row;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fathom/fast/channels/map_rows.h"
-#include "fathom/triangle/channels.h"
+#include "fathom/rendering/map_of_camera.h"
 #include "fathom/triangle/projected_triangle.h"
 
 namespace fathom::fast {
@@ -14,7 +14,7 @@ namespace fathom::fast {
 /// written. Several threads may write different pixels at the same time.
 class BackgroundRows {
  public:
-  BackgroundRows(const triangle::MapBackground& background, MapRows rows);
+  BackgroundRows(const rendering::MapBackground& background, MapRows rows);
   /// All pixels of a part of the image that is at most as large as a tile; others see them after
   /// MapRows::finish().
   void write(const PixelBox& part, const MapLayout& layout) const;

@@ -13,6 +13,7 @@
 // triangle/certified_surface.h and double_word_surface.h, roundings from
 // numeric/certified_rounding.h.
 namespace fathom::fast {
+using namespace rendering;
 using namespace triangle;
 
 namespace {

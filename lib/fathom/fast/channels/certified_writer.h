@@ -9,6 +9,7 @@
 #include "fathom/fast/channels/wide_rows.h"
 #include "fathom/fast/pixels/pixel_writer.h"
 #include "fathom/fast/pixels/surface_facts.h"
+#include "fathom/rendering/rendered.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/rays.h"
 #include "fathom/triangle/recent_triangles.h"
@@ -70,7 +71,7 @@ class CertifiedWriter {
   void write_normals(const VisibleRow& row, const SurfaceIndices& indices) const;
   /// Writes what follows from number and q; returns what is left.
   Open write_settled(const VisibleRow& row, RenderStatistics& statistics);
-  std::uint64_t write_encoded(const VisibleRow& row, const triangle::EncodedValues& values,
+  std::uint64_t write_encoded(const VisibleRow& row, const rendering::EncodedValues& values,
                               bool distance, RenderStatistics& statistics) const;
   std::uint64_t write_open_depths(const VisibleRow& row, RenderStatistics& statistics) const;
   void write_shading_normals(const VisibleRow& row, const SurfaceIndices& indices, Open& open,
@@ -84,7 +85,7 @@ class CertifiedWriter {
   }
 
   triangle::ChannelWriter& exact_;
-  const triangle::ChannelValues values_;
+  const rendering::ChannelValues values_;
   const MapRows rows_;
   const ValueFrame frame_;
   /// Whether a channel was asked for that double-words begin with: Zlow, or depth or distance in binary64.

@@ -4,6 +4,7 @@
 #include <utility>
 
 namespace fathom::fast {
+using namespace rendering;
 using namespace triangle;
 
 namespace {

@@ -31,7 +31,7 @@ class FastOutput {
  public:
   /// `unfilled`: of the channels that have not been filled with it. A is written elsewhere.
   FastOutput(DepthMap& map, triangle::ChannelWriter& writer, const triangle::SceneRays& rays,
-             triangle::MapBackground unfilled = {}, MapRows rows = {});
+             rendering::MapBackground unfilled = {}, MapRows rows = {});
   /// For a tile without any triangle: all channels.
   void write_background(const PixelBox& area, const MapLayout& layout) const;
   std::optional<triangle::EncodingFault> write(const Tile& tile, const MapLayout& layout,

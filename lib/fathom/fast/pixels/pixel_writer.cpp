@@ -5,6 +5,7 @@
 #include "fathom/numeric/certified_rounding.h"
 
 namespace fathom::fast {
+using namespace rendering;
 using namespace triangle;
 
 namespace {

@@ -2,6 +2,7 @@
 
 #include "fathom/fast/pixels/shading_normals.h"
 #include "fathom/fast/pixels/surface_values.h"
+#include "fathom/rendering/rendered.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/referee.h"
 
@@ -16,7 +17,7 @@ struct VisibleSurface {
 
 /// What is written to, and what computes exactly where no bound settles a value.
 struct WriterTarget {
-  const triangle::ChannelValues& values;
+  const rendering::ChannelValues& values;
   triangle::ChannelWriter& exact;
   triangle::Referee& referee;
   /// `rounding` counts values.
@@ -53,7 +54,7 @@ class PixelWriter {
   bool settle_position(std::size_t k);
   bool settle_barycentric(std::size_t k);
   bool settle_low_part();
-  bool settle_depth(const triangle::EncodedValues& values);
+  bool settle_depth(const rendering::EncodedValues& values);
   bool settle_distance();
   bool settle_normal(std::array<float, 3>& normal);
   bool settle_camera_normal(std::array<float, 3>& normal);

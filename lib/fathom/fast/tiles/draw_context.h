@@ -6,7 +6,8 @@
 #include "fathom/fast/setup/depth_range.h"
 #include "fathom/fast/setup/exact_setups.h"
 #include "fathom/fast/setup/setup.h"
-#include "fathom/triangle/options.h"
+#include "fathom/rendering/options.h"
+#include "fathom/rendering/rendered.h"
 #include "fathom/triangle/referee.h"
 
 namespace fathom::fast {

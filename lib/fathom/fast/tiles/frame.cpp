@@ -6,11 +6,13 @@
 #include "fathom/threads/threads.h"
 
 namespace fathom::fast {
+using namespace rendering;
 using namespace triangle;
 
-FastFrame::FastFrame(const Camera& the_camera, const RenderOptions& the_options)
+FastFrame::FastFrame(const Camera& the_camera, const RenderOptions& the_options, bool keeps)
     : camera(the_camera),
       options(the_options),
+      keeps_memory(keeps),
       grid(camera.width, camera.height),
       range(depth_range(camera)),
       perspective(camera.projection == Projection::perspective),
@@ -32,7 +34,7 @@ std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t fir
   parallel_for(std::size_t{0}, bins.size(), [&](std::size_t i) {
     FastWorker& worker = workers.local();
     bins[i].fill({objects, frame.camera, frame.options.cull, frame.by_area, frame.grid,
-                  worker.referee, worker.statistics, frame.options.kept != nullptr});
+                  worker.referee, worker.statistics, frame.keeps_memory});
   });
   return bins;
 }
@@ -94,14 +96,13 @@ RenderStatistics sum_of(const FastWorkers& workers, std::uint64_t triangles) {
   return statistics;
 }
 
-void collect_doubtful(const FastWorkers& workers, const Camera& camera,
-                      const RenderOptions& options) {
-  if (!options.fast.doubtful) return;
+std::vector<std::uint64_t> doubtful_pixels(const FastWorkers& workers, const Camera& camera) {
+  std::vector<std::uint64_t> pixels;
   workers.for_each([&](const FastWorker& worker) {
-    for (const auto& [column, row] : worker.doubtful) {
-      options.fast.doubtful->push_back(std::uint64_t{row} * camera.width + column);
-    }
+    for (const auto& [column, row] : worker.doubtful)
+      pixels.push_back(std::uint64_t{row} * camera.width + column);
   });
+  return pixels;
 }
 
 }  // namespace fathom::fast

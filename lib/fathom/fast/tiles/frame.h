@@ -30,13 +30,13 @@ using FastWorkers = PerThread<FastWorker>;
 /// The sum of the statistics of all threads.
 RenderStatistics sum_of(const FastWorkers& workers, std::uint64_t triangles);
 
-/// Collects the doubtful pixels of all threads, if they were asked for.
-void collect_doubtful(const FastWorkers& workers, const Camera& camera,
-                      const RenderOptions& options);
+/// The doubtful pixels of all threads: Rendered::doubtful.
+std::vector<std::uint64_t> doubtful_pixels(const FastWorkers& workers, const Camera& camera);
 
 /// What all threads share.
 struct FastFrame {
-  FastFrame(const Camera& camera, const RenderOptions& options);
+  /// `keeps_memory`: whether bins are filled again for another frame.
+  FastFrame(const Camera& camera, const RenderOptions& options, bool keeps_memory = false);
 
   [[nodiscard]] DrawContext context(FastWorker& worker) const {
     return {.referee = worker.referee,
@@ -44,7 +44,7 @@ struct FastFrame {
             .range = range,
             .perspective = perspective,
             .switches = options.fast,
-            .doubtful = options.fast.doubtful ? &worker.doubtful : nullptr,
+            .doubtful = options.fast.find_doubtful ? &worker.doubtful : nullptr,
             .exact_setups = worker.exact_setups,
             .visible = worker.visible,
             .by_area = by_area};
@@ -52,6 +52,7 @@ struct FastFrame {
 
   const Camera& camera;
   const RenderOptions& options;
+  bool keeps_memory;
   TileGrid grid;
   DepthRange range;
   bool perspective;
@@ -62,7 +63,7 @@ struct FastFrame {
 /// Sorts triangles [first, end) of the scene, all of which belong to these objects, into tiles:
 /// `parts` bins of equal length, or fewer, so that each thread has several and their tables of
 /// tiles stay small.
-/// `bins` lend their memory, and keep it if the options say so.
+/// `bins` lend their memory, and keep it if the frame says so.
 std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t first,
                                   std::uint32_t end, std::uint32_t parts, const FastFrame& frame,
                                   FastWorkers& workers, std::vector<Bins> bins = {});

@@ -8,7 +8,7 @@ bool use_attribution() {
   using namespace fathom::attribution;
   const fathom::Scene scene = one_triangle();
   const fathom::Camera camera = small_camera();
-  const OtherMap other = other_map(fathom::render(scene, camera));
+  const OtherMap other = other_map(fathom::render(scene, camera).map);
   const Attribution found =
       attribute_and_name(make_truth(scene, camera), other, model_named("float32-ray"));
   return found.count(PixelClass::unexplained) == 0;

@@ -3,5 +3,5 @@
 #include "one_triangle.h"
 
 bool use_fast() {
-  return render_fast(one_triangle(), small_camera(), {}).values<float>("Z")->at(0) == 2;
+  return render_fast(one_triangle(), small_camera(), {}).map.values<float>("Z")->at(0) == 2;
 }

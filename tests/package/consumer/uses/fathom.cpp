@@ -7,7 +7,7 @@ bool use_fathom() {
   const fathom::Scene scene = one_triangle();
   fathom::RenderOptions options;
   options.channels = {fathom::Channel::id};
-  const fathom::DepthMap exact = fathom::render(scene, small_camera(), options);
+  const fathom::DepthMap exact = fathom::render(scene, small_camera(), options).map;
   fathom::Camera camera = small_camera();
   camera.near = 1;
   camera.far = 4;

@@ -5,7 +5,7 @@
 
 #include "fathom/image/channel_table.h"
 #include "fathom/mesh/normal_source.h"
-#include "fathom/triangle/options.h"
+#include "fathom/rendering/options.h"
 
 /// The names of the values of RenderOptions: the only place that states them for the command line,
 /// Python, messages and the texts of a map. Lists are in the order of messages; value_named()

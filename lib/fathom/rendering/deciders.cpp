@@ -1,4 +1,4 @@
-#include "fathom/triangle/deciders.h"
+#include "fathom/rendering/deciders.h"
 
 namespace fathom {
 namespace {

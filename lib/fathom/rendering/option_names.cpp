@@ -1,4 +1,4 @@
-#include "fathom/triangle/option_names.h"
+#include "fathom/rendering/option_names.h"
 
 namespace fathom {
 

@@ -1,4 +1,4 @@
-#include "fathom/triangle/option_names.h"
+#include "fathom/rendering/option_names.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

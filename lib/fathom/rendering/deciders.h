@@ -3,10 +3,10 @@
 #include <array>
 #include <string_view>
 
-#include "fathom/triangle/options.h"
+#include "fathom/rendering/options.h"
 
 /// Which arithmetic settles which decision: the one place that `render --stats`, `probe` and the Python module take their
-/// words from. A table in docs/architecture.md repeats them; tests/triangle/deciders_test.cpp compares the two.
+/// words from. A table in docs/architecture.md repeats them; tests/rendering/deciders_test.cpp compares the two.
 namespace fathom {
 
 /// CGAL's part in the engines: intervals in binary64, rounded outwards, as a filter in front of dyadic numbers.

@@ -7,7 +7,6 @@
 
 #include "fathom/image/channel_table.h"
 #include "fathom/mesh/normal_source.h"
-#include "fathom/numeric/certified.h"
 
 namespace fathom {
 
@@ -35,46 +34,6 @@ struct DepthEncoding {
   double divisor = 1;
 };
 
-/// How decisions were made. The fast engine asks fewer questions: triangles that reach behind the
-/// camera and miss the image are not counted as degenerate or culled, and samples are counted as
-/// covered only where the triangle is not behind one that was drawn before.
-struct RenderStatistics {
-  std::uint64_t triangles = 0;
-  std::uint64_t degenerate_triangles = 0;  // Δ = 0, seen edge on
-  std::uint64_t culled_triangles = 0;
-  std::uint64_t samples_tested = 0;
-  std::uint64_t samples_covered = 0;
-  std::uint64_t pixels_with_surface = 0;
-  TierCounts facing, edges, visibility, range;
-  /// Signs asked for by channel A.
-  TierCounts coverage;
-
-  // Only in the fast engine:
-  /// Pixels whose coverage is not evidently 0 or 1: settled by a bound, and by exact numbers.
-  TierCounts coverage_rounding;
-  /// Values rounded from an interval, and values written from exact numbers.
-  TierCounts rounding;
-  /// Those of rounding.interval that binary64 did not settle, but double-words did.
-  std::uint64_t double_word_roundings = 0;
-  /// Areas that needed the ends of edges from exact numbers; coverage_rounding counts them, too.
-  std::uint64_t areas_with_exact_ends = 0;
-  /// Samples that binary32 did not settle: settled by binary64, or counted as exact.
-  std::uint64_t samples_in_binary64 = 0;
-  /// How often a triangle was set up from exact numbers or double-words: once for each tile that it
-  /// meets, and once to find them.
-  std::uint64_t exact_setups = 0;
-  /// Those of visibility.exact that were settled because both triangles lie in one plane.
-  std::uint64_t same_plane = 0;
-  /// Those of edges.exact, visibility.exact and range.exact that were settled by double-words.
-  std::uint64_t double_words = 0;
-  /// How often, once for each tile, a triangle was set up with corners exactly on the grid on which
-  /// edge functions have no error.
-  std::uint64_t grid_setups = 0;
-};
-
-/// Adds the counts of a part of the work; not `triangles`, which is known beforehand.
-void add(RenderStatistics& sum, const RenderStatistics& part);
-
 /// What the fast engine may leave out or do more carefully: this changes its time, never its map.
 struct FastSwitches {
   /// Test blocks of samples before single samples.
@@ -83,9 +42,8 @@ struct FastSwitches {
   bool early_rejection = true;
   /// The factor by which bounds on edge functions, q and areas are widened; at least 1.
   double widening = 1;
-  /// If set, gets the pixels (row · width + column) at which such a bound did not settle a decision
-  /// about an edge, the range, visibility, or the rounding of Z or of A; some of them twice.
-  std::vector<std::uint64_t>* doubtful = nullptr;
+  /// Whether to look for the pixels of Rendered::doubtful.
+  bool find_doubtful = false;
 };
 
 struct RenderOptions {
@@ -96,19 +54,21 @@ struct RenderOptions {
   /// Of channel Ns.
   NormalSource normals = NormalSource::file;
   FastSwitches fast;
+  /// Threads to use; 0: all.
+  int threads = 0;
+};
+
+/// What a render works with. The map does not depend on it.
+struct RenderContext {
   /// If set, asked for the memory of each channel of the map, by its name: width × height values of
   /// its type, which outlive the map, and of which all are written. nullptr: memory of its own.
   std::function<void*(const std::string& channel)> memory;
   /// If set, the fast engine keeps memory that it works with there, from one frame to the next; one
   /// frame at a time.
   RenderMemory* kept = nullptr;
-  /// Threads to use; 0: all.
-  int threads = 0;
   /// Called now and then, from any thread but never from two at once, with the fraction done, in
   /// [0, 1].
   std::function<void(double)> progress;
-  /// If set, filled in.
-  RenderStatistics* statistics = nullptr;
 };
 
 /// Refuses options that mean nothing: no channel, a scale, a divisor or their quotient that is not a

@@ -1,4 +1,4 @@
-#include "fathom/triangle/deciders.h"
+#include "fathom/rendering/deciders.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "fathom/triangle/options.h"
+#include "fathom/rendering/options.h"
 
 #include <cmath>
 
@@ -7,28 +7,6 @@
 #include "fathom/threads/threads.h"
 
 namespace fathom {
-
-void add(RenderStatistics& sum, const RenderStatistics& part) {
-  sum.degenerate_triangles += part.degenerate_triangles;
-  sum.culled_triangles += part.culled_triangles;
-  sum.samples_tested += part.samples_tested;
-  sum.samples_covered += part.samples_covered;
-  sum.pixels_with_surface += part.pixels_with_surface;
-  sum.facing += part.facing;
-  sum.edges += part.edges;
-  sum.visibility += part.visibility;
-  sum.range += part.range;
-  sum.coverage += part.coverage;
-  sum.coverage_rounding += part.coverage_rounding;
-  sum.rounding += part.rounding;
-  sum.double_word_roundings += part.double_word_roundings;
-  sum.areas_with_exact_ends += part.areas_with_exact_ends;
-  sum.exact_setups += part.exact_setups;
-  sum.same_plane += part.same_plane;
-  sum.double_words += part.double_words;
-  sum.samples_in_binary64 += part.samples_in_binary64;
-  sum.grid_setups += part.grid_setups;
-}
 
 void require_meaningful(const RenderOptions& options) {
   const StandardArithmetic standard;

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "fathom/image/depth_map.h"
+#include "fathom/numeric/certified.h"
+
+namespace fathom {
+
+/// How decisions were made. The fast engine asks fewer questions: triangles that reach behind the
+/// camera and miss the image are not counted as degenerate or culled, and samples are counted as
+/// covered only where the triangle is not behind one that was drawn before.
+struct RenderStatistics {
+  std::uint64_t triangles = 0;
+  std::uint64_t degenerate_triangles = 0;  // Δ = 0, seen edge on
+  std::uint64_t culled_triangles = 0;
+  std::uint64_t samples_tested = 0;
+  std::uint64_t samples_covered = 0;
+  std::uint64_t pixels_with_surface = 0;
+  TierCounts facing, edges, visibility, range;
+  /// Signs asked for by channel A.
+  TierCounts coverage;
+
+  // Only in the fast engine:
+  /// Pixels whose coverage is not evidently 0 or 1: settled by a bound, and by exact numbers.
+  TierCounts coverage_rounding;
+  /// Values rounded from an interval, and values written from exact numbers.
+  TierCounts rounding;
+  /// Those of rounding.interval that binary64 did not settle, but double-words did.
+  std::uint64_t double_word_roundings = 0;
+  /// Areas that needed the ends of edges from exact numbers; coverage_rounding counts them, too.
+  std::uint64_t areas_with_exact_ends = 0;
+  /// Samples that binary32 did not settle: settled by binary64, or counted as exact.
+  std::uint64_t samples_in_binary64 = 0;
+  /// How often a triangle was set up from exact numbers or double-words: once for each tile that it
+  /// meets, and once to find them.
+  std::uint64_t exact_setups = 0;
+  /// Those of visibility.exact that were settled because both triangles lie in one plane.
+  std::uint64_t same_plane = 0;
+  /// Those of edges.exact, visibility.exact and range.exact that were settled by double-words.
+  std::uint64_t double_words = 0;
+  /// How often, once for each tile, a triangle was set up with corners exactly on the grid on which
+  /// edge functions have no error.
+  std::uint64_t grid_setups = 0;
+};
+
+/// Calls visit(name, &RenderStatistics::member) for each of the counts: whole numbers first, then
+/// those of the decisions.
+template <class Visit>
+constexpr void for_each_count(const Visit& visit) {
+  using S = RenderStatistics;
+  visit("triangles", &S::triangles);
+  visit("degenerate_triangles", &S::degenerate_triangles);
+  visit("culled_triangles", &S::culled_triangles);
+  visit("samples_tested", &S::samples_tested);
+  visit("samples_covered", &S::samples_covered);
+  visit("pixels_with_surface", &S::pixels_with_surface);
+  visit("exact_setups", &S::exact_setups);
+  visit("same_plane", &S::same_plane);
+  visit("double_words", &S::double_words);
+  visit("samples_in_binary64", &S::samples_in_binary64);
+  visit("grid_setups", &S::grid_setups);
+  visit("double_word_roundings", &S::double_word_roundings);
+  visit("areas_with_exact_ends", &S::areas_with_exact_ends);
+  visit("facing", &S::facing);
+  visit("edges", &S::edges);
+  visit("visibility", &S::visibility);
+  visit("range", &S::range);
+  visit("coverage", &S::coverage);
+  visit("coverage_rounding", &S::coverage_rounding);
+  visit("rounding", &S::rounding);
+}
+
+/// Calls visit(number) for each number of the counts, which it may change.
+template <class Visit>
+constexpr void for_each_number(RenderStatistics& statistics, const Visit& visit) {
+  for_each_count([&](const char*, auto member) {
+    auto& count = statistics.*member;
+    if constexpr (std::is_same_v<decltype(count), TierCounts&>) {
+      visit(count.interval);
+      visit(count.exact);
+    } else {
+      visit(count);
+    }
+  });
+}
+
+/// Adds the counts of a part of the work.
+void add(RenderStatistics& sum, const RenderStatistics& part);
+
+/// What rendering gives.
+struct Rendered {
+  DepthMap map;
+  RenderStatistics statistics;
+  /// Where FastSwitches::find_doubtful asks for them: the pixels (row · width + column) at which a
+  /// bound of the fast engine did not settle a decision about an edge, the range, visibility, or the
+  /// rounding of Z or of A; some of them twice.
+  std::vector<std::uint64_t> doubtful;
+};
+
+}  // namespace fathom
