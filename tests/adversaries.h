@@ -9,10 +9,10 @@
 
 #include "tests/effort.h"
 
-/// How much is done by the tests that draw hard cases from families; their suites have "Adversaries"
-/// in their names, so that `ctest -R Adversaries` runs them all.
-///   FATHOM_ADVERSARIES    scenes of each family (default 900; scripts/check-long has more); of other
-///                         things than scenes a test draws a number in proportion
+/// How much is done by the tests that draw hard cases from families; their suites have
+/// "Adversaries" in their names, so that `ctest -R Adversaries` runs them all.
+///   FATHOM_ADVERSARIES    scenes of each family (default 900; scripts/check-long has more); of
+///                         other things than scenes a test draws a number in proportion
 ///   FATHOM_FIRST_SEED     of the first case of each family (default 0)
 namespace fathom::testing {
 

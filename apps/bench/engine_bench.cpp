@@ -14,11 +14,12 @@
 #include "fathom/rendering/option_names.h"
 #include "validation/scenes/scenes.h"
 
-/// Times render(), from mesh and camera in memory to the complete map in memory, without any peer, or
-/// with --keep render_into() a map of before, with memory of before:
+/// Times render(), from mesh and camera in memory to the complete map in memory, without any peer,
+/// or with --keep render_into() a map of before, with memory of before:
 ///   engine_bench [SCENE…] [--size WxH] [--threads N] [--repeat N] [--engine fast|reference]
-///                [--channels Z,id,…] [--depths binary32|binary64|scaled_unorm16] [--cull back|front|none]
-///                [--without avx-512,simd,hierarchy,early-rejection] [--tiers] [--keep]
+///                [--channels Z,id,…] [--depths binary32|binary64|scaled_unorm16] [--cull
+///                back|front|none] [--without avx-512,simd,hierarchy,early-rejection] [--tiers]
+///                [--keep]
 /// The scenes are those of scenes.h, or mesh files. The first run of each is not counted. --tiers
 /// tells how many decisions and values were settled by which arithmetic.
 namespace {

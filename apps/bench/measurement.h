@@ -48,8 +48,8 @@ struct Frames {
 };
 
 /// Times `draw` once, keeps drawing until `warm_up` has passed (threads first have to find their
-/// processors, and allocators their sizes), then times it `repeat` times more. Starts no frame after
-/// 20 seconds. `clear` is called before each frame and not timed.
+/// processors, and allocators their sizes), then times it `repeat` times more. Starts no frame
+/// after 20 seconds. `clear` is called before each frame and not timed.
 Frames time_frames(
     int repeat, const std::function<void()>& draw, const std::function<void()>& clear = [] {},
     std::chrono::milliseconds warm_up = std::chrono::milliseconds(300));

@@ -1,6 +1,7 @@
 // Times `fathom-mpi render` on scenes of any size, which the ranks make instead of reading them:
 //   mpirun -n 2 build/…/bin/fathom_mpi_bench --scene terrain --triangles 1000000 -o map.exr
-// Prints a line of JSON; of what each rank takes, processor_seconds and peak_memory, it has the most.
+// Prints a line of JSON; of what each rank takes, processor_seconds and peak_memory, it has the
+// most.
 
 #include <sys/resource.h>
 

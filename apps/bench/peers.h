@@ -6,8 +6,8 @@
 #include "apps/bench/measurement.h"
 #include "validation/scenes/scenes.h"
 
-/// VTK, Embree and Masked Occlusion Culling on a bench scene; see renderers.h. `idle_bytes` is the memory that the process
-/// used before it made the scene.
+/// VTK, Embree and Masked Occlusion Culling on a bench scene; see renderers.h. `idle_bytes` is the
+/// memory that the process used before it made the scene.
 namespace fathom::bench {
 
 std::vector<Measurement> measure_vtk(BenchScene bench, const Plan& plan, std::uint64_t idle_bytes);

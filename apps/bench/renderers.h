@@ -26,8 +26,8 @@ namespace fathom::bench {
 ///                          Nothing is returned for an orthographic camera, which it does not know
 ///
 /// Does     make the scene and restrict this process to the processors of the plan.
-/// Fails    InputError as make_scene(), or if the renderer does not start; UsageError if there is no
-///          such renderer.
+/// Fails    InputError as make_scene(), or if the renderer does not start; UsageError if there is
+///          no such renderer.
 std::vector<Measurement> measure(const std::string& renderer, const Plan& plan);
 
 /// measure() in a process of its own, so that its peak memory and its threads are its own.

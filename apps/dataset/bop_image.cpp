@@ -29,8 +29,8 @@ struct CountedMask {
   /// Of the pixels that it has.
   long first_column = 0, first_row = 0, last_column = -1, last_row = -1;
 
-  /// x, y, and the differences of the last and the first column and row, as BOP has boxes, in an image
-  /// whose corner is at this column and row.
+  /// x, y, and the differences of the last and the first column and row, as BOP has boxes, in an
+  /// image whose corner is at this column and row.
   [[nodiscard]] std::array<long, 4> box(long column, long row) const {
     return {first_column - column, first_row - row, last_column - first_column,
             last_row - first_row};
@@ -71,9 +71,9 @@ std::vector<std::uint8_t> middle_of(const std::vector<std::uint8_t>& mask, std::
 using Json = nlohmann::ordered_json;
 using Mask = std::vector<std::uint8_t>;
 
-/// The camera of an image three times as wide and as high, in whose middle the image is, of a camera in
-/// whose frame the world is. Exact: binary64 need not hold cx + width, so the width is added by the matrix,
-/// U = fx·x + skew·y + width·z + cx'·z, which carries the focal lengths, too.
+/// The camera of an image three times as wide and as high, in whose middle the image is, of a
+/// camera in whose frame the world is. Exact: binary64 need not hold cx + width, so the width is
+/// added by the matrix, U = fx·x + skew·y + width·z + cx'·z, which carries the focal lengths, too.
 Camera around(const Camera& camera) {
   if (std::max(camera.width, camera.height) > std::numeric_limits<std::uint32_t>::max() / 3)
     throw InputError(fmt::format("image {}: an image of {}x{} pixels is too large for masks",

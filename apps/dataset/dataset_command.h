@@ -8,8 +8,8 @@
 
 namespace fathom::app {
 
-/// What every layout of `fathom dataset` takes. Of the arguments of `render`, whose plans are made for
-/// the maps, those count that the layout declares.
+/// What every layout of `fathom dataset` takes. Of the arguments of `render`, whose plans are made
+/// for the maps, those count that the layout declares.
 struct DatasetArguments {
   RenderArguments render;
   std::string input, folder;

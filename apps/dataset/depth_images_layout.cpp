@@ -1,4 +1,5 @@
-// fathom dataset tum | 7scenes | scannet | scannetpp | replica | kitti | nerf: depth images as 16-bit PNG.
+// fathom dataset tum | 7scenes | scannet | scannetpp | replica | kitti | nerf: depth images as
+// 16-bit PNG.
 
 #include <fmt/format.h>
 
@@ -25,8 +26,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The text of a transforms.json whose frames have the depth images of their cameras beside them, as
-/// Nerfstudio has it: "depth_file_path" of each frame, in the order of the cameras, and
+/// The text of a transforms.json whose frames have the depth images of their cameras beside them,
+/// as Nerfstudio has it: "depth_file_path" of each frame, in the order of the cameras, and
 /// "depth_unit_scale_factor", 0.001, of all. Frames without a camera are left out.
 /// Fails    InputError where the file cannot be read.
 std::string transforms_with_depths(const std::string& file, const std::vector<Camera>& cameras,

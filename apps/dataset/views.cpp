@@ -33,8 +33,8 @@ class ViewMaker {
   [[nodiscard]] std::size_t memory_of(std::size_t camera) const;
 
   [[nodiscard]] const MapPlan& plan() const { return plan_; }
-  /// Warns of what is probably not meant by the cameras whose maps have been made, and of depths that
-  /// lie beyond their codes.
+  /// Warns of what is probably not meant by the cameras whose maps have been made, and of depths
+  /// that lie beyond their codes.
   void warn(const Console& console) const;
 
  private:

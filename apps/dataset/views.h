@@ -28,7 +28,8 @@ class CodesBeyond {
 struct FileOfView {
   /// Its name for each camera, below the folder of the data set.
   std::vector<std::string> names;
-  /// Its bytes, from the map of a camera; `name` is the file's for messages. Called as Result::files.
+  /// Its bytes, from the map of a camera; `name` is the file's for messages. Called as
+  /// Result::files.
   std::function<files::Bytes(const DepthMap& map, const MapPlan& plan, const std::string& name)>
       encode;
 };

@@ -16,8 +16,9 @@ namespace fathom::app {
 std::vector<std::byte> read_by_assimp(std::span<const std::byte> parameters,
                                       std::span<const std::byte> bytes);
 
-/// Decodes a primitive of glTF; the parameters are a list of DracoAttribute. The answer: the version,
-/// how many corners and vertices there are, then the bytes of the corners and of each attribute.
+/// Decodes a primitive of glTF; the parameters are a list of DracoAttribute. The answer: the
+/// version, how many corners and vertices there are, then the bytes of the corners and of each
+/// attribute.
 std::vector<std::byte> decode_by_draco(std::span<const std::byte> parameters,
                                        std::span<const std::byte> bytes);
 

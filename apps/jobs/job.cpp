@@ -128,8 +128,8 @@ class Work {
     return made;
   }
 
-  /// Where all tasks are finished, those of other shards too: writes the lists, and the manifest anew
-  /// where no shard has one of its own. Returns whether they are.
+  /// Where all tasks are finished, those of other shards too: writes the lists, and the manifest
+  /// anew where no shard has one of its own. Returns whether they are.
   bool write_lists() {
     Warnings told_before;
     if (!job_.shard.is_all()) content_ = manifest_.read(told_before);

@@ -10,9 +10,9 @@
 #include "apps/shell/console.h"
 #include "fathom/files/file_bytes.h"
 
-/// Work of many files that survives being interrupted. Each task's files are published as soon as they are
-/// on the disk; a manifest beside them says which are finished, so that the same command, given again,
-/// makes what is missing and no more.
+/// Work of many files that survives being interrupted. Each task's files are published as soon as
+/// they are on the disk; a manifest beside them says which are finished, so that the same command,
+/// given again, makes what is missing and no more.
 namespace fathom::app {
 
 /// Part `number` of `of` equal ones, from 1 on: every of-th task.
@@ -68,9 +68,11 @@ struct Job {
   bool overwrites = false;
 };
 
-/// Does what is not done yet of the job, or of a part of it, and says on standard output how much that was.
-/// Fails    UsageError where a file is there that the job has not made; OutputError; InputError, and
-///          whatever `make` fails with. What is finished by then stays, and is told by all but the first.
+/// Does what is not done yet of the job, or of a part of it, and says on standard output how much
+/// that was.
+/// Fails    UsageError where a file is there that the job has not made; OutputError; InputError,
+///          and whatever `make` fails with. What is finished by then stays, and is told by all but
+///          the first.
 void run_job(const Job& job, const Console& console);
 
 }  // namespace fathom::app

@@ -9,8 +9,9 @@
 
 namespace fathom::app {
 
-/// How far a job is: on a terminal a line of progress, "maps: 73/500, 41 maps/s, 0:10 left", wiped at the
-/// end; and what the program says when it is interrupted. May be told of from several threads.
+/// How far a job is: on a terminal a line of progress, "maps: 73/500, 41 maps/s, 0:10 left", wiped
+/// at the end; and what the program says when it is interrupted. May be told of from several
+/// threads.
 class JobProgress {
  public:
   /// `noun` has a plural with an s.

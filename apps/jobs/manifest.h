@@ -34,14 +34,14 @@ struct Record {
   std::string facts;
 };
 
-/// The record of a finished task as one line of JSON, with the end of the line. A path is a string or,
-/// where it is not UTF-8, the list of its bytes.
+/// The record of a finished task as one line of JSON, with the end of the line. A path is a string
+/// or, where it is not UTF-8, the list of its bytes.
 std::string line_of(const Record& record);
 
 /// What the manifests in a folder say, of all shards.
 struct ManifestContent {
-  /// By the first file of each task: of each manifest what it says last. Which of the manifests has said
-  /// it last is not known: one may be of an earlier mesh.
+  /// By the first file of each task: of each manifest what it says last. Which of the manifests has
+  /// said it last is not known: one may be of an earlier mesh.
   std::unordered_map<std::string, std::vector<Record>> records;
   /// Files that jobs have made or may have made.
   std::unordered_set<std::string> owned;
@@ -56,9 +56,9 @@ struct ManifestContent {
   void add(Record record);
 };
 
-/// The list of what is finished, in a file beside it: fathom-manifest.jsonl, or one for each shard. A
-/// record is on the disk before the next one is made, and after the files that it is about; what a
-/// power cut leaves of one that was not is removed.
+/// The list of what is finished, in a file beside it: fathom-manifest.jsonl, or one for each shard.
+/// A record is on the disk before the next one is made, and after the files that it is about; what
+/// a power cut leaves of one that was not is removed.
 /// One process at a time has it. Fails with OutputError, also where another process has it.
 class Manifest {
  public:
@@ -69,8 +69,8 @@ class Manifest {
   /// Says which files will be made, before the first one is.
   void announce(const std::vector<std::string>& files);
   void add(const std::vector<Record>& records);
-  /// Where all is finished: replaces the manifests of the folder by one of these records, with what else
-  /// is `owned`.
+  /// Where all is finished: replaces the manifests of the folder by one of these records, with what
+  /// else is `owned`.
   void replace(const std::vector<Record>& records, std::unordered_set<std::string> owned);
 
  private:

@@ -19,8 +19,8 @@ namespace fathom::app {
 /// wait are written together, and wait for the disk once.
 class Publisher {
  public:
-  /// `published` is called with the records of the tasks that have been published just now, from the
-  /// publisher's thread.
+  /// `published` is called with the records of the tasks that have been published just now, from
+  /// the publisher's thread.
   Publisher(std::filesystem::path folder, Manifest& manifest,
             std::function<void(const std::vector<Record>&)> published);
   Publisher(const Publisher&) = delete;

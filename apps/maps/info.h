@@ -28,8 +28,8 @@ enum class AnswerForm { text, json };
 /// values there; object names; the texts of the header.
 std::string info_of_map(const DepthMap& map, const std::string& file, AnswerForm form);
 
-/// Vertices, faces, triangles, bounds, the objects and the sources of a mesh or a scene file. A mesh
-/// file of vertices alone is a point cloud, whose bounds are those of its vertices.
+/// Vertices, faces, triangles, bounds, the objects and the sources of a mesh or a scene file. A
+/// mesh file of vertices alone is a point cloud, whose bounds are those of its vertices.
 std::string info_of_scene(Scene scene, FileKind kind, const std::string& file, AnswerForm form);
 
 /// Where each camera of the file stands and looks, and its numbers.

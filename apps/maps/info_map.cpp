@@ -51,8 +51,8 @@ const char* type_name(std::uint32_t) {
   return "uint32";
 }
 
-/// One byte per pixel: 1 where the channel shows a surface. Coverage shows one wherever it is not 0,
-/// also at pixels whose centre no surface covers.
+/// One byte per pixel: 1 where the channel shows a surface. Coverage shows one wherever it is not
+/// 0, also at pixels whose centre no surface covers.
 std::vector<std::uint8_t> pixels_with_surface(const DepthMap& map, const ImageChannel& channel) {
   const auto* coverage = map.values<float>(channel.name);
   if (coverage == nullptr || (channel.name != "A" && channel.name != "Asampled"))
@@ -95,7 +95,8 @@ std::string figure(const ChannelSummary& summary, double value) {
                                    : fmt::format("{}", value);
 }
 
-/// Camera and sources are JSON themselves; any other text, and what is nested too deep, is a string.
+/// Camera and sources are JSON themselves; any other text, and what is nested too deep, is a
+/// string.
 Json as_json(const std::string& value) {
   try {
     Json parsed = text::parse_json<Json>(value);

@@ -15,8 +15,8 @@
 
 namespace fathom::app {
 
-/// Chunks of a file that wait for their turn to be written: in memory, or in a file of their own where
-/// they would take more of it than they may.
+/// Chunks of a file that wait for their turn to be written: in memory, or in a file of their own
+/// where they would take more of it than they may.
 class WaitingChunks {
  public:
   explicit WaitingChunks(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
@@ -40,12 +40,13 @@ class WaitingChunks {
   std::optional<files::SpillFile> file_;
 };
 
-/// An EXR that the first rank writes, chunk by chunk, as they come from the ranks that have the rows
-/// (image/exr_bands.h): it never holds more of the image than its own chunks and one other. Called by
-/// all ranks, with the chunks of their bands, which are used up.
+/// An EXR that the first rank writes, chunk by chunk, as they come from the ranks that have the
+/// rows (image/exr_bands.h): it never holds more of the image than its own chunks and one other.
+/// Called by all ranks, with the chunks of their bands, which are used up.
 /// `path`       in the first rank, where the file is; `beginning`: what it begins with
 /// `of_chunks`  the rank of each chunk
-/// Fails    after all has been sent: in the first rank OutputError; InputError where own chunks cannot be taken.
+/// Fails    after all has been sent: in the first rank OutputError; InputError where own chunks
+///          cannot be taken.
 void write_banded_exr(const Ranks& ranks, const std::filesystem::path& path,
                       const files::Bytes& beginning, std::span<const int> of_chunks,
                       std::uint32_t rows_of_chunk, WaitingChunks& own_chunks);

@@ -19,7 +19,8 @@ namespace fathom::app {
 /// Which rows of an image a rank makes by itself, where each has the whole scene.
 RowShare share_of(const Ranks& ranks);
 
-/// What other ranks than the first have found in their shares of the rows, as it comes to the first.
+/// What other ranks than the first have found in their shares of the rows, as it comes to the
+/// first.
 class RowsOfOthers {
  public:
   explicit RowsOfOthers(const Ranks& ranks);
@@ -44,13 +45,14 @@ class RowsOfOthers {
   std::vector<List> counts_, items_;
 };
 
-/// Sends the first rank what this one has found in its share of the rows, where RowsOfOthers takes it.
+/// Sends the first rank what this one has found in its share of the rows, where RowsOfOthers takes
+/// it.
 void send_rows(const Ranks& ranks, std::uint32_t width, std::span<const std::uint32_t> counts,
                files::ByteView items, Traffic& traffic);
 
-/// Puts together in the first rank what each has found in its share of the rows of an image: how many
-/// items each pixel has, and all of them, pixel by pixel; other rows of it have none. Called by all
-/// ranks; the others keep what they have.
+/// Puts together in the first rank what each has found in its share of the rows of an image: how
+/// many items each pixel has, and all of them, pixel by pixel; other rows of it have none. Called
+/// by all ranks; the others keep what they have.
 template <class Item>
 void gather_rows(const Ranks& ranks, std::uint32_t width, std::span<std::uint32_t> counts,
                  std::vector<Item>& items, Traffic& traffic) {

@@ -44,8 +44,8 @@ void for_each_row_of_tile(const ImageTiles& tiles, std::uint32_t tile, std::uint
   for (std::uint32_t row = top; row - top < rows; ++row) visit(row, left, columns);
 }
 
-/// Calls visit(where its pixels are, how many bytes they take) for each row of each channel of a tile,
-/// in a map that has rows of tiles from `first_row` on.
+/// Calls visit(where its pixels are, how many bytes they take) for each row of each channel of a
+/// tile, in a map that has rows of tiles from `first_row` on.
 template <class Visit>
 void for_each_row_of_pixels(const DrawnTiles& where, std::uint32_t tile, std::uint32_t first_row,
                             DepthMap& map, const Visit& visit) {

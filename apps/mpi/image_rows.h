@@ -45,8 +45,8 @@ using RowsDrawn = std::function<DepthMap(const TileRows&)>;
 std::vector<files::Bytes> pixels_for_others(const Ranks& ranks, const DrawnTiles& where,
                                             std::span<const TileRows> of_ranks,
                                             const RowsDrawn& drawn);
-/// The map of the rows that this rank gets, from what it has drawn of them and what has come from the
-/// others.
+/// The map of the rows that this rank gets, from what it has drawn of them and what has come from
+/// the others.
 DepthMap rows_from_all(const Ranks& ranks, const DrawnTiles& where, const TileRows& own,
                        const RowsDrawn& drawn, const std::vector<files::Bytes>& from_others);
 

@@ -55,8 +55,8 @@ void close_standard_output() {
   if (nowhere >= 0) ::dup2(nowhere, STDOUT_FILENO);
 }
 
-/// A rank that ends before the work has begun tells those that wait for it there. If all end, as they do
-/// where arguments are wrong or ask for help, the first has said why.
+/// A rank that ends before the work has begun tells those that wait for it there. If all end, as
+/// they do where arguments are wrong or ask for help, the first has said why.
 void leave_before_work(const Ranks& ranks, int status) {
   try {
     together(ranks, [&] {

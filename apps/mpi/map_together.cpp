@@ -22,9 +22,9 @@
 #include "fathom/image/png_sidecar.h"
 #include "fathom/render.h"
 
-// How to read this file: MapTogether::make() is the whole story. The ranks draw the tiles of the image
-// together (tiles_together.h). Then pixels go to the ranks that compress bands of rows, some rows at a
-// time, and from there to the file.
+// How to read this file: MapTogether::make() is the whole story. The ranks draw the tiles of the
+// image together (tiles_together.h). Then pixels go to the ranks that compress bands of rows, some
+// rows at a time, and from there to the file.
 //
 // Whatever is said to other ranks is said between calls of together(), within which a rank works by
 // itself and may fail; but for write_banded_exr(), which fails only when all has been said, and for
@@ -137,8 +137,8 @@ class MapTogether {
         job_.memory.row_bytes / bytes_of_row, 1, std::max(1U, tiles_.rows)));
   }
 
-  /// Calls take(map of some rows of this rank's band, from its first to its last), within together(): a
-  /// map without channels where there are none left.
+  /// Calls take(map of some rows of this rank's band, from its first to its last), within
+  /// together(): a map without channels where there are none left.
   void for_each_rows(const std::function<void(DepthMap)>& take) {
     std::uint32_t most = 0;
     for (const TileRows& band : bands_) most = std::max(most, band.count());

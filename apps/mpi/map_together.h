@@ -10,14 +10,15 @@
 
 namespace fathom::app {
 
-/// How many rows a chunk has, of a map that is put together from bands of rows; nullopt where all rows go to
-/// the first rank.
+/// How many rows a chunk has, of a map that is put together from bands of rows; nullopt where all
+/// rows go to the first rank.
 std::optional<std::uint32_t> rows_of_chunk(const MapPlan& plan);
 
 /// Makes the map of a camera, from the triangles of all ranks to a file. Called by all ranks.
 /// `outputs`  of the first rank;  `number`: of the camera
-/// `traffic`  gets what it took;  `report`: what is said of the map, its statistics the sums of all ranks'
-///            in all of them, the rest in the first
+/// `traffic`  gets the costs
+/// `report`   what is said of the map: in every rank its statistics, summed over all ranks; the rest
+///            in the first rank
 void make_map_together(const JobTogether& job, const Camera& camera, RenderOutputs* outputs,
                        std::size_t number, const std::function<void(double)>& progress,
                        MapTraffic& traffic, MapReport& report);

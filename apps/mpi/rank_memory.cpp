@@ -29,9 +29,10 @@ RankMemory memory_of_rank(const Ranks& ranks, const std::optional<std::uint64_t>
   const std::uint64_t allowed =
       ranks.least(std::max(bytes.value_or(share / 4 * 3), least_rank_memory));
   const std::uint64_t left = allowed - program_bytes;
-  // An eighth is for messages. So many bytes wait to be sent, and twice as many and a half are being
-  // added to them; as many are on the way from here, twice as many on the way to here, and twice as many
-  // have come, which take five times as much while they are drawn: fourteen times in all.
+  // An eighth is for messages. So many bytes wait to be sent, and twice as many and a half are
+  // being added to them; as many are on the way from here, twice as many on the way to here, and
+  // twice as many have come, which take five times as much while they are drawn: fourteen times in
+  // all.
   const std::uint64_t waiting = left / 8 / 14;
   return {.triangles_at_once = static_cast<std::uint32_t>(
               std::min(most_triangles, left / 4 / TilesInRounds::bytes_per_triangle)),

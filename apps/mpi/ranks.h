@@ -26,9 +26,9 @@ class MpiSession {
   ~MpiSession();
 };
 
-/// What the processes of a run tell each other. Every function is called by all of them, in the same
-/// order, by the thread that has the MpiSession; it returns when all have what they wait for. Bytes
-/// and counts may be more than an int holds: they go in rounds.
+/// What the processes of a run tell each other. Every function is called by all of them, in the
+/// same order, by the thread that has the MpiSession; it returns when all have what they wait for.
+/// Bytes and counts may be more than an int holds: they go in rounds.
 class Ranks {
  public:
   Ranks();

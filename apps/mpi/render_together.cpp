@@ -25,8 +25,8 @@
 namespace fathom::app {
 namespace {
 
-/// What a run writes, all of it by its first rank: what one process would write, and what ranks have
-/// sent each other.
+/// What a run writes, all of it by its first rank: what one process would write, and what ranks
+/// have sent each other.
 class RunOutputs {
  public:
   /// Writes the cameras.
@@ -65,8 +65,8 @@ DeepMap make_deep_map(const Ranks& ranks, const Scene& scene, const Camera& came
   return map;
 }
 
-/// `fathom-mpi render --deep`: every rank has the whole scene and makes a share of the rows, and the
-/// first writes what all have made. Called by all ranks. Returns the exit status.
+/// `fathom-mpi render --deep`: every rank has the whole scene and makes a share of the rows, and
+/// the first writes what all have made. Called by all ranks. Returns the exit status.
 int render_deep_together(const Ranks& ranks, const MpiArguments& arguments,
                          const Console& console) {
   const RenderArguments& render = arguments.render;

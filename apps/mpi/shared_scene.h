@@ -33,38 +33,40 @@ struct TriangleRange {
 };
 
 /// A scene of which all ranks know objects and sources, and whose triangles they share out. Binary
-/// STL and PLY stay in their files, of which a rank keeps nothing but its part; of an STL, and of a PLY of
-/// nothing but triangles, it reads no more. Of other formats, every rank has all.
+/// STL and PLY stay in their files, of which a rank keeps nothing but its part; of an STL, and of a
+/// PLY of nothing but triangles, it reads no more. Of other formats, every rank has all.
 class SharedScene {
  public:
   struct Kept {
     /// Everything, in every rank.
     bool whole = false;
-    /// Materials, groups, parts and labels; normals. Where they are asked for, files are read whole, too.
+    /// Materials, groups, parts and labels; normals. Where they are asked for, files are read
+    /// whole, too.
     bool segments = false, normals = false;
     /// SHA-256 of the sources, which one rank is enough for.
     bool hash = false;
   };
   /// Fails    as SceneOptions::read() and stream_scene(); UsageError for standard input.
   SharedScene(const SceneOptions& options, const Kept& kept, const Console& console);
-  /// A scene that is there, the same in all ranks. Bounds that its streams know are taken as they are.
+  /// A scene that is there, the same in all ranks. Bounds that its streams know are taken as they
+  /// are.
   /// Fails    InputError where it has a fault (find_fault).
   explicit SharedScene(StreamedScene scene);
 
   /// Looks at what was not looked at when files were opened: each rank at its part, and all of them
-  /// at the whole files where these are not what their sizes let suppose. Called by all ranks, before
-  /// anything is asked of the scene.
+  /// at the whole files where these are not what their sizes let suppose. Called by all ranks,
+  /// before anything is asked of the scene.
   /// Fails    as the constructor, in all ranks.
   void check_files(const Ranks& ranks, const Console& console);
   /// Places the objects that move.
   /// Fails    as MotionOptions::placed.
   void place(const MotionOptions& motion);
-  /// Completes the outline by the bounds of what stays in its files, of which each rank looks at its
-  /// part, so many triangles at a time. Called by all ranks.
+  /// Completes the outline by the bounds of what stays in its files, of which each rank looks at
+  /// its part, so many triangles at a time. Called by all ranks.
   /// Fails    as part(), in all ranks.
   void find_bounds(const Ranks& ranks, std::uint32_t triangles_at_once);
-  /// The scene; of one that stays in its files its objects and sources and, after find_bounds(), its
-  /// bounds.
+  /// The scene; of one that stays in its files its objects and sources and, after find_bounds(),
+  /// its bounds.
   [[nodiscard]] const Scene& outline() const { return scene_; }
   /// Whether the outline is the whole scene.
   [[nodiscard]] bool is_whole() const { return !streamed_; }
@@ -99,8 +101,8 @@ class SharedScene {
 /// Fails    as SharedScene; InputError where the ranks read different files.
 SharedScene open_scene(const Ranks& ranks, const RenderArguments& arguments,
                        const SharedScene::Kept& kept, const Console& console);
-/// The cameras that are asked for; places what moves, and warns of segments that channels ask for and
-/// the scene has not.
+/// The cameras that are asked for; places what moves, and warns of segments that channels ask for
+/// and the scene has not.
 /// Fails    as CameraOptions::get(); InputError where the ranks have different cameras.
 std::vector<Camera> cameras_of(const Ranks& ranks, const RenderArguments& arguments,
                                const std::vector<Channel>& channels, SharedScene& scene,

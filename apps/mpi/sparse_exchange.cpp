@@ -9,9 +9,10 @@
 #include <thread>
 #include <utility>
 
-// How to read this file: end() is the proof that nothing is lost. A send is synchronous: it completes
-// when the other rank has begun to receive it. A rank enters the barrier when all its sends have
-// completed, so when all have entered, whatever was sent is among what ranks have begun to receive.
+// How to read this file: end() is the proof that nothing is lost. A send is synchronous: it
+// completes when the other rank has begun to receive it. A rank enters the barrier when all its
+// sends have completed, so when all have entered, whatever was sent is among what ranks have begun
+// to receive.
 namespace fathom::app {
 using namespace files;
 

@@ -9,10 +9,10 @@
 
 namespace fathom::app {
 
-/// Messages between ranks that work at their own pace: none waits for another but where more of what
-/// it has sent is on the way than may be. It ends when all ranks have no more to send and all has
-/// arrived: dynamic sparse data exchange by nonblocking consensus [HSL10]. Each rank makes one at the
-/// same time; what comes before the next is a collective call of all, such as together().
+/// Messages between ranks that work at their own pace: none waits for another but where more of
+/// what it has sent is on the way than may be. It ends when all ranks have no more to send and all
+/// has arrived: dynamic sparse data exchange by nonblocking consensus [HSL10]. Each rank makes one
+/// at the same time; what comes before the next is a collective call of all, such as together().
 class SparseExchange {
  public:
   using Take = std::function<void(int from, files::Bytes message)>;

@@ -8,9 +8,9 @@
 #include "apps/mpi/triangle_messages.h"
 #include "apps/shell/progress.h"
 
-// How to read this file: draw() is the whole story. Each rank has a part of the triangles and takes it
-// in rounds. It finds the tiles of the image that they may touch, draws its own tiles, and sends the
-// triangles that touch others to the ranks that draw these (sort-middle [MCEF94]).
+// How to read this file: draw() is the whole story. Each rank has a part of the triangles and takes
+// it in rounds. It finds the tiles of the image that they may touch, draws its own tiles, and sends
+// the triangles that touch others to the ranks that draw these (sort-middle [MCEF94]).
 
 namespace fathom::app {
 
@@ -103,8 +103,8 @@ void TilesTogether::draw_in_rounds(TriangleMail& mail,
   }
 }
 
-// What touches tiles of other ranks is sent there, some triangles at a time: copies of all would take
-// nearly as much memory as the round.
+// What touches tiles of other ranks is sent there, some triangles at a time: copies of all would
+// take nearly as much memory as the round.
 void TilesTogether::draw_read(const SortedTriangles& sorted, TriangleMail& mail) {
   draw(sorted);
   if (ranks_.count() == 1) return;

@@ -10,8 +10,8 @@
 
 namespace fathom::app {
 
-/// What ranks send to each other: a message is what one rank sends to another one at a time, whatever
-/// pieces MPI makes of it.
+/// What ranks send to each other: a message is what one rank sends to another one at a time,
+/// whatever pieces MPI makes of it.
 struct Traffic {
   std::uint64_t messages = 0, bytes = 0;
 
@@ -31,8 +31,8 @@ struct MapTraffic {
   double drawing = 0, slowest = 0;
 };
 
-/// Puts together what each rank knows of itself: sums, and the greatest of `most_drawn` and `slowest`.
-/// Called by all ranks.
+/// Puts together what each rank knows of itself: sums, and the greatest of `most_drawn` and
+/// `slowest`. Called by all ranks.
 void sum_up(MapTraffic& traffic, const Ranks& ranks);
 
 /// A line of JSON for each map.

@@ -12,14 +12,14 @@
 
 namespace fathom::app {
 
-/// Triangles on their way between ranks: messages (triangle_messages.h) wait until together they are
-/// worth sending, and what has come until it is worth drawing.
+/// Triangles on their way between ranks: messages (triangle_messages.h) wait until together they
+/// are worth sending, and what has come until it is worth drawing.
 class TriangleMail {
  public:
   using Draw = std::function<void(std::vector<SomeTriangles>)>;
 
-  /// `most_waiting`  bytes, of each of these: what waits to be sent, what is on the way from this rank
-  ///                 and to it, what waits to be drawn; or one message, if that is longer
+  /// `most_waiting`  bytes, of each of these: what waits to be sent, what is on the way from this
+  ///                 rank and to it, what waits to be drawn; or one message, if that is longer
   /// `traffic`       gets what is sent
   /// `draw`          is given what has come, within the other functions
   TriangleMail(const Ranks& ranks, std::size_t most_waiting, Traffic& traffic, Draw draw);

@@ -15,8 +15,8 @@ namespace fathom::app {
 class TrianglePicker {
  public:
   explicit TrianglePicker(const Mesh& mesh) : mesh_(mesh) {}
-  /// A mesh of these triangles, in this order, with the vertices that they have; of faces, attributes
-  /// and segments nothing.
+  /// A mesh of these triangles, in this order, with the vertices that they have; of faces,
+  /// attributes and segments nothing.
   [[nodiscard]] Mesh picked(std::span<const std::uint32_t> triangles);
 
  private:
@@ -34,7 +34,8 @@ class TrianglePicker {
 ///   numbers     of the triangles in the scene
 ///
 /// Numbers are as they are in memory: all ranks run on machines of one kind.
-/// `touches`    of tiles of other ranks, in the order of the triangles;  `owners`: the rank of each tile
+/// `touches`    of tiles of other ranks, in the order of the triangles
+/// `owners`     the rank of each tile
 std::vector<files::Bytes> messages_of(const std::vector<SomeTriangles>& part,
                                       std::span<const TileTouch> touches,
                                       std::span<const int> owners, int ranks);

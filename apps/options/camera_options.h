@@ -42,8 +42,8 @@ class CameraOptions {
   Lens lens_;
 };
 
-/// The cameras of a camera file, or the camera that a map carries, each without fault; warnings go to
-/// the console. Fails with InputError.
+/// The cameras of a camera file, or the camera that a map carries, each without fault; warnings go
+/// to the console. Fails with InputError.
 std::vector<Camera> read_camera_file(const std::string& file, const Console& console);
 
 }  // namespace fathom::app

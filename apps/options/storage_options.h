@@ -12,8 +12,9 @@
 
 namespace fathom::app {
 
-/// How a map is stored: `--compression --png-scale --png-beyond --png-sidecar --dtype --channel-name`, each
-/// only where the format has it, and `--background`, which the command declares.
+/// How a map is stored: `--compression --png-scale --png-beyond --png-sidecar --dtype
+/// --channel-name`, each only where the format has it, and `--background`, which the command
+/// declares.
 struct StorageOptions {
   std::optional<Compression> compression;  ///< of an EXR
   std::optional<double> png_scale;         ///< codes per unit of a PNG
@@ -31,8 +32,8 @@ struct StorageOptions {
   [[nodiscard]] MapFormat format_of(const std::string& target) const;
   [[nodiscard]] DepthEncoding encoding_for(MapFormat format) const;
   [[nodiscard]] WriteOptions write_options(int threads) const;
-  /// The map with the background and the names that were asked for, to be written as `target`; `now`
-  /// is its background, where that is known. Fails with OutputError, naming the target, or
+  /// The map with the background and the names that were asked for, to be written as `target`;
+  /// `now` is its background, where that is known. Fails with OutputError, naming the target, or
   /// UsageError, naming the option.
   [[nodiscard]] DepthMap dressed(DepthMap map, const std::string& target,
                                  std::optional<double> now = std::nullopt) const;
@@ -46,7 +47,8 @@ struct StorageOptions {
   void check_png_options(const std::string& target, MapFormat format) const;
 };
 
-/// Says how many surfaces of a map, written as `target`, lie beyond its codes, where there are some.
+/// Says how many surfaces of a map, written as `target`, lie beyond its codes, where there are
+/// some.
 void warn_of_codes_beyond(const DepthMap& map, const std::string& target, const Console& console);
 
 /// "0", "nan", "inf" or a number. Fails with UsageError.

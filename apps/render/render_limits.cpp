@@ -81,8 +81,8 @@ ThreadLimit::ThreadLimit(int threads) {
 }
 
 ThreadLimit::~ThreadLimit() {
-  // A failure ends the program, and where TBB had no memory to set itself up, lifting the limit would
-  // wait for ever.
+  // A failure ends the program, and where TBB had no memory to set itself up, lifting the limit
+  // would wait for ever.
   if (std::uncaught_exceptions() > 0) (void)control_.release();
 }
 

@@ -11,9 +11,9 @@
 
 namespace fathom::app {
 
-/// Refuses cameras whose maps the file or the depth format cannot hold, or that take more memory than there is or
-/// --max-memory allows, before any is tried: a map, and what is needed to write it. `output` is their name for
-/// messages. Fails with OutputError, InputError and UsageError.
+/// Refuses cameras whose maps the file or the depth format cannot hold, or that take more memory
+/// than there is or --max-memory allows, before any is tried: a map, and what is needed to write
+/// it. `output` is their name for messages. Fails with OutputError, InputError and UsageError.
 /// `in_bands`: a map is never whole in memory, but a few rows of it.
 void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
                    const std::string& output, bool in_bands = false);
@@ -21,8 +21,8 @@ void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
 void check_cameras(const std::vector<Camera>& cameras, const DeepMapPlan& plan,
                    const std::string& output);
 
-/// Of the memory that the map leaves over of what is allowed, a quarter for tiles, an eighth for the
-/// triangles that channel A needs, a sixteenth for those that are read at a time.
+/// Of the memory that the map leaves over of what is allowed, a quarter for tiles, an eighth for
+/// the triangles that channel A needs, a sixteenth for those that are read at a time.
 StreamLimits stream_limits(const Camera& camera, const RenderOptions& options);
 
 /// While it is there, TBB uses no more threads than this (0: no limit). Where more threads are

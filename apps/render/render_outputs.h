@@ -14,8 +14,8 @@ namespace fathom::app {
 nlohmann::ordered_json json_of(const DepthFormat& format);
 
 /// The outputs of `render`: for each camera a map and, where they are asked for, a picture and
-/// what codes mean; the cameras; the statistics. All are opened before the work and put in their places together, when
-/// every one of them is written.
+/// what codes mean; the cameras; the statistics. All are opened before the work and put in their
+/// places together, when every one of them is written.
 class RenderOutputs {
  public:
   /// Fails    UsageError where the names do not fit the number of cameras; as OutputFile.

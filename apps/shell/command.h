@@ -116,8 +116,8 @@ class Command {
   bool answers_on_standard_output_ = false;
 };
 
-/// The option that says where a command writes: "-o,--output", and other_name_of_output. `target` is a
-/// std::string or a TakeText.
+/// The option that says where a command writes: "-o,--output", and other_name_of_output. `target`
+/// is a std::string or a TakeText.
 template <class Target>
 Option add_output_option(Command& command, const std::string& value_name, Target&& target,
                          const std::string& help) {

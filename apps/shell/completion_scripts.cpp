@@ -55,8 +55,8 @@ std::string assignments(const CompletedValue& value) {
   return text;
 }
 
-/// The function _fathom_value, which bash and zsh share: sets takes, known (words), list and files to what
-/// option $2 of command $1 takes, or, where $2 is empty, to what its arguments are.
+/// The function _fathom_value, which bash and zsh share: sets takes, known (words), list and files
+/// to what option $2 of command $1 takes, or, where $2 is empty, to what its arguments are.
 std::string value_function(const CompletionTable& table) {
   std::string text = "_fathom_value() {\n  takes= known= list= files=\n  case \"$1 $2\" in\n";
   for (const CompletedCommand& command : table) {
@@ -125,7 +125,8 @@ _fathom_offer_value() {
 }
 
 _fathom() {
-  local IFS=$' \t\n' command=fathom of=fathom word i cur=${COMP_WORDS[COMP_CWORD]} option= prefix= head=
+  local IFS=$' \t\n' command=fathom of=fathom word i cur=${COMP_WORDS[COMP_CWORD]}
+  local option= prefix= head=
   local commands options takes known list files
   COMPREPLY=()
   for ((i = 1; i < COMP_CWORD; i++)); do
@@ -268,7 +269,8 @@ end
 
 # Words of a list: those that are not yet in it, behind those that are.
 function __fathom_list
-    set -l before (commandline -ct | string replace -r -- '^--[^=]*=' '' | string replace -rf -- '(.*,)[^,]*$' '$1')
+    set -l value (commandline -ct | string replace -r -- '^--[^=]*=' '')
+    set -l before (string replace -rf -- '(.*,)[^,]*$' '$1' $value)
     for word in $argv
         string match -q -- "*,$word,*" ",$before"; or echo "$before$word"
     end

@@ -66,7 +66,8 @@ std::time_t date_of_pages() {
   }
 }
 
-/// A text as roff: what it gives a meaning to is escaped, and a hyphen stays one that can be copied.
+/// A text as roff: what it gives a meaning to is escaped, and a hyphen stays one that can be
+/// copied.
 std::string roff(std::string_view text) {
   std::string out;
   for (const char c : text) {

@@ -23,8 +23,8 @@ void name_memory_limit(const char* text) noexcept;
 /// Reports that the system starts no more threads.
 ExitStatus report_lack_of_threads() noexcept;
 
-/// The work is done and the exit status is known. A failure after this, in a destructor of a library
-/// (VTK 9.1 allocates in its own), no longer changes it. Returns the status.
+/// The work is done and the exit status is known. A failure after this, in a destructor of a
+/// library (VTK 9.1 allocates in its own), no longer changes it. Returns the status.
 int outcome_is(int status) noexcept;
 
 /// Failures that no `catch` can or should handle: from now on they end the program as any other

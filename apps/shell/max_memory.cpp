@@ -19,7 +19,8 @@ constexpr bool is_sanitized = false;
 
 std::optional<MemoryAllowance> given;
 
-/// The stacks of the pools of TBB and of OpenEXR: little of them is ever touched, but all is counted.
+/// The stacks of the pools of TBB and of OpenEXR: little of them is ever touched, but all is
+/// counted.
 std::uint64_t bytes_of_stacks() {
   rlimit stack{};
   const bool is_known = ::getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur != RLIM_INFINITY;

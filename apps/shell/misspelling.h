@@ -19,8 +19,8 @@ std::vector<std::string> commands_below(const CLI::App& command);
 /// option or a command that is misspelt, or an argument too many. Empty where there is none.
 std::string unexpected_argument(const CLI::App& program);
 
-/// A long option with one dash, "-output", would be taken for -o with the value "utput". The message
-/// where one of the arguments is that; empty where none is.
+/// A long option with one dash, "-output", would be taken for -o with the value "utput". The
+/// message where one of the arguments is that; empty where none is.
 std::string missing_dash(const CLI::App& program, const std::vector<std::string>& arguments);
 
 /// The innermost command that the arguments name. Options may stand between the names, but not

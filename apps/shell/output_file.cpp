@@ -92,8 +92,8 @@ void OutputFile::find_place(bool exists, mode_t mode) {
   }
 }
 
-/// A folder that does not exist is made when the output takes its place: until then the output waits
-/// above it.
+/// A folder that does not exist is made when the output takes its place: until then the output
+/// waits above it.
 void OutputFile::stage() {
   const fs::path folder = nearest_existing(folder_of(place_));
   try {

@@ -47,8 +47,8 @@ class OutputFile {
 
   /// Puts the output in its place.
   void commit() { commit_together({this}); }
-  /// Puts outputs in their places: only when all of them are on the disk or written through does the
-  /// first appear. Where one cannot take its place, those before it give theirs back.
+  /// Puts outputs in their places: only when all of them are on the disk or written through does
+  /// the first appear. Where one cannot take its place, those before it give theirs back.
   static void commit_together(const std::vector<OutputFile*>& outputs);
 
  private:

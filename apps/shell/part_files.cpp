@@ -44,8 +44,8 @@ struct CloseFolder {
 };
 
 /// Removes a part unless someone holds its lock. Its owner locks it and only then looks whether it
-/// still has a name, so that a part is lost only before anything is in it. NFS grants such a lock on
-/// files that are open for writing alone.
+/// still has a name, so that a part is lost only before anything is in it. NFS grants such a lock
+/// on files that are open for writing alone.
 void remove_if_stale(int folder, const char* name) {
   const files::Descriptor file(
       ::openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));

@@ -37,8 +37,9 @@ void remove_pending(PendingFile* file);
 /// Removes every noted file of this process. Calls only what is safe in a signal handler.
 void remove_all_pending();
 
-/// Removes from a folder what programs that were killed have left of their outputs: regular files of
-/// this user that have the name of a part and that no living process holds a lock on. Once for each folder; what cannot be removed stays.
+/// Removes from a folder what programs that were killed have left of their outputs: regular files
+/// of this user that have the name of a part and that no living process holds a lock on. Once for
+/// each folder; what cannot be removed stays.
 void remove_stale_parts(const std::filesystem::path& folder);
 
 }  // namespace fathom::app

@@ -118,9 +118,10 @@ std::string said_by(const std::system_error& error) {
   return "the system refuses: " + why;
 }
 
-/// Says so and ends the program as it stands. What was to be written has been taken back on the way here;
-/// threads that oneTBB could start, when the system refused it another one, may still be running, and what
-/// a program does when it leaves, destroying what they use, would bring them down with a line of their own.
+/// Says so and ends the program as it stands. What was to be written has been taken back on the way
+/// here; threads that oneTBB could start, when the system refused it another one, may still be
+/// running, and what a program does when it leaves, destroying what they use, would bring them down
+/// with a line of their own.
 [[noreturn]] void leave_without_threads() {
   std::_Exit(report_lack_of_threads());
 }

@@ -44,8 +44,8 @@ class StagedFile {
   void prepare_for(const std::filesystem::path& place);
   /// Puts it at `place` in its folder, instead of what may be there; until then that is untouched.
   void put_at(const std::filesystem::path& place);
-  /// The same, but what was there is kept until this object ends, so that take_back_from() can restore it
-  /// (unless the file system cannot let two files change places).
+  /// The same, but what was there is kept until this object ends, so that take_back_from() can
+  /// restore it (unless the file system cannot let two files change places).
   void put_for_now_at(const std::filesystem::path& place);
   /// Restores what was at `place` before put_for_now_at(), or that nothing was, if it can.
   void take_back_from(const std::filesystem::path& place) noexcept;

@@ -24,9 +24,9 @@ void expect_standard_output();
 /// Fails    OutputError where standard output is closed or full.
 void print(const std::string& text);
 
-/// The text that is printed for an answer in JSON; it ends with a line feed. An indentation of -1 puts
-/// all on one line. Bytes that are not UTF-8, as in names of files, become U+FFFD, and characters
-/// that a terminal would act on are escaped.
+/// The text that is printed for an answer in JSON; it ends with a line feed. An indentation of -1
+/// puts all on one line. Bytes that are not UTF-8, as in names of files, become U+FFFD, and
+/// characters that a terminal would act on are escaped.
 std::string json_answer(const nlohmann::ordered_json& answer, int indentation = 2);
 
 /// Writes all of the bytes to an open file that the user calls `target`.

@@ -9,7 +9,8 @@
 namespace fathom::studies {
 
 /// Runs a script, which ends with a plot command and sets no terminal, twice: for NAME.png and for
-/// NAME.svg, `height` pixels high and 1100 wide. The script itself, as it can be run again, is NAME.gp.
+/// NAME.svg, `height` pixels high and 1100 wide. The script itself, as it can be run again, is
+/// NAME.gp.
 /// Fails    OutputError if gnuplot is missing or fails, with what it said.
 std::vector<StudyFile> run_gnuplot(const std::string& name, const std::string& script,
                                    int height = 650);

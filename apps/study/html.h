@@ -19,8 +19,8 @@ struct ShownPicture {
   std::string name;
   std::uint32_t width = 0;
 };
-/// Pictures of one caption, their pixels kept sharp. Single ones, and texts, stand side by side where
-/// there is room; several of one caption have a row of their own.
+/// Pictures of one caption, their pixels kept sharp. Single ones, and texts, stand side by side
+/// where there is room; several of one caption have a row of their own.
 std::string html_pictures(const std::vector<ShownPicture>& pictures, const std::string& caption);
 /// Text as it is, every character of the same width.
 std::string html_text(const std::string& text, const std::string& caption);

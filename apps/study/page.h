@@ -17,8 +17,8 @@ namespace fathom::studies {
 ///   ## Heading
 ///   A paragraph.
 ///   {{name}}                    in any text: a value
-///   {{plot:name}} Caption       NAME.png, linked to NAME.svg, and its command; left out where nothing
-///                               was drawn
+///   {{plot:name}} Caption       NAME.png, linked to NAME.svg, and its command; left out where
+///                               nothing was drawn
 ///   {{picture:name}} Caption    NAME.png, its pixels kept sharp; the caption names the command
 ///                               that draws it
 ///   {{pictures:a,b,c}} Caption  several in a row

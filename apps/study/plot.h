@@ -61,8 +61,8 @@ struct HeatMap {
   bool by_sign = false;
   /// Of an image: its first row is on top, and its cells are squares.
   bool as_image = false;
-  /// Cells whose values are written into the plot: a row and a column of so many, from the middle of
-  /// the first so many; 0: none.
+  /// Cells whose values are written into the plot: a row and a column of so many, from the middle
+  /// of the first so many; 0: none.
   std::size_t cells_per_number = 0;
 };
 
@@ -75,8 +75,8 @@ std::vector<StudyFile> draw(const Plot& plot);
 std::vector<StudyFile> draw(const BarChart& chart);
 std::vector<StudyFile> draw(const HeatMap& map);
 
-/// Fails with OutputError where plots are to be drawn and gnuplot is missing: to be called before the
-/// work.
+/// Fails with OutputError where plots are to be drawn and gnuplot is missing: to be called before
+/// the work.
 void require_gnuplot(const StudyOptions& options);
 
 }  // namespace fathom::studies

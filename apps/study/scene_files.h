@@ -8,8 +8,8 @@
 #include "fathom/image/rgb_image.h"
 #include "fathom/pipeline/options.h"
 
-/// What the pictures of the page are drawn from lies in files beside it, so that the commands of its
-/// captions draw them again.
+/// What the pictures of the page are drawn from lies in files beside it, so that the commands of
+/// its captions draw them again.
 namespace fathom::studies {
 
 /// A scene and its camera, and the files that hold them: NAME.obj and NAME.json. `view` is what has

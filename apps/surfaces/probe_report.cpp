@@ -68,7 +68,8 @@ std::string edge_text(const CoveringTriangle& triangle) {
   return text;
 }
 
-/// Which arithmetic settles the signs: "Δ by CGAL::determinant over CGAL::Interval_nt; e_A, e_B, e_C by …".
+/// Which arithmetic settles the signs: "Δ by CGAL::determinant over CGAL::Interval_nt; e_A, e_B,
+/// e_C by …".
 std::string deciders_text(const CoveringTriangle& triangle) {
   std::string text = fmt::format("Δ by {}", triangle.facing_decided_by());
   for (const std::string_view decider : {cgal_form, dyadic_numbers}) {

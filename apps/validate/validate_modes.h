@@ -23,8 +23,8 @@ int validate_render(const ValidateArguments& arguments, const Console& console);
 /// pixel is unexplained, unusable_input where VTK did not draw or a scene cannot be compared.
 int validate_colours(const ValidateArguments& arguments, const Console& console);
 
-/// `validate --faults --against …`: faults of the catalogue in maps of real renderers. Prints what is
-/// not found or wrongly named, writes faults.json and faults.md, and returns the exit status:
+/// `validate --faults --against …`: faults of the catalogue in maps of real renderers. Prints what
+/// is not found or wrongly named, writes faults.json and faults.md, and returns the exit status:
 /// answer_is_no where something is found in a right map, or a fault that is large enough is not
 /// found and rightly named; unusable_input where a renderer did not draw.
 int validate_faults(const ValidateArguments& arguments, const Console& console);

@@ -46,8 +46,8 @@ std::string line_of(const attribution::Finding& f, bool is_said) {
   return text;
 }
 
-/// "spot, vtk unorm24: 70000 equal, 20 edge; median bound 3.1e-07 of the depth, 1.20 % of the pixels
-/// undecided". `after_verdict`: its first finding has been said.
+/// "spot, vtk unorm24: 70000 equal, 20 edge; median bound 3.1e-07 of the depth, 1.20 % of the
+/// pixels undecided". `after_verdict`: its first finding has been said.
 std::string line_of(const ValidationCase& c, bool after_verdict) {
   if (!c.is_done()) return fmt::format("{}: {}\n", title_of(c), c.failure);
   const Attribution& a = c.attribution;
@@ -83,8 +83,8 @@ std::string lines_of(const std::vector<ValidationCase>& cases) {
 }
 
 /// A result as the output of a test. `cause` is why the test fails and comes first; empty where it
-/// passes, then the verdict does. Then the result's lines and `more`, the pixels to look at first, where the page lies in
-/// `folder`, and lines that CTest reads.
+/// passes, then the verdict does. Then the result's lines and `more`, the pixels to look at first,
+/// where the page lies in `folder`, and lines that CTest reads.
 std::string lines_for_ctest(const ValidationCase& c, const std::string& cause,
                             const std::string& more, const std::string& folder) {
   const std::filesystem::path out(folder);

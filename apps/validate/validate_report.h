@@ -24,10 +24,10 @@ class ValidationReport {
   /// Fails    OutputError, InputError; UsageError where --ctest has no --output.
   explicit ValidationReport(const ValidateArguments& arguments);
 
-  /// Prints the verdict, a line for each case and its findings (with --junit - the JUnit XML instead), puts the files in their places, all or none,
-  /// and returns the exit status: answer_is_no where something is unexplained, wrong or worse than
-  /// in the baseline, unusable_input where a renderer did not draw or the baseline is of other
-  /// scenes.
+  /// Prints the verdict, a line for each case and its findings (with --junit - the JUnit XML
+  /// instead), puts the files in their places, all or none, and returns the exit status:
+  /// answer_is_no where something is unexplained, wrong or worse than in the baseline,
+  /// unusable_input where a renderer did not draw or the baseline is of other scenes.
   [[nodiscard]] int finish(const std::vector<validation::ValidationCase>& cases);
 
  private:

@@ -1,11 +1,12 @@
 /* Fathom for C, and for every language that calls C: exact depth maps of triangle meshes.
  *
- * Handles are opaque. Each kind of handle has a function that frees it and accepts NULL. Functions that can fail
- * return a fathom_status; after a failure fathom_error() returns the reason in one line, and outputs are not written.
- * No exception leaves this library. Strings are UTF-8.
+ * Handles are opaque. Each kind of handle has a function that frees it and accepts NULL. Functions
+ * that can fail return a fathom_status; after a failure fathom_error() returns the reason in one
+ * line, and outputs are not written. No exception leaves this library. Strings are UTF-8.
  *
- * Several threads may call all functions at the same time, also with the same scene and map, as long as no thread
- * changes or frees these meanwhile. Results never depend on the number of threads.
+ * Several threads may call all functions at the same time, also with the same scene and map, as
+ * long as no thread changes or frees these meanwhile. Results never depend on the number of
+ * threads.
  */
 #ifndef FATHOM_H
 #define FATHOM_H
@@ -35,19 +36,21 @@ typedef enum {
   FATHOM_STOPPED = 6 /* stopped by fathom_options.progress */
 } fathom_status;
 
-/* The reason of this thread's last failed call; "" before the first failure. Valid until the next failure. */
+/* The reason of this thread's last failed call; "" before the first failure. Valid until the next
+ * failure. */
 FATHOM_API const char* fathom_error(void);
 
 /* Version, for example "0.1.0". */
 FATHOM_API const char* fathom_version(void);
 
-/* ------------------------------------------------------------------------------------------------- scenes */
+/* -------------------------------------------------------------------------------------- scenes */
 
 typedef struct fathom_scene fathom_scene;
 
 /* Makes a scene without meshes. */
 FATHOM_API fathom_status fathom_scene_new(fathom_scene** scene);
-/* Reads meshes (OBJ, PLY, STL, OFF, glTF) and scene files (JSON) into one scene, in the given order. */
+/* Reads meshes (OBJ, PLY, STL, OFF, glTF) and scene files (JSON) into one scene, in the given
+ * order. */
 FATHOM_API fathom_status fathom_scene_read(const char* const* files, size_t count,
                                            fathom_scene** scene);
 /* Frees a scene; NULL is allowed. */
@@ -71,11 +74,12 @@ FATHOM_API fathom_status fathom_scene_add(fathom_scene* scene, const double* ver
 /* Number of triangles in all objects. */
 FATHOM_API uint64_t fathom_scene_triangle_count(const fathom_scene* scene);
 
-/* The smallest box that contains all triangles, in the world, rounded outwards. FATHOM_INPUT without triangles. */
+/* The smallest box that contains all triangles, in the world, rounded outwards. FATHOM_INPUT
+ * without triangles. */
 FATHOM_API fathom_status fathom_scene_bounds(const fathom_scene* scene, double lower[3],
                                              double upper[3]);
 
-/* ------------------------------------------------------------------------------------------------ cameras */
+/* ------------------------------------------------------------------------------------- cameras */
 
 /* Every number is exact: it means the real number that it denotes. See docs/conventions.md. */
 typedef struct {
@@ -90,8 +94,8 @@ typedef struct {
   double near_depth, far_depth;
 } fathom_camera;
 
-/* Makes a camera at `eye` that looks at `target`, with `up` upwards in the image. `fov` is the vertical field of view
- * in degrees. */
+/* Makes a camera at `eye` that looks at `target`, with `up` upwards in the image. `fov` is the
+ * vertical field of view in degrees. */
 FATHOM_API fathom_status fathom_camera_look_at(const double eye[3], const double target[3],
                                                const double up[3], uint32_t width, uint32_t height,
                                                double fov, fathom_camera* camera);
@@ -104,7 +108,7 @@ FATHOM_API fathom_status fathom_camera_read(const char* file, fathom_camera* cam
 /* Checks a camera. FATHOM_INPUT if it is invalid. */
 FATHOM_API fathom_status fathom_camera_check(const fathom_camera* camera);
 
-/* -------------------------------------------------------------------------------------------------- maps */
+/* ---------------------------------------------------------------------------------------- maps */
 
 typedef struct fathom_map fathom_map;
 
@@ -114,31 +118,34 @@ typedef struct {
   fathom_cull cull;
   int float64; /* not 0: Z and distance are doubles */
   int threads; /* number of threads; 0: all */
-  /* Called from time to time with the fraction done, from any thread, but never from two at once. If it does not return
-   * 0, the call ends with FATHOM_STOPPED. May be NULL. */
+  /* Called from time to time with the fraction done, from any thread, but never from two at once.
+   * If it does not return 0, the call ends with FATHOM_STOPPED. May be NULL. */
   int (*progress)(double done, void* data);
   void* data;
 } fathom_options;
 
 /* The value of id, face, object, material, group, part and label without a surface. */
 #define FATHOM_NO_SURFACE UINT32_C(0xFFFFFFFF)
-/* The value of material, group, part and label if the visible triangle has no such name or label. */
+/* The value of material, group, part and label if the visible triangle has no such name or label.
+ * */
 #define FATHOM_NO_SEGMENT UINT32_C(0xFFFFFFFE)
 
 /* Renders the exact map: every value is the exact number, rounded once.
  *
- *   channels   one channel or several, as "Z" or "Z,A,id,N": Z, A, Zlow, distance, id, face, object, material, group,
- *              part, label, N, P, bary, Nc, Ns (docs/reference/channels.md)
+ *   channels   one channel or several, as "Z" or "Z,A,id,N": Z, A, Zlow, distance, id, face,
+ *              object, material, group, part, label, N, P, bary, Nc, Ns
+ *              (docs/reference/channels.md)
  *   options    NULL: all options are 0
  */
 FATHOM_API fathom_status fathom_render(const fathom_scene* scene, const fathom_camera* camera,
                                        const char* channels, const fathom_options* options,
                                        fathom_map** map);
-/* Reads EXR, NPZ, PFM, PNG, NPY or a dense map of COLMAP. The format is detected from the content. */
+/* Reads EXR, NPZ, PFM, PNG, NPY or a dense map of COLMAP. The format is detected from the content.
+ * */
 FATHOM_API fathom_status fathom_map_read(const char* file, fathom_map** map);
-/* Writes a map; the suffix selects the format. .exr, .npz and .tif contain all channels. .pfm, .png, .npy and .bin
- * (COLMAP) contain `channel` or, if it is NULL, the map's only channel. A .tif needs an orthographic camera that looks
- * along the world's z axis. */
+/* Writes a map; the suffix selects the format. .exr, .npz and .tif contain all channels. .pfm,
+ * .png, .npy and .bin (COLMAP) contain `channel` or, if it is NULL, the map's only channel. A .tif
+ * needs an orthographic camera that looks along the world's z axis. */
 FATHOM_API fathom_status fathom_map_write(const fathom_map* map, const char* file,
                                           const char* channel);
 /* Frees a map; NULL is allowed. */
@@ -148,10 +155,11 @@ FATHOM_API void fathom_map_free(fathom_map* map);
 FATHOM_API uint32_t fathom_map_width(const fathom_map* map);
 /* Rows of pixels. */
 FATHOM_API uint32_t fathom_map_height(const fathom_map* map);
-/* Name of channel 0, 1, …; NULL after the last. N consists of the channels N.X, N.Y and N.Z, likewise Nc and Ns. */
+/* Name of channel 0, 1, …; NULL after the last. N consists of the channels N.X, N.Y and N.Z,
+ * likewise Nc and Ns. */
 FATHOM_API const char* fathom_map_channel(const fathom_map* map, size_t number);
-/* width × height values, row by row from the top, valid until the map is freed; NULL if the map has no channel of this
- * name and type. */
+/* width × height values, row by row from the top, valid until the map is freed; NULL if the map has
+ * no channel of this name and type. */
 FATHOM_API const float* fathom_map_float32(const fathom_map* map, const char* channel);
 /* Like fathom_map_float32(). */
 FATHOM_API const double* fathom_map_float64(const fathom_map* map, const char* channel);
@@ -159,14 +167,14 @@ FATHOM_API const double* fathom_map_float64(const fathom_map* map, const char* c
 FATHOM_API const uint32_t* fathom_map_uint32(const fathom_map* map, const char* channel);
 /* Like fathom_map_float32(). */
 FATHOM_API const uint16_t* fathom_map_uint16(const fathom_map* map, const char* channel);
-/* The name behind a number of channel "object", "material", "group" or "part", valid until the map is freed; NULL
- * without a name. */
+/* The name behind a number of channel "object", "material", "group" or "part", valid until the map
+ * is freed; NULL without a name. */
 FATHOM_API const char* fathom_map_name(const fathom_map* map, const char* channel, uint32_t number);
 /* A text of the map: "fathom.camera", "fathom.sources", …; NULL if the map has no such text. */
 FATHOM_API const char* fathom_map_text(const fathom_map* map, const char* name);
 
-/* Computes up to `pixels` pixels of a rendered map again, only with exact arithmetic, and counts the pixels that
- * differ in a bit. Pass the `options` of the render. */
+/* Computes up to `pixels` pixels of a rendered map again, only with exact arithmetic, and counts
+ * the pixels that differ in a bit. Pass the `options` of the render. */
 FATHOM_API fathom_status fathom_verify(const fathom_map* map, const fathom_scene* scene,
                                        const fathom_camera* camera, const fathom_options* options,
                                        uint64_t pixels, uint64_t* differing);

@@ -33,8 +33,8 @@ struct PipelineDepthBuffer {
 /// What a graphics pipeline computes of the scene, as a map and a picture.
 struct PipelineRendering {
   /// Channels Z, id, face and object, those that are asked for. Lines and points are numbered on
-  /// after all triangles, object by object, lines first; they are of no face. Its camera has the near and far
-  /// that the pipeline clipped with, so that an exact map can be made for it.
+  /// after all triangles, object by object, lines first; they are of no face. Its camera has the
+  /// near and far that the pipeline clipped with, so that an exact map can be made for it.
   DepthMap map;
   RgbImage picture;  ///< empty where it is not asked for
   pipeline::PipelineStatistics statistics;
@@ -47,14 +47,15 @@ struct PipelineRendering {
 void require_pipeline_channels(const std::vector<Channel>& channels);
 
 /// Rounded   every value, as the options say (pipeline/); nothing here is exact.
-/// Fails     InputError if the scene or the camera has a fault (find_fault), the image has more than
-///           2⁴⁴ pixels, or the texture cannot be read;
+/// Fails     InputError if the scene or the camera has a fault (find_fault), the image has more
+///           than 2⁴⁴ pixels, or the texture cannot be read;
 ///           UsageError as require_pipeline_channels and pipeline::require_meaningful.
 PipelineRendering render_by_pipeline(const Scene& scene, const Camera& camera,
                                      const pipeline::PipelineOptions& options,
                                      const std::vector<Channel>& channels, bool with_picture);
 
-/// The same of a scene that moves while the shutter is open; the map is that of the time at which it
+/// The same of a scene that moves while the shutter is open; the map is that of the time at which
+/// it
 /// closes. Fails    also as pipeline::render_moving.
 PipelineRendering render_by_pipeline(MovingScene& scene, const Camera& camera,
                                      const pipeline::PipelineOptions& options,
@@ -66,7 +67,8 @@ PipelineRendering render_by_pipeline(MovingScene& scene, const Camera& camera,
 /// scene units, +∞ where nothing was written; `stencil` (UINT), if there is one.
 ///
 /// Exact    Zdecoded: the depth range, then the format, are inverted exactly, and the result is
-///          rounded once. What polygon offset has moved beyond near or far is decoded as near or far.
+///          rounded once. What polygon offset has moved beyond near or far is decoded as near or
+///          far.
 /// Fails    UsageError where near and far have the same window depth, so that none can be decoded.
 void add_depth_buffer(DepthMap& map, const PipelineDepthBuffer& buffer);
 

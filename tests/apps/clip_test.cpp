@@ -92,7 +92,8 @@ TEST(Clip, AgainstFindsTheBridgingEdge) {
 
 const std::string decomposed_case = R"({"decompose": true, )" + notched_case.substr(1);
 
-// In convex pieces it has the right border. Only Sutherland–Hodgman takes "decompose", on either side.
+// In convex pieces it has the right border. Only Sutherland–Hodgman takes "decompose", on either
+// side.
 TEST(Clip, AgainstGivesEachAlgorithmItsOwnKeys) {
   const std::string ours = "sutherland-hodgman";
   const Json by_ours = answer(ours, decomposed_case), plain = answer("cgal", notched_case);
@@ -415,7 +416,8 @@ TEST(Clip, HomogeneousBeforeAndAfterTheDivision) {
   EXPECT_EQ(halves["lower"], Json::parse(R"([["-1/2","0","0","-1/2"],["-1","0","0","-2"]])"));
 }
 
-// The line of docs/clipping.md from z = 1/3 to a point behind the eye: visible up to the near plane.
+// The line of docs/clipping.md from z = 1/3 to a point behind the eye: visible up to the near
+// plane.
 TEST(Clip, ASegmentAfterTheDivisionIsKeptOnTheWrongSide) {
   const std::string line = R"({"segment": [[0,0,0.5,1.5],[0,0,-7,-1]])";
   EXPECT_EQ(answer("homogeneous", line + R"(, "after_division": false})", {"--exact"})["segment"],

@@ -1,4 +1,5 @@
-// The layouts of `fathom dataset`, each of a small data set as its authors hand it out, read back by OpenCV.
+// The layouts of `fathom dataset`, each of a small data set as its authors hand it out, read back
+// by OpenCV.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,8 +34,8 @@ assert (codes[~seen] == none).all()
 assert np.abs(codes[seen] - scale * Z[seen]).max() <= 0.5 + 1e-9
 )";
 
-/// What the layouts below say of their two cameras, worked out by hand: 4 units from the origin, looking at
-/// it, the second one beside the first.
+/// What the layouts below say of their two cameras, worked out by hand: 4 units from the origin,
+/// looking at it, the second one beside the first.
 using Views = std::array<std::string, 2>;
 const Views along_z{"[[1,0,0,0],[0,1,0,0],[0,0,1,4]]", "[[1,0,0,-0.25],[0,1,0,0],[0,0,1,4]]"};
 const Views against_z{"[[1,0,0,0],[0,-1,0,0],[0,0,-1,4]]", "[[1,0,0,-0.25],[0,-1,0,0],[0,0,-1,4]]"};
@@ -297,8 +298,9 @@ for name in sys.argv[1:]:
 
 class BopScenes : public ::testing::Test {
  protected:
-  // One pixel is a millimetre at a distance of 100: the plate covers 4 by 4 pixels there. The principal
-  // point (9.5, 4.5) is the middle of 20 by 10 pixels, the first of which has its centre at 0.
+  // One pixel is a millimetre at a distance of 100: the plate covers 4 by 4 pixels there. The
+  // principal point (9.5, 4.5) is the middle of 20 by 10 pixels, the first of which has its centre
+  // at 0.
   BopScenes() {
     write("models/obj_000001.ply", plate);
     write("000001/scene_camera.json",
@@ -332,7 +334,8 @@ TEST_F(BopScenes, HaveTheMasksAndCountsThatAreWorkedOutByHand) {
       json::parse(files::InputFile(folder_.path() / "exact/scene_gt_info.json").text()).at("7");
   ASSERT_EQ(info.size(), 4U);
   // The first covers [8, 12] × [3, 7] of the image, 4 by 4 pixels; the second, twice as large,
-  // [8.2, 16.2] × [1, 9], before it: 0.2 by 4 pixels of the first are seen, but no centre of a pixel.
+  // [8.2, 16.2] × [1, 9], before it: 0.2 by 4 pixels of the first are seen, but no centre of a
+  // pixel.
   EXPECT_EQ(info[0], json::parse(R"({"bbox_obj":[-1,-1,-1,-1],"bbox_visib":[-1,-1,-1,-1],
       "px_count_all":16,"px_count_valid":16,"px_count_visib":0,"visib_fract":0.0,
       "area_all":16.0,"area_visib":)" +
@@ -370,8 +373,9 @@ TEST_F(BopScenes, HaveTheMasksAndCountsThatAreWorkedOutByHand) {
   EXPECT_EQ(depths.out, "uint16 0 100 200\n") << depths.err;
 }
 
-/// Plates in front of cameras with principal points of four decimals. Their left and upper edges go exactly through
-/// centres of pixels, which they have; the others through quarters. The numbers of X and Y are exact.
+/// Plates in front of cameras with principal points of four decimals. Their left and upper edges go
+/// exactly through centres of pixels, which they have; the others through quarters. The numbers of
+/// X and Y are exact.
 constexpr const char* plates_at_centres = R"(
 import json
 import pathlib
@@ -419,7 +423,8 @@ for i, (left, right, top, bottom, area) in json.load(open("truth.json")).items()
     assert (info["area_all"], info["area_visib"], info["visib_area_fract"]) == (area, area, 1), (info, area)
 )";
 
-// In binary64, cx + width is another principal point: masks were shifted against mask_visib/, and visib_fract above 1.
+// In binary64, cx + width is another principal point: masks were shifted against mask_visib/, and
+// visib_fract above 1.
 TEST_F(BopScenes, MasksAreOfTheSameCameraAsTheImage) {
   const Outcome written = run({python, "-c", plates_at_centres}, {.folder = folder_.path()});
   ASSERT_EQ(written.status, 0) << written.err;
@@ -514,8 +519,8 @@ TEST_F(BopScenes, AFolderWithoutCamerasIsToldSo) {
   }
 }
 
-// With 0.001 millimetres a code, 65535 codes reach to 65.535: the second plate at 50 has the code 50000, and
-// those at 100 and 200 have none.
+// With 0.001 millimetres a code, 65535 codes reach to 65.535: the second plate at 50 has the code
+// 50000, and those at 100 and 200 have none.
 TEST_F(BopScenes, DepthsBeyondTheLastCodeAreAnErrorOrNone) {
   write("000001/scene_camera.json",
         R"({"7": {"cam_K": [100,0,9.5, 0,100,4.5, 0,0,1], "depth_scale": 0.001}})");

@@ -48,8 +48,8 @@ class Evaluate : public ::testing::Test {
   TestFolder folder_;
 };
 
-// The scan's first plate hides its second one; of the truth's second one, a rim is seen beside the first if the
-// camera's image is not as narrow as here: the plates at 2 fill it.
+// The scan's first plate hides its second one; of the truth's second one, a rim is seen beside the
+// first if the camera's image is not as narrow as here: the plates at 2 fill it.
 TEST_F(Evaluate, WhatTheCameraSees) {
   const Json found = figures({"--camera", "camera.json", "--within", "0.25,0.3"});
   EXPECT_EQ(found["accuracy"]["points"], 1000);

@@ -1,4 +1,5 @@
-// Maps in the formats of data sets, COLMAP and geographic programs, as commands write and read them.
+// Maps in the formats of data sets, COLMAP and geographic programs, as commands write and read
+// them.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,8 +17,8 @@ using ::testing::HasSubstr;
 
 const std::string python = "/usr/bin/python3";
 
-/// The square at z = 2, and another at z = 4, of which the camera sees the column 6 in the rows 2 and 3: it spans
-/// columns 5 and 6, and the first one hides column 5.
+/// The square at z = 2, and another at z = 4, of which the camera sees the column 6 in the rows 2
+/// and 3: it spans columns 5 and 6, and the first one hides column 5.
 std::string storeys_obj() {
   return square_obj + "v 1 -1 4\nv 3 -1 4\nv 3 1 4\nv 1 1 4\nf 5 6 7 8\n";
 }

@@ -1,5 +1,5 @@
-// glTF files that would make the program slow, large or talkative, as users meet them. Limits of time
-// and memory are many times what is needed, and far below what such files used to take.
+// glTF files that would make the program slow, large or talkative, as users meet them. Limits of
+// time and memory are many times what is needed, and far below what such files used to take.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// The examples of docs/scan.md, of docs/clipping.md and of `fathom scan --help`, run as a reader would.
+// The examples of docs/scan.md, of docs/clipping.md and of `fathom scan --help`, run as a reader
+// would.
 
 #include "page_examples.h"
 

@@ -144,7 +144,8 @@ TEST(PipelineCommand, NormalsThatAreNoNumbersAreLeftOut) {
   EXPECT_EQ(folder.read("odd.png"), folder.read("whole.png"));
 }
 
-// "facet normal 0 0 0" leaves the normal to the reader; sums at places smooth whatever the file has.
+// "facet normal 0 0 0" leaves the normal to the reader; sums at places smooth whatever the file
+// has.
 TEST(PipelineCommand, NormalsOfStlFiles) {
   const TestFolder folder;
   const auto drawn = [&](const std::string& name, const std::string& normal, const char* source) {

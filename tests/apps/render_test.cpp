@@ -312,7 +312,8 @@ TEST_F(Rendering, ProbeExplainsATieOnAnEdge) {
   EXPECT_EQ(triangle["file"], "square.obj");
 }
 
-// The corners of the shared edge are doubles whose differences are not: an interval about e = 0 has a width.
+// The corners of the shared edge are doubles whose differences are not: an interval about e = 0 has
+// a width.
 TEST_F(Rendering, ProbeNamesTheArithmeticThatDecided) {
   folder_.write("diagonal.obj",
                 "v -0.7 -0.7 1\nv 1.9 1.9 1\nv -1 3 1\nv 3 -1 1\nf 1 2 3\nf 1 4 2\n");

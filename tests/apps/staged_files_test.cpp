@@ -33,8 +33,8 @@ using ::testing::StartsWith;
 const std::string exr_magic = "\x76\x2f\x31\x01";
 const std::string stale = ".fathom-0123456789abcdef.part";
 
-/// Systems on which outputs are staged: the test's own, one where every file has a name, one where a
-/// file that has none gets none.
+/// Systems on which outputs are staged: the test's own, one where every file has a name, one where
+/// a file that has none gets none.
 struct System {
   const char* name;
   std::function<void()> prepare;

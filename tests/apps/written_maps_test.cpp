@@ -1,5 +1,5 @@
-// How maps are written for other programs, NumPy and OpenCV: the background, names of channels, NPZ;
-// and the figures of benchmarks, judged by NumPy.
+// How maps are written for other programs, NumPy and OpenCV: the background, names of channels,
+// NPZ; and the figures of benchmarks, judged by NumPy.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// Convex polygons by their edges alone against Sutherland and Hodgman's corners in rational numbers.
+// Convex polygons by their edges alone against Sutherland and Hodgman's corners in rational
+// numbers.
 #include "fathom/area/convex_polygon.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Coplanar pairs of scenes from families that are each hard for a reason of their own, against
-// polygons clipped in rational numbers. The distance asked about is that of one of the pairs, or the
-// next number.
+// polygons clipped in rational numbers. The distance asked about is that of one of the pairs, or
+// the next number.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -26,7 +26,8 @@ using testing::Family;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Corners of its own for each triangle, drawn within it; where corners have few bits, in its plane.
+/// Corners of its own for each triangle, drawn within it; where corners have few bits, in its
+/// plane.
 void take_corners_apart(Draw& draw, Mesh& mesh) {
   constexpr double weights[][3] = {{8, 0, 0}, {6, 1, 1}, {5, 2, 1},
                                    {4, 1, 3}, {7, 0, 1}, {6, 2, 0}};

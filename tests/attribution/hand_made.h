@@ -11,8 +11,8 @@
 /// What is known of a map, made by hand where a renderer would take long to come by it.
 namespace fathom::test {
 
-/// An image of width × height pixels, each with the depth of its own that `depth(column, row)` says;
-/// infinite is background, the rest triangle 0.
+/// An image of width × height pixels, each with the depth of its own that `depth(column, row)`
+/// says; infinite is background, the rest triangle 0.
 template <class Depth>
 attribution::Truth truth_of(std::uint32_t width, std::uint32_t height, const Depth& depth) {
   attribution::Truth truth;

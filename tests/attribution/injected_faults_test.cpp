@@ -17,8 +17,8 @@
 #include "tests/attribution/halfs.h"
 #include "validation/scenes/shapes.h"
 
-/// Maps that were drawn by a camera that is a little off, or changed afterwards: the fault is named,
-/// and how large it is.
+/// Maps that were drawn by a camera that is a little off, or changed afterwards: the fault is
+/// named, and how large it is.
 namespace fathom::attribution {
 namespace {
 

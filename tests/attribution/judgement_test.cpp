@@ -109,7 +109,8 @@ TEST(Judgement, WithoutNearAndFarItSaysThatNoRasterizerWasTried) {
   EXPECT_THAT(found.attribution.notes.back().text, HasSubstr("has not both near and far"));
 }
 
-// A thousandth of noise, which no model has; a sphere on its background is not another scene for it.
+// A thousandth of noise, which no model has; a sphere on its background is not another scene for
+// it.
 TEST(Judgement, ASceneWithNoiseIsNoOtherScene) {
   const auto truth = sphere_seen_by(sphere_camera(0.5, 20));
   OtherMap map = in_binary32(*truth);
@@ -151,8 +152,8 @@ TEST(ForeignValues, OfCodesThereAreNoneInTheirOwnStorage) {
   EXPECT_EQ(foreign_values(camera, in_binary32(*truth), model_named("gl-float32-reversed")), 0U);
 }
 
-// Nearly every depth lies between two codes of 16 bits; of 24 bits there are too few codes for them,
-// where near is so small that a code is 10⁻³ of the depth.
+// Nearly every depth lies between two codes of 16 bits; of 24 bits there are too few codes for
+// them, where near is so small that a code is 10⁻³ of the depth.
 TEST(ForeignValues, OfDepthsInBinary32MostAreForeignToACoarseStorage) {
   const auto truth = sphere_seen_by(sphere_camera(0.00005, 20));
   std::uint64_t surfaces = 0;

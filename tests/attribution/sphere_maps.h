@@ -35,7 +35,8 @@ inline attribution::OtherMap in_binary32(const attribution::Truth& truth) {
   return map;
 }
 
-/// The exact depths, stored as window depths of so many bits between near and far, read in binary32.
+/// The exact depths, stored as window depths of so many bits between near and far, read in
+/// binary32.
 inline attribution::OtherMap in_codes(const attribution::Truth& truth, int bits, double near,
                                       double far) {
   const attribution::WindowDepth window =

@@ -15,7 +15,8 @@
 #include "validation/scenes/shapes.h"
 
 /// Meshes of two triangles and of a few: what is measured of a fault is no farther from the truth
-/// than its standard deviation says. Every corner is rounded to binary32, once, and its triangles share that.
+/// than its standard deviation says. Every corner is rounded to binary32, once, and its triangles
+/// share that.
 namespace fathom::attribution {
 namespace {
 

@@ -14,7 +14,8 @@
 #include "fathom/attribution/model_choice.h"
 #include "tests/attribution/sphere_maps.h"
 
-/// Right maps in which a few pixels are wrong: these pixels are blamed and no others, whatever model is named.
+/// Right maps in which a few pixels are wrong: these pixels are blamed and no others, whatever
+/// model is named.
 namespace fathom::attribution {
 namespace {
 

@@ -11,8 +11,8 @@
 namespace fathom::attribution {
 namespace {
 
-/// A wall of 10 × 10 triangles, each of which shows 3 × 3 pixels; those in odd columns run the other
-/// way round.
+/// A wall of 10 × 10 triangles, each of which shows 3 × 3 pixels; those in odd columns run the
+/// other way round.
 struct Wall {
   Truth truth = test::truth_of(30, 30, [](std::uint32_t, std::uint32_t) { return 2.0; });
   Attribution found = test::all_equal(truth);

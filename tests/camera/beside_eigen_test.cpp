@@ -1,5 +1,6 @@
-// Cameras that are made or imported are rounded once; Eigen's decompositions, quaternions and inverses
-// in binary64 round several times. That is why they are not used there (docs/conventions.md).
+// Cameras that are made or imported are rounded once; Eigen's decompositions, quaternions and
+// inverses in binary64 round several times. That is why they are not used there
+// (docs/conventions.md).
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

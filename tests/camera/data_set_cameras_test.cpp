@@ -1,6 +1,6 @@
-// The cameras of data sets project as these document them: a point that is given in the camera's own
-// axes, taken to the world by the pose, is seen where K has it. All of them count the first pixel's
-// centre as 0, which ours has at ½.
+// The cameras of data sets project as these document them: a point that is given in the camera's
+// own axes, taken to the world by the pose, is seen where K has it. All of them count the first
+// pixel's centre as 0, which ours has at ½.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

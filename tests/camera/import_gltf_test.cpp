@@ -1,5 +1,5 @@
-// glTF's cameras project as its specification does (3.10): by the projection matrix of its lens, and
-// the node's global transform without its scale.
+// glTF's cameras project as its specification does (3.10): by the projection matrix of its lens,
+// and the node's global transform without its scale.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// KITTI's rectified cameras project as its development kit does: s·(u, v, 1) = P_i·X, X of rectified
-// camera 0, whose pose takes it to the world.
+// KITTI's rectified cameras project as its development kit does: s·(u, v, 1) = P_i·X, X of
+// rectified camera 0, whose pose takes it to the world.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -51,8 +51,8 @@ void expect_seen(const Camera& camera, Real fx, Real fy, Real cx, Real cy) {
 const std::string plain = R"("type": "pinhole", "distortionType": "none",
       "undistortionType": "none", "distortionParams": "", )";
 
-/// The same camera, 1000 and 2000 pixels and (2020, 1040), as each version writes it: the files that
-/// AliceVision keeps to test its own reading (src/aliceVision/sfmDataIO/compatibilityData).
+/// The same camera, 1000 and 2000 pixels and (2020, 1040), as each version writes it: the files
+/// that AliceVision keeps to test its own reading (src/aliceVision/sfmDataIO/compatibilityData).
 TEST(ImportSfmData, FocalLengthsAndPrincipalPointsOfEachVersion) {
   const std::string offset = R"("principalPoint": ["-26", "16"])";
   const auto camera = [](const std::string& version, const std::string& intrinsic) {

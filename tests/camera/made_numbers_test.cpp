@@ -1,4 +1,5 @@
-// Numbers of cameras that follow from angles: the exact ones rounded once, judged by MPFR with 700 bits.
+// Numbers of cameras that follow from angles: the exact ones rounded once, judged by MPFR with 700
+// bits.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mpfr.h>
@@ -21,7 +22,8 @@ namespace {
 using namespace camera;
 using ::testing::HasSubstr;
 
-/// A number of 700 bits: what it loses in a few operations is beyond any binary64 rounding that is drawn here.
+/// A number of 700 bits: what it loses in a few operations is beyond any binary64 rounding that is
+/// drawn here.
 class Wide {
  public:
   Wide(double x = 0) {

@@ -11,8 +11,8 @@
 /// CGAL's Boolean_set_operations_2 as the independent answer. Only cgal_judge.cpp includes it.
 namespace fathom::clipping::test {
 
-/// What subject ∩ clip, subject − clip and subject ∪ clip are. A side is the exclusive or of its rings, which is
-/// the even-odd rule; nothing of ours orients or nests them.
+/// What subject ∩ clip, subject − clip and subject ∪ clip are. A side is the exclusive or of its
+/// rings, which is the even-odd rule; nothing of ours orients or nests them.
 class Judge {
  public:
   Judge(const Rings<Rational>& subject, const Rings<Rational>& clip);

@@ -53,9 +53,9 @@ class Rational {
 Rational number(Storage storage, std::uint64_t bits);
 
 /// The sign of f(depth) − value. Logarithms are equal where they agree to 4950 bits. With binary64
-/// near, far and C, and the boundaries of rounding asked about here, no two different ones come near
-/// to that: they do most where C·far is tiny, and then f(D) is D/far up to a factor of 1 + C·far/2,
-/// which is above 2⁻²¹⁵⁰.
+/// near, far and C, and the boundaries of rounding asked about here, no two different ones come
+/// near to that: they do most where C·far is tiny, and then f(D) is D/far up to a factor of 1 +
+/// C·far/2, which is above 2⁻²¹⁵⁰.
 int compare_map(const DepthFormat& format, const Rational& depth, const Rational& value);
 
 /// Whether `bits` is f(depth) rounded to nearest, ties to even.

@@ -68,7 +68,8 @@ TEST(Encoding, CodesOfADivisorAreExactQuotientsRoundedOnce) {
     EXPECT_EQ(map.png_scale, scale / divisor);
     return map.values<std::uint16_t>("Z")->at(0);
   };
-  // 0.1 in binary64 is more than a tenth, so the quotient lies below the tie, whose even code is 10008.
+  // 0.1 in binary64 is more than a tenth, so the quotient lies below the tie, whose even code is
+  // 10008.
   EXPECT_EQ(code_of(1000.75, 1, 0.1), 10007);
   EXPECT_EQ(code_of(1000.75, 10, 1), 10008);
   std::mt19937_64 random(3);

@@ -80,8 +80,8 @@ std::map<std::string, const void*> places_of(const DepthMap& map) {
   return places;
 }
 
-/// One map and one memory for scenes, sizes, engines, channels and encodings in turn: what was there
-/// never shows, and what has the same name, type and size stays where it is.
+/// One map and one memory for scenes, sizes, engines, channels and encodings in turn: what was
+/// there never shows, and what has the same name, type and size stays where it is.
 TEST(RenderInto, GivesTheMapOfRenderWhereTheChannelsWereBefore) {
   CaseMaker cases(21, Kind::few_bits);
   RenderMemory memory;

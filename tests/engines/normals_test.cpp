@@ -146,8 +146,8 @@ Scene roof(bool seam) {
 }
 
 // Area vectors of the sides: (−2, 0, −2)·4 and (4, 0, −2)·4. At the vertex (2, 0) meet one or two
-// triangles of each side; along the ridge the sums are (−2 + 2·4, −4 − 4) and (−4 + 4, −4 − 2) = in x
-// and z, so that at its middle the normal is along (6 + 0, −6 − 6).
+// triangles of each side; along the ridge the sums are (−2 + 2·4, −4 − 4) and (−4 + 4, −4 − 2) = in
+// x and z, so that at its middle the normal is along (6 + 0, −6 − 6).
 TEST(Normals, AreSharedByVertexOrByPlace) {
   const Camera camera = grid_camera(4, 4);
   const std::size_t ridge = 8 + 2;  // belongs to the triangle on its right
@@ -236,14 +236,15 @@ TEST(Normals, InTheCameraFrameAreThoseOfWhatTheCameraSees) {
 }
 
 // x/2ⁿ with x odd and n ≥ 1 is no component of a unit vector along a rational one: from
-// a² + b² + c² = d² with a/d = x/2ⁿ would follow (2ⁿ − x)(2ⁿ + x)·m² = p² + q² in integers with m odd,
-// whose left side is 3 modulo 4. So nothing ever lies exactly between two binary32 numbers; as near to
-// that as numbers of a file come is this.
+// a² + b² + c² = d² with a/d = x/2ⁿ would follow (2ⁿ − x)(2ⁿ + x)·m² = p² + q² in integers with m
+// odd, whose left side is 3 modulo 4. So nothing ever lies exactly between two binary32 numbers; as
+// near to that as numbers of a file come is this.
 TEST(Normals, ThatAlmostLieBetweenTwoNumbersAreRoundedRight) {
   std::mt19937_64 random(17);
   int below = 0, above = 0;
   for (int i = 0; i < 200; ++i) {
-    // The middle of two binary32 numbers, h = x/2²⁵, and b/a the binary64 number nearest to √(1/h² − 1).
+    // The middle of two binary32 numbers, h = x/2²⁵, and b/a the binary64 number nearest to √(1/h²
+    // − 1).
     const double h = std::ldexp(static_cast<double>((random() >> 40) | (1U << 24U) | 1U), -25);
     const double b = std::sqrt((1 - h) * (1 + h)) / h;
     Scene scene = wall();

@@ -25,8 +25,9 @@ TEST(ExactDistance, OfTrianglesWithoutArea) {
   EXPECT_TRUE(is(squared_distance(p, {a, a, a}), 13));
 }
 
-// Triangles of all shapes, thin ones and ones without area among them, and points anywhere, on corners, edges and in the
-// plane too. The bounds hold, and mostly lie as near to each other as rounding lets them.
+// Triangles of all shapes, thin ones and ones without area among them, and points anywhere, on
+// corners, edges and in the plane too. The bounds hold, and mostly lie as near to each other as
+// rounding lets them.
 TEST(DistanceBounds, HoldAndAreTight) {
   std::mt19937 random(10);
   std::uniform_real_distribution<double> any(-1, 1);
@@ -93,7 +94,8 @@ TEST(NearestSurface, IsThatOfCgalInUnitsThatBinary64HardlyHas) {
   }
 }
 
-// Far from the origin a distance is the difference of numbers of which binary64 has few digits left.
+// Far from the origin a distance is the difference of numbers of which binary64 has few digits
+// left.
 TEST(NearestSurface, OfSurfacesFarFromTheOrigin) {
   std::mt19937 random(6);
   Scene from = test::whole_soup(random, 9, 10), to = test::whole_soup(random, 9, 30);

@@ -13,8 +13,8 @@ namespace fathom::evaluation::test {
 /// Whether the camera sees the point of the scene's surface.
 bool is_seen(const Scene& scene, const SurfacePoint& point, const Camera& camera, Cull cull);
 
-/// The square of the point's distance from the nearest triangle of the other scene, by CGAL, rounded
-/// to nearest; none of its triangles may be without area.
+/// The square of the point's distance from the nearest triangle of the other scene, by CGAL,
+/// rounded to nearest; none of its triangles may be without area.
 double squared_distance(const Scene& scene, const SurfacePoint& point, const Scene& other);
 
 }  // namespace fathom::evaluation::test

@@ -1,5 +1,5 @@
-// Tiles that are drawn in several places, of triangles that come in rounds: the map of the whole scene,
-// bit for bit.
+// Tiles that are drawn in several places, of triangles that come in rounds: the map of the whole
+// scene, bit for bit.
 #include "fathom/fast/some_tiles.h"
 
 #include <gtest/gtest.h>
@@ -166,8 +166,8 @@ TEST(TilesInRounds, SliversWithAllWaysToCull) {
   }
 }
 
-/// Corners behind the eye and beside it: bins, setups and coverage ask exact numbers for triangles whose
-/// numbers in a round are not those in the scene, in every tile.
+/// Corners behind the eye and beside it: bins, setups and coverage ask exact numbers for triangles
+/// whose numbers in a round are not those in the scene, in every tile.
 TEST(TilesInRounds, TrianglesAroundTheEye) {
   std::mt19937_64 random(504);
   for (int i = 0; i < 6 / testing::effort + 1; ++i) {
@@ -198,8 +198,8 @@ TEST(TilesInRounds, TrianglesAroundTheEye) {
   }
 }
 
-/// Where coordinates cancel, coverage is settled by exact corners, which each object places its own way:
-/// the triangle that says which object it is has another number in a round.
+/// Where coordinates cancel, coverage is settled by exact corners, which each object places its own
+/// way: the triangle that says which object it is has another number in a round.
 TEST(TilesInRounds, PlacedObjects) {
   std::mt19937_64 random(506);
   const Camera camera = testing::camera_of(160, 140, 64);
@@ -246,8 +246,8 @@ TEST(TilesInRounds, Adversaries) {
   }
 }
 
-/// Most triangles are hidden, and surfaces of a tile are forgotten many times; those of a round are more
-/// than there is room for where the tile waits, next to another one.
+/// Most triangles are hidden, and surfaces of a tile are forgotten many times; those of a round are
+/// more than there is room for where the tile waits, next to another one.
 TEST(TilesInRounds, ManySurfacesOfATile) {
   std::mt19937_64 random(503);
   const Camera camera = testing::camera_of(128, 30, 64);

@@ -1,5 +1,6 @@
-// A library to be preloaded (LD_PRELOAD) that lets the Nth call of a class of system functions fail,
-// as in a machine that is out of memory, of room on its disk, of threads or of file descriptors.
+// A library to be preloaded (LD_PRELOAD) that lets the Nth call of a class of system functions
+// fail, as in a machine that is out of memory, of room on its disk, of threads or of file
+// descriptors.
 //
 //   FATHOM_FAULT=CLASS:N:MODE   MODE: once, or lasting (the Nth call and all that follow)
 //   FATHOM_FAULT_COUNTS=FILE    a file of 4096 bytes, in which the calls of each class are counted

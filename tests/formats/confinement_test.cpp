@@ -1,5 +1,5 @@
-// What others' libraries do stays in fathom-formats: it sees one file, and its end, whichever it is,
-// is one line and exit status 3.
+// What others' libraries do stays in fathom-formats: it sees one file, and its end, whichever it
+// is, is one line and exit status 3.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

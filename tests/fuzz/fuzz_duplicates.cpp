@@ -1,5 +1,5 @@
-// Scenes in which triangles repeat and lie in few planes, by both engines: the maps must be the same,
-// bit for bit, and so must the areas that a scene has with one of each.
+// Scenes in which triangles repeat and lie in few planes, by both engines: the maps must be the
+// same, bit for bit, and so must the areas that a scene has with one of each.
 #include <array>
 
 #include "fathom/area/visible_areas.h"

@@ -4,8 +4,8 @@
 #include "fathom/failures/errors.h"
 #include "fathom/image/files/map_codecs.h"
 
-/// Readers of EXR, PFM, PNG, NPY, NPZ and COLMAP's maps: any bytes are a map or an InputError. A map that was read has
-/// as many values as pixels.
+/// Readers of EXR, PFM, PNG, NPY, NPZ and COLMAP's maps: any bytes are a map or an InputError. A
+/// map that was read has as many values as pixels.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     const fathom::DepthMap map =

@@ -1,5 +1,5 @@
-// A line of `fathom scan`: the first byte says by which algorithm, the second in which arithmetic and
-// form, the rest is the case. It has an answer, which is JSON, or an InputError of one line.
+// A line of `fathom scan`: the first byte says by which algorithm, the second in which arithmetic
+// and form, the rest is the case. It has an answer, which is JSON, or an InputError of one line.
 #include <cstdint>
 
 #include "apps/textbook/scan/scan_algorithms.h"

@@ -1,5 +1,5 @@
-// Eigen as our targets compile it: sums have one order and no product is fused with one, whatever the
-// compiler is told of the machine. Run this with -DCMAKE_CXX_FLAGS=-march=native too.
+// Eigen as our targets compile it: sums have one order and no product is fused with one, whatever
+// the compiler is told of the machine. Run this with -DCMAKE_CXX_FLAGS=-march=native too.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>

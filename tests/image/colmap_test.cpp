@@ -141,8 +141,8 @@ TEST(Colmap, HostileFilesAreRefusedInALine) {
               HasSubstr("pixel (0, 0): a normal with nan"));
 }
 
-/// After read_array() of COLMAP's scripts/python/read_write_dense.py: a header that NumPy parses, then
-/// Fortran's order of width, height and channels.
+/// After read_array() of COLMAP's scripts/python/read_write_dense.py: a header that NumPy parses,
+/// then Fortran's order of width, height and channels.
 constexpr const char* read_array = R"(
 import numpy as np
 def read_array(path):

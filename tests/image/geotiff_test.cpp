@@ -31,7 +31,8 @@ Camera from_above() {
   return camera;
 }
 
-/// More rows than a strip has, and a last strip that is shorter: numbers of every size, some rows equal.
+/// More rows than a strip has, and a last strip that is shorter: numbers of every size, some rows
+/// equal.
 DepthMap plan(std::uint32_t width, std::uint32_t height) {
   const std::size_t count = std::size_t{width} * height;
   std::vector<float> z(count), position(count), a(count);

@@ -1,5 +1,5 @@
-// Maps and cameras that users of the library fill in: what is wrong with one is told in a line, and no
-// function takes one that is wrong.
+// Maps and cameras that users of the library fill in: what is wrong with one is told in a line, and
+// no function takes one that is wrong.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -14,7 +14,8 @@ namespace {
 
 using image::world_from_image;
 
-/// 40×30 pixels, 8 to the unit, that looks down from z = 10: x to the right, y upwards in the image.
+/// 40×30 pixels, 8 to the unit, that looks down from z = 10: x to the right, y upwards in the
+/// image.
 Camera from_above() {
   Camera camera;
   camera.width = 40;

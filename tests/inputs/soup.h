@@ -37,8 +37,8 @@ inline Scene soup(std::mt19937_64& random, int triangles, bool on_samples) {
   return scene_of(std::move(vertices), std::move(indices));
 }
 
-/// The same image with triangles across it that are a few pixels wide at most, upright and level ones
-/// among them, and some large ones that they may pass behind.
+/// The same image with triangles across it that are a few pixels wide at most, upright and level
+/// ones among them, and some large ones that they may pass behind.
 inline Scene slivers(std::mt19937_64& random, int triangles) {
   std::vector<MeshPoint> vertices;
   std::vector<CornerIndices> indices;

@@ -29,7 +29,8 @@ std::string text_of(const Ring& ring) {
   return text;
 }
 
-/// The sides of the triangles, those that two share in opposite directions left out, are the ring's.
+/// The sides of the triangles, those that two share in opposite directions left out, are the
+/// ring's.
 void expect_the_rings_sides(std::size_t corners, const Triangles& triangles) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> ways;
   const auto go = [&](std::uint32_t from, std::uint32_t to, int way) {

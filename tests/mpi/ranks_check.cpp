@@ -1,5 +1,5 @@
-// What ranks tell each other arrives, in however many rounds, and that one of them gives up: started by mpirun, exit
-// status 0 where it does.
+// What ranks tell each other arrives, in however many rounds, and that one of them gives up:
+// started by mpirun, exit status 0 where it does.
 #include <cstdio>
 #include <random>
 #include <stdexcept>
@@ -51,8 +51,8 @@ bool sparse_messages_arrive(const Ranks& ranks, std::size_t most_on_the_way) {
   return ranks.least(well ? 1 : 0) == 1;
 }
 
-/// One of them fails while it works, or while it takes what comes: all others end, too, and hear of it where
-/// that is of use.
+/// One of them fails while it works, or while it takes what comes: all others end, too, and hear of
+/// it where that is of use.
 bool sparse_failures_end(const Ranks& ranks, int failing, bool while_taking) {
   const bool is_failing = ranks.self() == failing;
   bool told = false, thrown = false;

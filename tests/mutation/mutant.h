@@ -1,11 +1,14 @@
-/// What `scripts/dev/mutate` puts in place of operators and numbers (tests/mutation/instrument.py): each does what stood
-/// there, unless its mutant is the chosen one. All mutants are compiled in; FATHOM_MUTANT chooses one at run time.
+/// What `scripts/dev/mutate` puts in place of operators and numbers (tests/mutation/instrument.py):
+/// each does what stood there, unless its mutant is the chosen one. All mutants are compiled in;
+/// FATHOM_MUTANT chooses one at run time.
 ///
-/// A mutant exists where code is made for it: constant expressions stay as they are, and where the types have no such
-/// operator there is none. The numbers of those that exist stand in the section .fathom_mutants of the object files.
+/// A mutant exists where code is made for it: constant expressions stay as they are, and where the
+/// types have no such operator there is none. The numbers of those that exist stand in the section
+/// .fathom_mutants of the object files.
 ///
-/// With FATHOM_MUTANT_TRACE, a folder, and FATHOM_MUTANT_TEST, the name of a file in it, each mutant that is executed
-/// sets a byte of that file, which all processes of a test map into their memory.
+/// With FATHOM_MUTANT_TRACE, a folder, and FATHOM_MUTANT_TEST, the name of a file in it, each
+/// mutant that is executed sets a byte of that file, which all processes of a test map into their
+/// memory.
 #pragma once
 #pragma GCC system_header
 
@@ -46,7 +49,8 @@ inline int number_of(const char* text) {
 inline const int chosen = number_of(std::getenv("FATHOM_MUTANT"));
 inline unsigned char* reached = trace_of(std::getenv("FATHOM_MUTANT_TEST"));
 
-/// Whether mutant n is the chosen one. Notes that it was reached, and in the object file that it exists.
+/// Whether mutant n is the chosen one. Notes that it was reached, and in the object file that it
+/// exists.
 template <int n>
 [[gnu::always_inline]] inline bool on() {
   static_assert(n < most);
@@ -55,8 +59,9 @@ template <int n>
   return chosen == n;
 }
 
-// What stood there, or a second operator; for comparisons also their opposite. There is a mutant only where the second
-// one gives the same type; of comparisons, a type may have just the one that is used.
+// What stood there, or a second operator; for comparisons also their opposite. There is a mutant
+// only where the second one gives the same type; of comparisons, a type may have just the one that
+// is used.
 #define FATHOM_MUTANT_OPERATOR(name, original, other)                      \
   template <int n, class L, class R>                                       \
   [[gnu::always_inline]] constexpr decltype(auto) name(L&& l, R&& r) {     \
@@ -120,8 +125,8 @@ template <int n, class T>
   return original;
 }
 
-/// A truth value, or its opposite: `!x` is turned<n>(!x), and `a && b` is turned<n>(turned<n>(a) && turned<n>(b)), which
-/// is a || b where the mutant is on, and evaluates b only if it has to.
+/// A truth value, or its opposite: `!x` is turned<n>(!x), and `a && b` is turned<n>(turned<n>(a) &&
+/// turned<n>(b)), which is a || b where the mutant is on, and evaluates b only if it has to.
 template <int n, class T>
 [[gnu::always_inline]] constexpr bool turned(T&& value) {
   if (!std::is_constant_evaluated() && on<n>()) return !static_cast<bool>(std::forward<T>(value));

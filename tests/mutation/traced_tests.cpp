@@ -1,4 +1,5 @@
-// Linked into each test program by scripts/dev/mutate: which mutants a test reaches is written to a file of the test's name.
+// Linked into each test program by scripts/dev/mutate: which mutants a test reaches is written to a
+// file of the test's name.
 #include <gtest/gtest.h>
 
 #include <algorithm>

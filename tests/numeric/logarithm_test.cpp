@@ -138,8 +138,8 @@ Rounded rounded_by_us(const Real& x, const testing::FloatingPointMode* mode) {
   return result;
 }
 
-/// Where x comes within 2⁻¹⁵⁰⁰ of a number of which 2²⁰⁰ times are whole, it is that: a tie, perhaps.
-/// No other number that is drawn comes so near.
+/// Where x comes within 2⁻¹⁵⁰⁰ of a number of which 2²⁰⁰ times are whole, it is that: a tie,
+/// perhaps. No other number that is drawn comes so near.
 void make_dyadic_exact(mpfr_ptr x) {
   Wide multiple, nearest;
   mpfr_mul_2si(multiple, x, 200, MPFR_RNDN);

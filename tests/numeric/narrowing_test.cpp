@@ -1,6 +1,6 @@
-// A conversion to float rounds, whatever the compiler makes of its neighbours. GCC 12 at -O3 packs the
-// first two of three coordinates into one instruction and drops their conversions, unless it is told
-// not to (cmake/FathomOptions.cmake).
+// A conversion to float rounds, whatever the compiler makes of its neighbours. GCC 12 at -O3 packs
+// the first two of three coordinates into one instruction and drops their conversions, unless it is
+// told not to (cmake/FathomOptions.cmake).
 
 #include <gtest/gtest.h>
 

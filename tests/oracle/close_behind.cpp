@@ -98,8 +98,8 @@ bool Behind::reaches(const Polygon& part, const Q& limit, bool closed) const {
   return false;
 }
 
-/// A polynomial of degree 2 that is 0 at three points of each side is 0 on at least three lines, and
-/// so everywhere.
+/// A polynomial of degree 2 that is 0 at three points of each side is 0 on at least three lines,
+/// and so everywhere.
 bool Behind::is_constantly(const Polygon& part, const Q& limit) const {
   for (std::size_t i = 0; i < part.size(); ++i) {
     const Point &p = part[i], &q = part[(i + 1) % part.size()];

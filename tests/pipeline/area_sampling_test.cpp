@@ -139,7 +139,8 @@ TEST(AreaSampling, IsTheExactPictureWhereNothingIsSnapped) {
   EXPECT_GT(several, 100U);  // the scenes are as crowded as they are meant to be
 }
 
-/// A part of a triangle is shaded at its centroid, where an affine colour is its mean over the part.
+/// A part of a triangle is shaded at its centroid, where an affine colour is its mean over the
+/// part.
 TEST(AreaSampling, ShadesAPartAtItsCentroid) {
   Scene scene;
   Mesh mesh;

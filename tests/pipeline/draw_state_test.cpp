@@ -73,8 +73,8 @@ TEST(DepthFunction, LetsThroughWhatOpenGlDefines) {
   EXPECT_EQ(seen({{100, {}}}), 0);
 }
 
-// As in OpenGL with blending and without GL_DEPTH_TEST: the stencil test comes first, and a fragment
-// that no depth test looks at passes.
+// As in OpenGL with blending and without GL_DEPTH_TEST: the stencil test comes first, and a
+// fragment that no depth test looks at passes.
 TEST(Blending, WithoutADepthTestTheStencilTestStillDecides) {
   PipelineOptions options = unlit();
   options.blend_alpha = 0.5;
@@ -272,7 +272,8 @@ TEST(DrawState, IsRefusedWithoutADepthBuffer) {
   EXPECT_EQ(failure(painter), "");
 }
 
-/// An offset beyond the far plane is stored as the far plane, and one before the near plane as that.
+/// An offset beyond the far plane is stored as the far plane, and one before the near plane as
+/// that.
 TEST(PolygonOffset, StaysWithinTheDepthBuffer) {
   for (const auto scan : {ScanConversion::edge_function, ScanConversion::scan_line}) {
     PipelineOptions options = unlit();

@@ -136,7 +136,8 @@ TEST(Errata, E05_ALineDividesOnce) {
 }
 
 TEST(Errata, E06_AParabolasParameterCoversHalfOfTheLine) {
-  // y = 2x + 4 from (−6, −8) to (6, 16): one pixel in each row, the nearest, at a tie the right one.
+  // y = 2x + 4 from (−6, −8) to (6, 16): one pixel in each row, the nearest, at a tie the right
+  // one.
   const Pixels line = right_line({-6, -8, 6, 16});
   Pixels nearest;
   for (int y = -8; y <= 16; ++y) {

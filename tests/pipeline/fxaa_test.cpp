@@ -59,8 +59,8 @@ ColourImage stairs_of_eight() {
 }
 
 /// What the published search gives, worked out by hand: a run of eight pixels, k = 0 … 7 from the
-/// step at its left end. The right end is found at the first pixel beyond, 8 − k to the right, since
-/// the steps 1, 1, 1, 1, 1, 1.5, 2 stop at sums of 1, 2, 3, 4, 5, 6.5, 8.5, …
+/// step at its left end. The right end is found at the first pixel beyond, 8 − k to the right,
+/// since the steps 1, 1, 1, 1, 1, 1.5, 2 stop at sums of 1, 2, 3, 4, 5, 6.5, 8.5, …
 double distance_found(int away) {
   // Between columns luma is interpolated: at 6.5 the column beyond counts half, and a half of the
   // change across the step is above the limit of a quarter.
@@ -80,7 +80,8 @@ TEST(Fxaa, FindsTheEndsOfAnEdgeAndMixesByTheirDistance) {
     const double left = distance_found(k + 1), right = distance_found(8 - k);
     const double share = 0.5 - std::min(left, right) / (left + right);
     const auto x = static_cast<std::uint32_t>(20 + k);
-    // White gives way to black where the edge falls towards it, and black to white at the other end.
+    // White gives way to black where the edge falls towards it, and black to white at the other
+    // end.
     const double white = smooth.at(x, row)[0], black = smooth.at(x, row - 1)[0];
     EXPECT_NEAR(1 - white, left > right ? share : 0, 1e-12) << k;
     EXPECT_NEAR(black, left < right ? share : 0, 1e-12) << k;
@@ -128,8 +129,8 @@ TEST(Fxaa, RemovesDetailsBelowAPixelByTheSettingForThem) {
   EXPECT_NEAR(fxaa(dot, {0.166, 0.0833, 0.5}).at(4, 4)[0], 0.5, 1e-15);
 }
 
-/// A stair with runs of any length, up to longer than the search goes, falling or rising, by rows or
-/// by columns, in any two colours; or in red and black, whose sums of lumas are exact.
+/// A stair with runs of any length, up to longer than the search goes, falling or rising, by rows
+/// or by columns, in any two colours; or in red and black, whose sums of lumas are exact.
 ColourImage any_stair(std::mt19937& random) {
   const bool transposed = random() % 2 == 0, mirrored = random() % 2 == 0;
   const std::uint32_t run = 1 + random() % 40, start = random() % 40;
@@ -193,8 +194,8 @@ TEST(Fxaa, IsThePublishedAlgorithm) {
   EXPECT_LT(ties, changed / 10);
 }
 
-/// Where luma changes as much from row to row as from column to column, the edge is horizontal. Luma is
-/// 0 or 1 here, so that sums have no rounding.
+/// Where luma changes as much from row to row as from column to column, the edge is horizontal.
+/// Luma is 0 or 1 here, so that sums have no rounding.
 TEST(Fxaa, TakesAnEdgeForHorizontalWhenInDoubt) {
   const Colour red{1 / 0.299, 0, 0};
   ASSERT_EQ(0.299 * red[0], 1);

@@ -107,8 +107,8 @@ TEST(GeometryStages, CountFragmentsAndBlocks) {
   EXPECT_EQ(s.fragments, 1152u);
   EXPECT_EQ(s.depth_passed, 576u);
   EXPECT_EQ(s.shaded, 576u);
-  // Of the 16 blocks of each triangle, one is wholly inside the upper one, from (16, 8); three are below the
-  // line and six above it.
+  // Of the 16 blocks of each triangle, one is wholly inside the upper one, from (16, 8); three are
+  // below the line and six above it.
   EXPECT_EQ(s.blocks_full, 2u);
   EXPECT_EQ(s.blocks_skipped, 18u);
   options.antialias = {AntialiasMethod::msaa, 4};
@@ -154,8 +154,8 @@ TEST(GeometryStages, ObjectsAreNumberedOneAfterTheOther) {
   EXPECT_TRUE(window.triangles[0].front);
 }
 
-/// The world's point is where exact arithmetic places it, and the normal stands on what it stood on:
-/// on the two directions in its plane, and on the same side.
+/// The world's point is where exact arithmetic places it, and the normal stands on what it stood
+/// on: on the two directions in its plane, and on the same side.
 TEST(VertexTransform, AttributesGoWithTheirVertex) {
   std::mt19937_64 random(17);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -499,8 +499,8 @@ TEST(Options, RectanglesMayReachTheLimits) {
   }
 }
 
-/// Each of Newell's tests of planes by itself: what is behind the other's plane, and what has the other before
-/// its own.
+/// Each of Newell's tests of planes by itself: what is behind the other's plane, and what has the
+/// other before its own.
 TEST(Painter, PlanesSettleWhatOneSideOfOneOfThemSettles) {
   const auto settled = [](const std::vector<MeshPoint>& points) {
     PipelineOptions options = precise();
@@ -508,15 +508,16 @@ TEST(Painter, PlanesSettleWhatOneSideOfOneOfThemSettles) {
     return render_frame(testing::scene_of(points, {{0, 1, 2}, {3, 4, 5}}), camera(), options, false)
         .painter;
   };
-  // The farther one (it has the farthest corner) is level at z = 5 but for that; the other one's plane passes
-  // through it, or not.
+  // The farther one (it has the farthest corner) is level at z = 5 but for that; the other one's
+  // plane passes through it, or not.
   const std::vector<MeshPoint> level{{-1, -1, 5}, {1, -1, 5}, {0, 1, 5}};
   const auto with_level = [&](const std::vector<MeshPoint>& other) {
     std::vector<MeshPoint> both = level;
     both.insert(both.end(), other.begin(), other.end());
     return settled(both);
   };
-  // In front of z = 5, its own plane cuts the level one: test 4 alone. Depths overlap by a touch at 5.
+  // In front of z = 5, its own plane cuts the level one: test 4 alone. Depths overlap by a touch at
+  // 5.
   const PainterStatistics before = with_level({{-0.2, -0.2, 4}, {0.2, -0.2, 4.99}, {0, 0.2, 4.5}});
   EXPECT_EQ(before.z_disjoint, 1u);
   const std::vector<MeshPoint> tilted{{-1, -1, 4}, {1, -1, 6}, {0, 1, 5}};

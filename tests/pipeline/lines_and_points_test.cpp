@@ -149,8 +149,8 @@ std::vector<std::array<double, 2>> sample_places(const Antialias& antialias) {
   return places;
 }
 
-/// White by the share of samples in the area of a line or point: a rectangle one pixel wide, a square
-/// one pixel large. No sample lies on a border.
+/// White by the share of samples in the area of a line or point: a rectangle one pixel wide, a
+/// square one pixel large. No sample lies on a border.
 void expect_areas(const ColourImage& image, const Antialias& antialias,
                   const std::function<bool(double, double)>& is_inside) {
   const auto places = sample_places(antialias);

@@ -55,7 +55,8 @@ TEST(PlaneSides, ProjectionsOverlapByMoreThanTheirBoundaries) {
   }
 }
 
-/// The area that two triangles of small integers have in common, by cutting one with the other's sides.
+/// The area that two triangles of small integers have in common, by cutting one with the other's
+/// sides.
 double common_area(std::vector<Point3d> p, const std::vector<Point3d>& q) {
   const auto side = [](const Point3d& a, const Point3d& b, const Point3d& c) {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);

@@ -7,8 +7,9 @@
 
 #include "fathom/pipeline/output/output_merger.h"
 
-/// FXAA 3.11 "quality", preset 39, statement by statement as [Lot09]'s successor publishes it, pixel
-/// positions in place of texture coordinates: what fxaa() is held to. Nothing is shared with it.
+/// FXAA 3.11 "quality", preset 39, statement by statement as [Lot09]'s successor publishes it,
+/// pixel positions in place of texture coordinates: what fxaa() is held to. Nothing is shared with
+/// it.
 namespace fathom::pipeline::published {
 
 struct Picture {

@@ -1,5 +1,5 @@
-// Triangles on the grid and lines in the window against definitions: products of differences, and the nearest points of
-// segments.
+// Triangles on the grid and lines in the window against definitions: products of differences, and
+// the nearest points of segments.
 
 #include <gtest/gtest.h>
 
@@ -25,8 +25,8 @@ std::int64_t turn(const GridPoint& p, const GridPoint& q, const GridPoint& r) {
   return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
 }
 
-/// The specification's rule: strictly inside, or on an edge whose inward normal points to the right or, for a
-/// level edge, down.
+/// The specification's rule: strictly inside, or on an edge whose inward normal points to the right
+/// or, for a level edge, down.
 bool is_covered(const std::array<GridPoint, 3>& t, const GridPoint& s) {
   const bool clockwise = turn(t[0], t[1], t[2]) > 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -41,7 +41,8 @@ bool is_covered(const std::array<GridPoint, 3>& t, const GridPoint& s) {
 }
 
 std::array<GridPoint, 3> random_triangle(std::mt19937_64& random) {
-  // Corners at multiples of a quarter of a pixel, from 6 pixels before to 12 after the origin: ties abound.
+  // Corners at multiples of a quarter of a pixel, from 6 pixels before to 12 after the origin: ties
+  // abound.
   const auto at = [&] { return (static_cast<std::int64_t>(random() % 72) - 24) * (grid_one / 4); };
   std::array<GridPoint, 3> t;
   for (GridPoint& p : t) p = {at(), at()};
@@ -165,8 +166,8 @@ MeshPoint place_of(const Corner& c) {
   return {(c.x - 16) / 32 * c.depth, (c.y - 16) / 32 * c.depth, c.depth};
 }
 
-/// What a line shows at a pixel: at its point that is nearest to the pixel's centre 1/w is affine in the
-/// window, and colours over w too.
+/// What a line shows at a pixel: at its point that is nearest to the pixel's centre 1/w is affine
+/// in the window, and colours over w too.
 struct OnLine {
   double distance, depth;
   std::array<double, 3> colour;
@@ -212,7 +213,8 @@ TEST(Wireframe, LinesHaveTheDepthsAndColoursOfTheirNearestPoints) {
           bool explained = false;
           for (std::size_t k = 0; k < 3; ++k) {
             const OnLine l = on_line(corners[k], corners[(k + 1) % 3], x + 0.5, y + 0.5);
-            // Ends that are rounded to pixels move a line by up to 0.71 pixels, its own rounding by ½.
+            // Ends that are rounded to pixels move a line by up to 0.71 pixels, its own rounding by
+            // ½.
             if (l.distance > 1.25) continue;
             bool same = std::abs(l.depth - static_cast<double>(frame.depth[at])) < 1e-5;
             for (std::size_t c = 0; c < 3; ++c) {
@@ -387,8 +389,8 @@ TEST(Trace, SaysWhatEveryStageDid) {
   }
 }
 
-/// Mappings that are no projections are computed from the depth along the view, in the precision that is
-/// asked for.
+/// Mappings that are no projections are computed from the depth along the view, in the precision
+/// that is asked for.
 TEST(Trace, StoresWhatTheMappingMakesOfTheDepth) {
   const Scene scene =
       testing::scene_of({{-0.5, -0.5, 2.1}, {1.5, -1, 4.3}, {-0.3, 0.75, 3.7}}, {{0, 1, 2}});

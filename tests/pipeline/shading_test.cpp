@@ -12,8 +12,8 @@
 #include "fathom/scene/framing.h"
 #include "tests/inputs/scene_building.h"
 
-/// Colours worked out by hand, and by the textbooks' formulas in long double from the rays on, which
-/// share nothing with the stages.
+/// Colours worked out by hand, and by the textbooks' formulas in long double from the rays on,
+/// which share nothing with the stages.
 namespace fathom::pipeline {
 namespace {
 
@@ -362,8 +362,8 @@ PipelineFrame cube(Shading shading) {
 }
 
 // Its edges are as smooth as its faces. From corner to corner a normal turns by 2/√3 over its least
-// length on the way, 1/√3: two radians over a face, which is some 70 pixels wide, and 20 where it is
-// most foreshortened. So two pixels side by side differ by at most 0.75·2/20. A normal that is
+// length on the way, 1/√3: two radians over a face, which is some 70 pixels wide, and 20 where it
+// is most foreshortened. So two pixels side by side differ by at most 0.75·2/20. A normal that is
 // turned at a fragment makes up to 0.75 of difference.
 TEST(Shading, ThereAreNoBordersWhereNormalsAreShared) {
   for (const Shading shading : {Shading::gouraud, Shading::phong}) {

@@ -1,5 +1,6 @@
-// The pipeline against rays in long double: what is seen at each sample, how deep, and in what colour. The model shares no
-// step with the pipeline: no matrices, no clipping, no window, no edge functions.
+// The pipeline against rays in long double: what is seen at each sample, how deep, and in what
+// colour. The model shares no step with the pipeline: no matrices, no clipping, no window, no edge
+// functions.
 
 #include <gtest/gtest.h>
 
@@ -58,8 +59,8 @@ class Model {
     return h;
   }
 
-  /// Every triangle at a sample, in their order; nullopt if one of them has an edge next to it, or a
-  /// boundary of the view, or two of them are next to each other.
+  /// Every triangle at a sample, in their order; nullopt if one of them has an edge next to it, or
+  /// a boundary of the view, or two of them are next to each other.
   struct Seen {
     std::size_t triangle;
     Hit hit;
@@ -142,8 +143,8 @@ PipelineOptions precise() {
   return options;
 }
 
-/// Of a colour, where corners move by 2^-17 of a pixel on triangles whose colour changes by less than
-/// ten in a pixel, and colours are kept in binary32.
+/// Of a colour, where corners move by 2^-17 of a pixel on triangles whose colour changes by less
+/// than ten in a pixel, and colours are kept in binary32.
 constexpr double fine = 1e-4;
 
 /// Pixels by rays, for options that select the nearest. Colours are affine in the window if asked.

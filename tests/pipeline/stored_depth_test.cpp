@@ -73,8 +73,8 @@ TEST(StoredDepth, IsTheExactCodeInEveryFormat) {
   }
 }
 
-/// An orthographic matrix makes z = (D − near)/(far − near), or 1 minus that, by hand: 5/8 of the way
-/// from 2 to 10 lies 7. Codes mean the depth that they are nearest to.
+/// An orthographic matrix makes z = (D − near)/(far − near), or 1 minus that, by hand: 5/8 of the
+/// way from 2 to 10 lies 7. Codes mean the depth that they are nearest to.
 TEST(StoredDepth, OfAnOrthographicCameraIsAffineInTheDepth) {
   Camera camera = camera_of_layers(2, 10);
   camera.projection = Projection::orthographic;

@@ -257,8 +257,8 @@ TEST(TextureByHand, ReducedAtNamedPixels) {
 }
 
 TEST(TextureByHand, InPerspective) {
-  // A floor-like square: the upper side at depth 16, the lower at 8, u across and v along. Row y has
-  // v = (1 − s)/16 / (s/8 + (1 − s)/16) with s = (y + ½)/8: row 2, s = 5/16: (11/256)/(21/256);
+  // A floor-like square: the upper side at depth 16, the lower at 8, u across and v along. Row y
+  // has v = (1 − s)/16 / (s/8 + (1 − s)/16) with s = (y + ½)/8: row 2, s = 5/16: (11/256)/(21/256);
   // affinely 11/16.
   Scene scene =
       testing::scene_of({{0, 0, 16}, {16, 0, 16}, {8, 8, 8}, {0, 8, 8}}, {{0, 2, 1}, {0, 3, 2}});

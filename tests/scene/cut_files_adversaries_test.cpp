@@ -1,6 +1,6 @@
 // Mesh files that another program cuts short while they are read: the scene of before, that of the
-// shorter file, or an InputError, never a third scene and never a signal. Files of more than 64 MiB, of which programs map those
-// that they may (ReadOptions::map_large_files).
+// shorter file, or an InputError, never a third scene and never a signal. Files of more than 64
+// MiB, of which programs map those that they may (ReadOptions::map_large_files).
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -66,8 +66,8 @@ const Case cases[] = {{"cut.obj", padded_obj, false},
                       {"cut.ply", padded_ply, true},
                       {"cut.stl", padded_stl, true}};
 
-/// How many triangles are read from the file; all of them, one chunk after the other, where they stay
-/// in it.
+/// How many triangles are read from the file; all of them, one chunk after the other, where they
+/// stay in it.
 std::uint64_t triangles_of(const fs::path& path, bool streamed) {
   ReadOptions options;
   options.hash = false;

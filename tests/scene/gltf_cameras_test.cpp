@@ -29,8 +29,8 @@ testing::Asset chain(const std::vector<json>& nodes) {
   return asset;
 }
 
-/// Where the camera has the vertices of the mesh beside it, x right, y up, z backward, and the lengths of
-/// the node's axes, which are the scale that cameras ignore.
+/// Where the camera has the vertices of the mesh beside it, x right, y up, z backward, and the
+/// lengths of the node's axes, which are the scale that cameras ignore.
 struct Beside {
   std::vector<std::array<double, 3>> points;
   std::array<double, 3> lengths;
@@ -91,7 +91,8 @@ TEST(GltfCameras, LieWhereTheMeshesOfTheirNodesLie) {
 }
 
 TEST(GltfCameras, AndSoFarFromLengthOne) {
-  // The polynomial matrix of this quaternion scales and shears: its rows are (1, 0, 0), (0, −1, −1), (0, 1, −1).
+  // The polynomial matrix of this quaternion scales and shears: its rows are (1, 0, 0), (0, −1,
+  // −1), (0, 1, −1).
   const testing::Asset asset = chain({{{"rotation", {1, 0, 0, 0.5}}, {"translation", {4, -5, 6}}}});
   EXPECT_EQ(beside(asset).lengths[1], std::sqrt(2.0));
   expect_same_place(asset);

@@ -1,6 +1,6 @@
 // Trees of glTF nodes and the transforms of scene files, of any magnitudes and with cancellation: a
-// mesh is placed where its points come to if node after node moves them in rational numbers, or it is
-// refused where these are beyond what a transform may be.
+// mesh is placed where its points come to if node after node moves them in rational numbers, or it
+// is refused where these are beyond what a transform may be.
 #include <gmock/gmock.h>
 #include <gmpxx.h>
 #include <gtest/gtest.h>

@@ -11,8 +11,8 @@ namespace {
 
 using namespace text;
 
-/// Words as files have them, and characters beside the digits, in memory of their own, so that a look
-/// beyond its end is seen by the address sanitizer.
+/// Words as files have them, and characters beside the digits, in memory of their own, so that a
+/// look beyond its end is seen by the address sanitizer.
 std::vector<char> any_text(std::mt19937_64& random) {
   static constexpr std::string_view usual = "0123456789012345678901234567890123456789+-*/,.:;e \n";
   std::vector<char> text(random() % 40);

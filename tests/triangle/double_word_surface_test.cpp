@@ -131,8 +131,8 @@ struct Shares {
   Share mesh_normal, placed_normal, length, turn, ray_length;
 };
 
-/// det(H), H being the linear part of the map from a mesh, or the world, to (U, V, D), with the sign
-/// that ProjectedTriangle gives to its forms.
+/// det(H), H being the linear part of the map from a mesh, or the world, to (U, V, D), with the
+/// sign that ProjectedTriangle gives to its forms.
 Dyadic determinant_of(const ObjectRays& object, const ProjectedTriangle& t) {
   std::array<ExactVector3, 3> H;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -114,7 +114,8 @@ TEST(AntialiasingMethods, ErrorsOfAreasAreThoseOfTheGrid) {
   }
 }
 
-/// The texture's squares as triangles are where the texture has them: 256 samples a pixel come near.
+/// The texture's squares as triangles are where the texture has them: 256 samples a pixel come
+/// near.
 TEST(JudgedScenes, TexturesAreWhereTheirSquaresAre) {
   const Judged wall = checkered_wall();
   EXPECT_LT(error_with(wall, drawn(wall, {AntialiasMethod::ssaa, 16})).mean, 1e-3);
@@ -156,8 +157,8 @@ TEST(AntialiasingMethods, MemoryIsMeasured) {
   EXPECT_GT(bytes_a_pixel({AntialiasMethod::msaa, 4}), none + 3 * sizeof(pipeline::StoredSample));
 }
 
-/// A wave of less than half a cycle a pixel is what its samples are reconstructed to; a finer one comes
-/// back as its alias. Samples come back as they are.
+/// A wave of less than half a cycle a pixel is what its samples are reconstructed to; a finer one
+/// comes back as its alias. Samples come back as they are.
 TEST(Gratings, ReconstructionIsTheWaveBelowHalfACycle) {
   constexpr int n = 480;
   for (const int cycles : {24, 100, 230, 250, 380}) {

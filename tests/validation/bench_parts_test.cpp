@@ -41,8 +41,8 @@ std::vector<std::string> drawn(const SnappedScene& scene, EdgeRule rule) {
   return rows;
 }
 
-/// Triangles at random, of all sizes and both windings, that reach over the sides of the image. Half
-/// of them have corners on the lattice of half pixels, so that edges run through centres.
+/// Triangles at random, of all sizes and both windings, that reach over the sides of the image.
+/// Half of them have corners on the lattice of half pixels, so that edges run through centres.
 SnappedScene random_scene(std::uint32_t width, std::uint32_t height, int count) {
   SnappedScene scene{width, height, {}};
   std::mt19937_64 random(1);

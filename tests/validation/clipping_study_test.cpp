@@ -49,7 +49,8 @@ TEST(ClippingStudy, BridgesOfTheNamedShapes) {
 /// What the pairs give, counted on paper.
 TEST(ClippingStudy, PairsBesideCgal) {
   // Each of 9 squares has a corner in common with its moved one: 9 common squares, and 9 that
-  // remain. The moved one reaches to the next square and shares a piece of an edge with it, no area.
+  // remain. The moved one reaches to the next square and shares a piece of an edge with it, no
+  // area.
   const BesideCgal squares = measure_beside_cgal("squares", 72);
   EXPECT_EQ(squares.corners, 72U);
   EXPECT_EQ(squares.polygons, 18U);
@@ -58,7 +59,8 @@ TEST(ClippingStudy, PairsBesideCgal) {
   const BesideCgal nested = measure_beside_cgal("nested", 64);
   EXPECT_EQ(nested.corners, 64U + 3);
   EXPECT_EQ(nested.polygons, 8U + 1);
-  // 10 triangles from a corner in the square, which reaches to x = 5.5, to x = 10: each is cut in two.
+  // 10 triangles from a corner in the square, which reaches to x = 5.5, to x = 10: each is cut in
+  // two.
   const BesideCgal fan = measure_beside_cgal("fan", 30);
   EXPECT_EQ(fan.corners, 30U + 4);
   EXPECT_EQ(fan.polygons, 20U);

@@ -413,8 +413,8 @@ TEST(Course, ThePipelineDrawsTheMeshOfSharedEdges) {
   }
 }
 
-/// What a place of the wheel shows by its definition, `degrees` turned: 0 outside and between spokes,
-/// 1 on a spoke, 2 on the red one; nothing where an edge is near.
+/// What a place of the wheel shows by its definition, `degrees` turned: 0 outside and between
+/// spokes, 1 on a spoke, 2 on the red one; nothing where an edge is near.
 std::optional<int> wheel_by_definition(double dx, double dy, double degrees) {
   const double radius = std::hypot(dx, dy), spoke = 2 * std::numbers::pi / 12;
   double angle = std::fmod(std::atan2(dy, dx) - degrees * std::numbers::pi / 180, 24 * spoke);

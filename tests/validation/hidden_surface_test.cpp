@@ -1,4 +1,5 @@
-// The figures of the study `hidden-surface`, against rays through the pixels' centres in long double.
+// The figures of the study `hidden-surface`, against rays through the pixels' centres in long
+// double.
 
 #include <gtest/gtest.h>
 
@@ -189,9 +190,9 @@ TEST(HiddenSurfaceStudy, AGivenSceneIsSeenFromTheEye) {
   EXPECT_THROW(seen_from_eye({"flat", view.scene, flat}), UsageError);
 }
 
-/// Where triangles share corners, a tree in binary64 has wrong pixels. The same tree without rounding
-/// has none, so rounding is their only cause; decided exactly on the rounded pieces, the outlines
-/// account for most of them.
+/// Where triangles share corners, a tree in binary64 has wrong pixels. The same tree without
+/// rounding has none, so rounding is their only cause; decided exactly on the rounded pieces, the
+/// outlines account for most of them.
 TEST(HiddenSurfaceStudy, TheTreesWrongPixelsComeFromRounding) {
   if (testing::effort > 1) GTEST_SKIP() << "seconds without sanitizers";
   struct Expected {
@@ -224,7 +225,8 @@ TEST(HiddenSurfaceStudy, CostsGrowAsTheyMust) {
       EXPECT_LT(*cost.bytes, 320u * 240 * 400);
     }
   }
-  // No polygon is compared with itself; each round of the first compares it with all others at most.
+  // No polygon is compared with itself; each round of the first compares it with all others at
+  // most.
   EXPECT_LE(few.comparisons, (10u + few.splits) * (10u + few.splits) * (1u + few.splits));
   EXPECT_GT(many.comparisons, few.comparisons);
 }

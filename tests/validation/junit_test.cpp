@@ -46,7 +46,8 @@ const std::vector<PixelClass> good(4, PixelClass::equal);
 const std::vector<PixelClass> bad{PixelClass::equal, PixelClass::edge, PixelClass::unexplained,
                                   PixelClass::unexplained};
 
-/// The document as Python reads it: for each element its tag, its attributes, its text and elements.
+/// The document as Python reads it: for each element its tag, its attributes, its text and
+/// elements.
 nlohmann::json parsed(const std::string& xml) {
   const test::TestFolder folder;
   folder.write("read.xml", xml);
@@ -159,7 +160,8 @@ void expect_z_fighting(const ValidationCase& c, const std::string& property,
   EXPECT_EQ(nlohmann::json::parse(json)["results"][0]["z_fighting"]["pixels"], pixels);
 }
 
-// A wrong surface with the right depth cannot be seen without numbers of triangles: 0 would be a guess.
+// A wrong surface with the right depth cannot be seen without numbers of triangles: 0 would be a
+// guess.
 TEST(ZFighting, IsUnknownWithoutTriangleNumbers) {
   ValidationCase c = case_of("spot", "own peeled", good);
   expect_z_fighting(c, "unknown: no triangle numbers were read", nullptr);

@@ -11,8 +11,8 @@
 #include "validation/scenes/scenes.h"
 #include "validation/scenes/shapes.h"
 
-/// Masked Occlusion Culling draws what we draw, so that comparing times is fair. Built where a clone
-/// of it is (FATHOM_MASKED_OCCLUSION_CULLING).
+/// Masked Occlusion Culling draws what we draw, so that comparing times is fair. Built where a
+/// clone of it is (FATHOM_MASKED_OCCLUSION_CULLING).
 namespace fathom::bench {
 namespace {
 

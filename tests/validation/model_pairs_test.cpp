@@ -15,10 +15,12 @@
 #include "fathom/attribution/other_scene.h"
 #include "validation/peers/drawing.h"
 
-/// Maps of real renderers, each judged by every model: where the model is not the renderer's, nothing but
-/// the model may be blamed, and where something is wrong with the map as well, that is found too.
-///   FATHOM_MODEL_PAIRS=all    all scenes, larger, and Blender (scripts/check-long). Otherwise each pair has one
-///                             or two of five scenes in turn, and every fourth pair a shifted one
+/// Maps of real renderers, each judged by every model: where the model is not the renderer's,
+/// nothing but the model may be blamed, and where something is wrong with the map as well, that is
+/// found too.
+///   FATHOM_MODEL_PAIRS=all    all scenes, larger, and Blender (scripts/check-long). Otherwise each
+///                             pair has one or two of five scenes in turn, and every fourth pair a
+///                             shifted one
 namespace fathom::validation {
 namespace {
 

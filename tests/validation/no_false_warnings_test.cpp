@@ -1,5 +1,5 @@
-// A render that is right gets no warning: of everything in data/, with the cameras beside it, and of
-// the scenes that other renderers are validated on.
+// A render that is right gets no warning: of everything in data/, with the cameras beside it, and
+// of the scenes that other renderers are validated on.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

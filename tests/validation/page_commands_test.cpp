@@ -57,7 +57,8 @@ Outcome run_by_shell(const std::string& command, const fs::path& folder) {
 }
 
 /// The pictures go; what is there afterwards is what the commands have drawn.
-/// `others` are those that no command draws; `scenes` lie beside the page, as it asks for. Gives what the commands have printed.
+/// `others` are those that no command draws; `scenes` lie beside the page, as it asks for. Gives
+/// what the commands have printed.
 std::map<std::string, std::string> expect_pictures_by_commands(
     const std::string& study, std::size_t least_commands, const std::set<std::string>& others,
     const std::vector<std::string>& options = {}, const std::vector<fs::path>& scenes = {}) {
@@ -135,8 +136,8 @@ TEST(PageCommands, DrawThePicturesOfAScenesHiddenSurfaces) {
                               {"--scene", source_dir() / "data/meshes/cube.obj"});
 }
 
-// Exact pictures are drawn by exact areas, gratings from their samples, the wheel and the curve as on
-// the page of the course.
+// Exact pictures are drawn by exact areas, gratings from their samples, the wheel and the curve as
+// on the page of the course.
 TEST(PageCommands, DrawThePicturesOfAntialiasing) {
   if (testing::effort > 1) GTEST_SKIP() << "the study takes half a minute without sanitizers";
   std::set<std::string> others{"star-truth.png",  "sheets-truth.png",  "wall-truth.png",

@@ -116,7 +116,8 @@ TEST_P(Peers, VtkDrawsTheSameDepthsWithNumbers) {
   }
 }
 
-// The number is that of the exact map where one triangle alone is near: a ball's outline and edges are the rest.
+// The number is that of the exact map where one triangle alone is near: a ball's outline and edges
+// are the rest.
 TEST_P(Peers, VtkNumbersTrianglesAsWeDo) {
   VtkRenderer renderer(mesh, camera, clip_range(mesh, camera), {.numbers = true});
   renderer.draw();
@@ -128,7 +129,8 @@ TEST_P(Peers, VtkNumbersTrianglesAsWeDo) {
   EXPECT_LT(differing, ids.size() / 200);
 }
 
-/// Exercise 3 of the course with the nearer sheet first: two oblique sheets, one 0.0001 behind the other.
+/// Exercise 3 of the course with the nearer sheet first: two oblique sheets, one 0.0001 behind the
+/// other.
 WorldMesh two_sheets(double distance) {
   const double d = distance, s = distance / 3;
   WorldMesh sheets;
@@ -142,8 +144,8 @@ WorldMesh two_sheets(double distance) {
   return sheets;
 }
 
-// validation/vtk/count_wrong_surfaces.py, which shares nothing with the adaptor, counts the same. Depths of 16 bits are
-// all equal there, and the later sheet wins wherever it is drawn.
+// validation/vtk/count_wrong_surfaces.py, which shares nothing with the adaptor, counts the same.
+// Depths of 16 bits are all equal there, and the later sheet wins wherever it is drawn.
 TEST(VtkNumbers, ShowTheWrongSheetsThatAScriptCounts) {
   Camera camera{.width = 96, .height = 96};
   camera.fx = camera.fy = 96;

@@ -9,7 +9,8 @@
 #include "tests/places.h"
 #include "tests/validation/validate_runs.h"
 
-/// `fathom validate` with OpenGL as it is installed (FATHOM_PEERS), on surfaces without a display and on Xvfb.
+/// `fathom validate` with OpenGL as it is installed (FATHOM_PEERS), on surfaces without a display
+/// and on Xvfb.
 namespace fathom::test {
 namespace {
 
@@ -35,7 +36,8 @@ TEST(ValidateOpenGl, EveryVariantIsExplained) {
 }
 
 // One triangle, 16 pixels wide: softpipe steps a depth of 16 bits from pixel to pixel by a whole
-// number of codes, rounded towards zero, so that it drifts by up to a code a pixel (docs/validation.md).
+// number of codes, rounded towards zero, so that it drifts by up to a code a pixel
+// (docs/validation.md).
 TEST(ValidateOpenGl, SoftpipesStepsOf16BitsAreFound) {
   const TestFolder folder;
   folder.write("sheet.obj", "v -4 -4 3\nv 4 -4 4\nv 0 8 3.5\nf 1 2 3\n");

@@ -10,7 +10,8 @@
 #include "tests/places.h"
 #include "tests/validation/validate_runs.h"
 
-/// `fathom validate --against …` with several renderers that are really there (FATHOM_PEERS), or not.
+/// `fathom validate --against …` with several renderers that are really there (FATHOM_PEERS), or
+/// not.
 namespace fathom::test {
 namespace {
 

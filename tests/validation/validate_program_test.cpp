@@ -101,7 +101,8 @@ TEST_F(ValidateProgram, ExplainsWhatThePipelineStores) {
             0);
 }
 
-/// As in Python, no model need be named; the report begins with the verdict, and a map has no version.
+/// As in Python, no model need be named; the report begins with the verdict, and a map has no
+/// version.
 TEST_F(ValidateProgram, JudgesAMapByTheModelThatFitsWhereNoneIsNamed) {
   const auto run_without_model = [&](const std::string& map) {
     return run_fathom(

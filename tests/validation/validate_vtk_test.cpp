@@ -32,7 +32,8 @@ std::string digits(double number) {
   return nlohmann::json(number).dump();
 }
 
-/// Exercise 3 of the course with the nearer sheet first in the file: two oblique sheets, one 0.0001 behind the other.
+/// Exercise 3 of the course with the nearer sheet first in the file: two oblique sheets, one 0.0001
+/// behind the other.
 void write_sheets(const TestFolder& folder, double distance) {
   const double d = distance, s = distance / 3;
   const double corners[4][3] = {{-s, -s, d}, {s, -s, d * 1.2}, {s, s, d * 1.4}, {-s, s, d * 1.2}};
@@ -66,8 +67,8 @@ std::map<std::string, nlohmann::json> results_on_sheets(const TestFolder& folder
   return found;
 }
 
-// Pixels at which the wrong sheet certainly covers the sample. tests/validation/peers_test.cpp has all pixels that show it,
-// 2610 and 2874 of 2931: the rest of them are edges.
+// Pixels at which the wrong sheet certainly covers the sample. tests/validation/peers_test.cpp has
+// all pixels that show it, 2610 and 2874 of 2931: the rest of them are edges.
 TEST(ValidateVtk, WrongSheetsAreCounted) {
   using Counts = std::map<std::string, int>;
   const Counts at_2{

@@ -2,9 +2,9 @@
 
 namespace fathom::validation {
 
-/// The script that Blender runs: it reads scene.json, points.bin (binary32) and triangles.bin beside
-/// it, renders with Cycles on the processor and writes depth.exr. One sample per pixel, the narrowest
-/// filter.
+/// The script that Blender runs: it reads scene.json, points.bin (binary32) and triangles.bin
+/// beside it, renders with Cycles on the processor and writes depth.exr. One sample per pixel, the
+/// narrowest filter.
 inline constexpr const char* blender_script = R"(import array, json, os, sys
 import bpy
 from mathutils import Matrix

@@ -286,9 +286,9 @@ Interval ExpectedTriangle::light(int x, int y, LightModel model) const {
 /// How far the unit normal that the differences of neighbouring positions give may be from the
 /// plane's, in each component; 2 if nothing is known.
 ///
-/// A position is P = f/q, of two values that are affine in the window. What errs in all pixels alike
-/// cancels in differences but for the change of 1/q; what a step adds, and each value's own rounding,
-/// stays.
+/// A position is P = f/q, of two values that are affine in the window. What errs in all pixels
+/// alike cancels in differences but for the change of 1/q; what a step adds, and each value's own
+/// rounding, stays.
 double ExpectedTriangle::derived_error(int x, int y) const {
   const int rows = static_cast<int>(scene_->camera.height);
   // The four pixels that are shaded together start at even columns and rows from the bottom.

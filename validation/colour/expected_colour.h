@@ -5,15 +5,15 @@
 #include "validation/colour/lit_triangles.h"
 #include "validation/colour/ranges.h"
 
-/// Which 8-bit colours a renderer may draw, by the formulas of the textbooks in interval arithmetic.
-/// Nothing here is taken from a renderer but how exact its steps are.
+/// Which 8-bit colours a renderer may draw, by the formulas of the textbooks in interval
+/// arithmetic. Nothing here is taken from a renderer but how exact its steps are.
 ///
 /// A renderer moves every corner in the window a little: to its subpixel grid, and by rounding the
-/// transform. The weights λ of a pixel's centre p in the moved triangle are those of a point p' in the
-/// true one with |p' − p| at most the greatest move in either axis, as p' − p is their mean with the
-/// weights λ. Attributes over w are affine in the window, so they differ from those at p by at most
-/// that distance times the sum of their slopes; if the renderer interpolates before it snaps, p' = p.
-/// To this come the roundings of the interpolation; see `rounding`.
+/// transform. The weights λ of a pixel's centre p in the moved triangle are those of a point p' in
+/// the true one with |p' − p| at most the greatest move in either axis, as p' − p is their mean
+/// with the weights λ. Attributes over w are affine in the window, so they differ from those at p
+/// by at most that distance times the sum of their slopes; if the renderer interpolates before it
+/// snaps, p' = p. To this come the roundings of the interpolation; see `rounding`.
 namespace fathom::validation {
 
 /// What is lit how.

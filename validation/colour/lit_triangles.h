@@ -28,8 +28,8 @@ struct LitScene {
 
 /// The scene's triangles with the pipeline's normals (primitive_assembly.h), rounded to binary32
 /// once, and a light that stands still in the world.
-/// Fails    InputError for a camera that is not a perspective one with a rotation, for a corner that
-///          is behind the near plane or outside of the image, for one whose normal is 0.
+/// Fails    InputError for a camera that is not a perspective one with a rotation, for a corner
+///          that is behind the near plane or outside of the image, for one whose normal is 0.
 LitScene lit_scene(const Scene& scene, const Camera& camera, const pipeline::Material& material);
 
 /// The same as a scene of one mesh that has the normals.

@@ -10,8 +10,8 @@
 
 namespace fathom::validation {
 
-/// How rays are passed to Embree, always marked as coherent: 4 × 4 pixels to rtcIntersect16, or 8 × 8
-/// pixels, as an array for each part of a ray, to rtcIntersectNp. Which is faster depends on the
+/// How rays are passed to Embree, always marked as coherent: 4 × 4 pixels to rtcIntersect16, or 8 ×
+/// 8 pixels, as an array for each part of a ray, to rtcIntersectNp. Which is faster depends on the
 /// scene; rtcIntersect8, rtcIntersect1M and other block sizes were slower on every scene.
 enum class RayStream { packets, arrays };
 
@@ -22,8 +22,8 @@ struct EmbreeOptions {
   int threads = 0;
 };
 
-/// A mesh traced by Embree, one ray through each pixel's centre; coordinates are rounded to binary32,
-/// which is what Embree takes.
+/// A mesh traced by Embree, one ray through each pixel's centre; coordinates are rounded to
+/// binary32, which is what Embree takes.
 ///
 /// Does not  read the mesh after construction.
 /// Fails     InputError if Embree fails: its message, in one line.
@@ -39,8 +39,8 @@ class EmbreeTracer {
   void build();
 
   /// Writes planar depths in scene units, width × height, rows from the top, infinite where nothing
-  /// was hit. Makes the rays, too. If `triangles` is set, also writes the numbers of the triangles that were hit, or
-  /// no_surface.
+  /// was hit. Makes the rays, too. If `triangles` is set, also writes the numbers of the triangles
+  /// that were hit, or no_surface.
   /// Needs    build().
   void trace(const Camera& camera, RayStream stream, std::vector<float>& depths,
              std::vector<std::uint32_t>* triangles = nullptr) const;

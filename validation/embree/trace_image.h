@@ -7,8 +7,8 @@
 
 namespace fathom::validation {
 
-/// Images of width × height pixels, rows from the top: depths, infinite where nothing was hit, and, unless null, the
-/// numbers of the triangles, no_surface there.
+/// Images of width × height pixels, rows from the top: depths, infinite where nothing was hit, and,
+/// unless null, the numbers of the triangles, no_surface there.
 struct TracedImages {
   float* depths = nullptr;
   std::uint32_t* triangles = nullptr;

@@ -6,8 +6,8 @@
 
 namespace fathom::validation {
 
-/// Has OpenGL load `driver` on this machine, whatever it would load otherwise. The usual one: nothing
-/// is changed.
+/// Has OpenGL load `driver` on this machine, whatever it would load otherwise. The usual one:
+/// nothing is changed.
 ///
 /// Environment  of this process, from then on: what Mesa reads when a display is opened.
 /// Needs        a process that has not opened a display through EGL, and has no other threads.

@@ -36,9 +36,10 @@ void hand_over(const GlFunctions& gl, const std::vector<T>& values) {
                 GL_STATIC_DRAW);
 }
 
-/// The corners of the triangles, three for each, as what the next draw takes. Corners are not shared,
-/// so that each can hold the number of its triangle. Drivers do not all know it: where a shader asks
-/// for gl_PrimitiveID, softpipe draws nothing, and its gl_VertexID starts anew within a mesh.
+/// The corners of the triangles, three for each, as what the next draw takes. Corners are not
+/// shared, so that each can hold the number of its triangle. Drivers do not all know it: where a
+/// shader asks for gl_PrimitiveID, softpipe draws nothing, and its gl_VertexID starts anew within a
+/// mesh.
 void hand_over(const GlFunctions& gl, const WorldMesh& mesh, const RasterModel& model) {
   std::vector<GLfloat> held;
   std::vector<GLuint> numbers;

@@ -10,8 +10,8 @@ namespace fathom::validation {
 class VirtualDisplay;
 
 /// An OpenGL context without a window or a screen: drawing goes to framebuffer objects. It needs no
-/// display (EGL_MESA_platform_surfaceless) if the driver supports that, and starts an Xvfb of its own
-/// otherwise. Current on the thread that made it until it is destroyed.
+/// display (EGL_MESA_platform_surfaceless) if the driver supports that, and starts an Xvfb of its
+/// own otherwise. Current on the thread that made it until it is destroyed.
 ///
 /// Environment  Mesa's software renderer reads LP_NUM_THREADS when the context is made.
 ///              FATHOM_OPENGL_DISPLAY=xvfb forces an Xvfb. Another driver than the usual one

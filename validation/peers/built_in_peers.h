@@ -18,8 +18,8 @@ DrawnMap draw_built_in(const EmbreeVariant& variant, const ValidationScene& scen
 /// A lit scene drawn by VTK in colour. Fails as above.
 GreyPicture draw_built_in_colours(const LitScene& scene, VtkShading shading);
 
-/// The numbers of samples per pixel, more than one, that this driver of OpenGL offers; none where this
-/// program is built without OpenGL.
+/// The numbers of samples per pixel, more than one, that this driver of OpenGL offers; none where
+/// this program is built without OpenGL.
 /// Fails    InputError where OpenGL does not start.
 std::vector<int> built_in_samples(Driver driver);
 

@@ -23,13 +23,13 @@
 ///   room-outside   that room, seen from outside
 ///   scan           a bumpy boulder of 980 thousand triangles as a scanner leaves it: of uneven
 ///                  sizes, about a pixel, with noise and holes
-///   city           309 thousand triangles of 400 houses, seen from the middle of a street: long and
-///                  thin, from behind the camera to the horizon, most of them hidden
+///   city           309 thousand triangles of 400 houses, seen from the middle of a street: long
+///                  and thin, from behind the camera to the horizon, most of them hidden
 ///   tree           a tree of 1.3 million triangles, most of them leaves below a pixel
-///   text           a page of 500 thousand triangles that letters are cut into: slivers of a pixel and
-///                  less in width
-///   cad            a machine part of 412 thousand triangles as CAD programs make them: fans, strips
-///                  and slivers around 864 holes, along rods and fillets
+///   text           a page of 500 thousand triangles that letters are cut into: slivers of a pixel
+///                  and less in width
+///   cad            a machine part of 412 thousand triangles as CAD programs make them: fans,
+///                  strips and slivers around 864 holes, along rods and fillets
 ///
 /// Any other name is a mesh or scene file, seen by the camera that frames it.
 namespace fathom::bench {

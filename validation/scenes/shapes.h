@@ -24,8 +24,8 @@ Mesh sphere(std::uint64_t triangles, const std::array<double, 3>& centre = {0, 0
 /// that on average `depth_complexity` of them cover each pixel.
 Mesh soup(std::uint32_t count, double depth_complexity, const Camera& camera);
 
-/// `count` triangles, each of which covers the whole image of `camera` (perspective) and reaches far
-/// beyond it, tilted so that each is nearest somewhere.
+/// `count` triangles, each of which covers the whole image of `camera` (perspective) and reaches
+/// far beyond it, tilted so that each is nearest somewhere.
 Mesh few_large(std::uint32_t count, const Camera& camera);
 
 /// columns × rows quads of two triangles each. The first quad's first corner is at (left, top);

@@ -36,7 +36,8 @@ struct VtkVariant {
   friend bool operator==(const VtkVariant&, const VtkVariant&) = default;
 };
 
-/// Without the driver: "own", "unorm24", "float32 reversed by shader", "own 8 samples", "own peeled".
+/// Without the driver: "own", "unorm24", "float32 reversed by shader", "own 8 samples", "own
+/// peeled".
 std::string name_of(const VtkVariant& variant);
 
 /// What `name` says: `own` or a storage, then nothing, one encoding or a positive number of

@@ -15,7 +15,8 @@ bool is_matrix_of(const Camera& camera, const RasterModel& model,
   RasterModel factors = model;
   factors.premultiplied = false;  // magnitudes are then sums of absolute products
   const std::array<ClipRow, 4> rows = rows_of_camera(camera, factors);
-  // Ours loses less than 2⁻⁴⁶ of the terms in binary64, and so does a renderer's, in fewer than 2⁷ roundings.
+  // Ours loses less than 2⁻⁴⁶ of the terms in binary64, and so does a renderer's, in fewer than 2⁷
+  // roundings.
   const double lost = std::ldexp(1, -45);
   for (std::size_t r = 0; r < 4; ++r) {
     for (std::size_t k = 0; k < 4; ++k) {

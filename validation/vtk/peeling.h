@@ -20,8 +20,9 @@ class ReadablePeelingPass : public vtkDualDepthPeelingPass {
       bool SetShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop,
                                vtkOpenGLVertexArrayObject* array) override;
 
-  /// Window depths of the nearest layer of the last frame in binary32, width × height, rows from the
-  /// top; 1 where there is none that is not behind something opaque. Empty if nothing was peeled.
+  /// Window depths of the nearest layer of the last frame in binary32, width × height, rows from
+  /// the top; 1 where there is none that is not behind something opaque. Empty if nothing was
+  /// peeled.
   [[nodiscard]] const std::vector<float>& nearest() const { return nearest_; }
 
  private:

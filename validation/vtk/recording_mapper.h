@@ -11,8 +11,8 @@
 
 namespace fathom::validation {
 
-/// VTK's mapper for polygons, which also records what its last frame was drawn with and can draw with
-/// reversed depths.
+/// VTK's mapper for polygons, which also records what its last frame was drawn with and can draw
+/// with reversed depths.
 class RecordingMapper : public vtkOpenGLPolyDataMapper {
  public:
   static RecordingMapper* New();
@@ -30,13 +30,14 @@ class RecordingMapper : public vtkOpenGLPolyDataMapper {
     greater_is_nearer_ = true;
     zero_to_one_ = zero_to_one;
   }
-  /// From now on the numbers of triangles (triangle_numbers.h) are read as soon as the mesh is drawn, before anything
-  /// else is drawn over it. Needs one sample per pixel.
+  /// From now on the numbers of triangles (triangle_numbers.h) are read as soon as the mesh is
+  /// drawn, before anything else is drawn over it. Needs one sample per pixel.
   void record_numbers(std::uint32_t width, std::uint32_t height) {
     width_ = width;
     height_ = height;
   }
-  /// Which of equal depths won in the last frame, by OpenGL's depth test; nothing for a test that is no order.
+  /// Which of equal depths won in the last frame, by OpenGL's depth test; nothing for a test that
+  /// is no order.
   [[nodiscard]] std::optional<EqualDepths> equal_depths() const { return equal_depths_; }
   /// Those of the last frame, rows from the top; empty if they are not recorded.
   [[nodiscard]] const std::vector<std::uint32_t>& numbers() const { return numbers_; }

@@ -11,8 +11,9 @@ namespace fathom::validation {
 /// that is needed and then fails, so VTK would try again, and pass the meshes to OpenGL again, in
 /// every frame. Here this is done once, and quietly.
 ///
-/// VTK's own windows make a context that tests depths with GL_LEQUAL. A vtkGenericOpenGLRenderWindow takes OpenGL's state
-/// from its context, as it finds it in each frame, and a new context tests with GL_LESS: this one is set as VTK's own.
+/// VTK's own windows make a context that tests depths with GL_LEQUAL. A
+/// vtkGenericOpenGLRenderWindow takes OpenGL's state from its context, as it finds it in each
+/// frame, and a new context tests with GL_LESS: this one is set as VTK's own.
 class SurfacelessWindow : public vtkGenericOpenGLRenderWindow {
  public:
   static SurfacelessWindow* New();

@@ -75,7 +75,8 @@ GLuint colour_texture(const GlFunctions& gl, GLenum target) {
 /// Two triangles would meet in a diagonal; one that is larger than the image does not.
 constexpr const char* whole_image_vertex_shader = R"(#version 330
 void main() {
-  gl_Position = vec4(4.0 * float(gl_VertexID & 1) - 1.0, 4.0 * float(gl_VertexID >> 1) - 1.0, 0.0, 1.0);
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  gl_Position = vec4(4.0 * corner - 1.0, 0.0, 1.0);
 }
 )";
 constexpr const char* first_sample_fragment_shader = R"(#version 330

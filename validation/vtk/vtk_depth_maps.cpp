@@ -45,9 +45,11 @@ VtkOptions options_of(const VtkVariant& variant, const Camera& camera) {
   return options;
 }
 
-/// A depth buffer shows nothing where it holds the value that it was cleared to, though a surface at the far plane may
-/// have been drawn there: GL_LEQUAL lets it pass. The map says what the depth buffer does.
-/// Fails    InputError where a colour is that of no triangle, or a depth has none: another colour than ours was drawn.
+/// A depth buffer shows nothing where it holds the value that it was cleared to, though a surface
+/// at the far plane may have been drawn there: GL_LEQUAL lets it pass. The map says what the depth
+/// buffer does.
+/// Fails    InputError where a colour is that of no triangle, or a depth has none: another colour
+///          than ours was drawn.
 void hold_against_depths(attribution::OtherMap& map, std::size_t triangle_count) {
   for (std::size_t i = 0; i < map.triangles.size(); ++i) {
     std::uint32_t& triangle = map.triangles[i];

@@ -8,8 +8,8 @@ namespace fathom::validation {
 
 /// The mesh drawn by VTK.
 /// Needs    finite near and far.
-/// Fails    InputError if there is no OpenGL, if VTK has made another matrix of the camera, or for a logarithmic depth if near is not in front of
-///          the eye.
+/// Fails    InputError if there is no OpenGL, if VTK has made another matrix of the camera, or for
+///          a logarithmic depth if near is not in front of the eye.
 DrawnMap draw_vtk(const attribution::WorldMesh& mesh, const Camera& camera,
                   const VtkVariant& variant);
 

@@ -28,8 +28,8 @@ struct VtkOptions {
   std::optional<attribution::WrittenDepth> written;
   VtkVariant::Mesh mesh = VtkVariant::Mesh::opaque;
   Driver driver = Driver::usual;
-  /// Whether the numbers of triangles are drawn as colours in the pass that writes the depth (triangle_numbers.h). Not of
-  /// a peeled mesh, whose layers are blended.
+  /// Whether the numbers of triangles are drawn as colours in the pass that writes the depth
+  /// (triangle_numbers.h). Not of a peeled mesh, whose layers are blended.
   bool numbers = false;
 };
 
@@ -38,7 +38,8 @@ struct VtkDrawing {
   /// Window depths exactly as stored, width × height, rows from the top; 1 (reversed: 0) where
   /// nothing was drawn.
   std::vector<double> windows;
-  /// Numbers of the visible triangles, no_surface where nothing was drawn; empty where they are not drawn.
+  /// Numbers of the visible triangles, no_surface where nothing was drawn; empty where they are not
+  /// drawn.
   std::vector<std::uint32_t> triangles;
   Storage storage = Storage::unorm24;
   /// Which of equal depths won, by OpenGL's depth test.
@@ -54,7 +55,8 @@ struct VtkDrawing {
 
 /// A mesh drawn by VTK into a framebuffer without a display: points in binary64, our camera as
 /// explicit model-view and projection matrices, one sample per pixel unless options say otherwise,
-/// no lighting, no culling, nothing written but the depth and a constant colour or the number of the triangle.
+/// no lighting, no culling, nothing written but the depth and a constant colour or the number of
+/// the triangle.
 ///
 /// Does not  read the mesh after construction.
 /// Threads   all calls from the thread that made it. Mesa's software renderer uses as many threads

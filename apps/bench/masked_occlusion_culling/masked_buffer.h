@@ -17,8 +17,8 @@ namespace fathom::bench {
 struct MaskedWay {
   /// Vectors of 512 bits rather than 256, where the processor has them.
   bool widest = true;
-  /// It transforms each vertex once, to memory, and then draws; or each corner of each triangle while
-  /// it draws.
+  /// It transforms each vertex once, to memory, and then draws; or each corner of each triangle
+  /// while it draws.
   bool vertices_first = true;
 };
 
@@ -26,9 +26,9 @@ struct MaskedWay {
 /// that says which pixel has which; each depth is no nearer than what is seen there, as far as
 /// binary32 and corners on a grid of 1/256 pixel allow, and often farther.
 ///
-/// It is given the vertices in the world, in binary32, and the matrix from there to clip space; both
-/// sides of triangles are drawn; it clips at the near plane of attribution::clip_range(), as VTK
-/// does, and knows no far plane. One thread.
+/// It is given the vertices in the world, in binary32, and the matrix from there to clip space;
+/// both sides of triangles are drawn; it clips at the near plane of attribution::clip_range(), as
+/// VTK does, and knows no far plane. One thread.
 ///
 /// Needs    a perspective camera; it has no other depth than 1/w.
 class MaskedBuffer {
@@ -38,8 +38,8 @@ class MaskedBuffer {
   void clear();
   /// All triangles, in the order of the mesh.
   void draw();
-  /// The planar depth of each pixel, row by row from the top, as its buffer has it; +∞ where it shows
-  /// no surface.
+  /// The planar depth of each pixel, row by row from the top, as its buffer has it; +∞ where it
+  /// shows no surface.
   [[nodiscard]] std::vector<float> depths() const;
   /// "Masked Occlusion Culling, AVX-512, vertices first".
   [[nodiscard]] std::string description() const;

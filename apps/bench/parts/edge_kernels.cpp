@@ -9,8 +9,8 @@
 
 #include "fathom/fast/lanes/lanes-inl.h"
 
-// Products and sums are written apart: a fused one would round binary32 elsewhere on processors that
-// have it, and would gain nothing where there is nothing to round.
+// Products and sums are written apart: a fused one would round binary32 elsewhere on processors
+// that have it, and would gain nothing where there is nothing to round.
 HWY_BEFORE_NAMESPACE();
 namespace fathom::bench::HWY_NAMESPACE {
 namespace {

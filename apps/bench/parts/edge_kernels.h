@@ -7,9 +7,9 @@
 #include "apps/bench/parts/padded_image.h"
 #include "apps/bench/parts/pixel_block.h"
 
-/// The textbook's rasterizer, three edge functions over a bounding box, with several pixels of a row
-/// at once. All of it is compiled for each kind of vector instructions, and runs with the best that
-/// the processor has; a number of lanes that is more than one vector takes several.
+/// The textbook's rasterizer, three edge functions over a bounding box, with several pixels of a
+/// row at once. All of it is compiled for each kind of vector instructions, and runs with the best
+/// that the processor has; a number of lanes that is more than one vector takes several.
 namespace fathom::bench {
 
 /// Lanes of `Number` in a vector of this processor: 16 of binary32 and 8 of binary64 with AVX-512.

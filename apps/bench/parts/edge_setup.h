@@ -33,8 +33,8 @@ struct EdgeSetup {
   /// What a covered pixel is given: from 1 to 251, so that a pixel which one triangle gains does
   /// not hide that another lost it.
   [[nodiscard]] std::uint32_t weight() const { return number % 251 + 1; }
-  /// Whether binary32 holds every number on the way to the edge functions in the box. Sums have to be
-  /// within 2²⁴: so it is for triangles of up to 8 pixels, and hardly for greater ones.
+  /// Whether binary32 holds every number on the way to the edge functions in the box. Sums have to
+  /// be within 2²⁴: so it is for triangles of up to 8 pixels, and hardly for greater ones.
   [[nodiscard]] bool fits_binary32() const;
 };
 

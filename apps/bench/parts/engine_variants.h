@@ -6,14 +6,15 @@
 #include "fathom/rendering/rendered.h"
 #include "validation/scenes/scenes.h"
 
-/// Variants that draw with the pipeline and the fast engine; the picture of the latter is channel Z.
+/// Variants that draw with the pipeline and the fast engine; the picture of the latter is channel
+/// Z.
 namespace fathom::bench {
 
 /// The options of the pipeline's variants: without shading, so that no picture is made.
 pipeline::PipelineOptions plain_pipeline();
-/// The pipeline by `options`; counts: what it counted. The picture is what the depth buffer holds in
-/// the end and, with shading, the colours. (Surfaces that are equally near to the depth buffer need
-/// not be so to channel Z, and then their order shows in it.)
+/// The pipeline by `options`; counts: what it counted. The picture is what the depth buffer holds
+/// in the end and, with shading, the colours. (Surfaces that are equally near to the depth buffer
+/// need not be so to channel Z, and then their order shows in it.)
 Variant pipeline_variant(std::string name, const BenchScene& bench,
                          const pipeline::PipelineOptions& options,
                          std::function<Counts(const pipeline::PipelineStatistics&)> counts);

@@ -19,8 +19,8 @@ bool covers(const SnappedTriangle& triangle, std::int64_t column, std::int64_t r
 /// The sum of the weights (EdgeSetup) of the triangles that cover each pixel.
 Picture exact_layers(const SnappedScene& scene, EdgeRule rule = EdgeRule::half_open);
 
-/// The nearest triangle at each pixel: its window depth, 1 where there is none; then its number plus
-/// one, 0 where there is none. Of equally near ones the first.
+/// The nearest triangle at each pixel: its window depth, 1 where there is none; then its number
+/// plus one, 0 where there is none. Of equally near ones the first.
 Picture exact_nearest(const SnappedScene& scene);
 
 /// How many pixels all triangles cover, each counted for itself.

@@ -13,8 +13,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds time_there_is{20};
 constexpr std::chrono::milliseconds enough_for_a_round{30};
 
-/// The least of several times, of as many as there is time for in `enough_for_a_round`: one draw may
-/// be so short that losing the processor once would double it.
+/// The least of several times, of as many as there is time for in `enough_for_a_round`: one draw
+/// may be so short that losing the processor once would double it.
 double time_of(const Variant& variant) {
   double least = std::numeric_limits<double>::infinity();
   const Clock::time_point begin = Clock::now();

@@ -66,9 +66,9 @@ class WrongPicture : public std::logic_error {
 };
 
 /// Draws with every variant once, untimed, and compares the pictures; then times all of them in
-/// turn, `repeat` times, so that what else the machine does falls on all. A time is the least of the
-/// draws of 30 milliseconds, or that of a single one that takes longer. Starts no round after 20
-/// seconds.
+/// turn, `repeat` times, so that what else the machine does falls on all. A time is the least of
+/// the draws of 30 milliseconds, or that of a single one that takes longer. Starts no round after
+/// 20 seconds.
 /// Fails    WrongPicture: the variant, and how many pixels differ.
 IdeaTimes time_idea(const Idea& idea, int repeat);
 

@@ -7,7 +7,8 @@
 #include "apps/bench/parts/edge_setup.h"
 #include "apps/bench/parts/idea.h"
 
-/// The ideas, one file each. What they draw is kept by their variants; the scene has to outlive them.
+/// The ideas, one file each. What they draw is kept by their variants; the scene has to outlive
+/// them.
 namespace fathom::bench {
 
 /// A scene to draw, as it is and as it reaches scan conversion.

@@ -22,8 +22,9 @@ struct PartsOfScene {
 
 /// "sphere-20k: 20000 triangles, 1280x720", a line.
 std::string heading(const PartsOfScene& parts);
-/// A table: a row for each variant with its median and least time in milliseconds, how many times as fast as its
-/// plain variant it is ("1" where it is one), and what it counted. Ends with an empty line.
+/// A table: a row for each variant with its median and least time in milliseconds, how many times
+/// as fast as its plain variant it is ("1" where it is one), and what it counted. Ends with an
+/// empty line.
 std::string table(const IdeaTimes& idea);
 /// A table of the pixels by both rules. Ends with an empty line.
 std::string table(const std::vector<RuleCounts>& rules);

@@ -13,8 +13,8 @@ struct TileCounts {
 };
 
 /// The nearest triangles of an image, tile by tile: triangles are sorted into square tiles of
-/// `side` pixels by their boxes, and each thread draws tiles into a small z-buffer of its own, which
-/// it copies to the image.
+/// `side` pixels by their boxes, and each thread draws tiles into a small z-buffer of its own,
+/// which it copies to the image.
 TileCounts draw_in_tiles(std::span<const EdgeSetup> setups, std::uint32_t side, int threads,
                          DepthImage& image);
 

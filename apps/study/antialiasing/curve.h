@@ -17,9 +17,9 @@ std::vector<pipeline::CubicBezier> heart();
 Scene heart_scene(std::uint32_t size, double within);
 
 /// How much of each pixel lies inside of an outline, `size` by `size` pixels.
-/// Computed from chords that are at most 10⁻⁶ of a pixel away from the curves, by adding up, for each
-/// of them, the area to its right in its pixel, and what it adds to all pixels to the right: an
-/// algorithm of its own, with no triangle and no sample in it.
+/// Computed from chords that are at most 10⁻⁶ of a pixel away from the curves, by adding up, for
+/// each of them, the area to its right in its pixel, and what it adds to all pixels to the right:
+/// an algorithm of its own, with no triangle and no sample in it.
 pipeline::ColourImage outline_areas(const std::vector<pipeline::CubicBezier>& outline,
                                     std::uint32_t size);
 

@@ -22,7 +22,8 @@ Judged crossing_sheets();
 /// A checkerboard plane that runs to the horizon, as a texture, 240 × 160. The truth is that of its
 /// squares as triangles.
 Judged checkered_plane();
-/// A checkerboard that fills the picture, turned and 96 × 96: edges of a texture and of nothing else.
+/// A checkerboard that fills the picture, turned and 96 × 96: edges of a texture and of nothing
+/// else.
 Judged checkered_wall();
 /// Letters whose every dot is one pixel: a picture that is right as it is.
 Judged text();

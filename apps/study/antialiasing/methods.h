@@ -43,8 +43,8 @@ struct AntialiasingMethods {
   /// Of the checkered wall, in which no edge of a triangle is seen: the share of pixels that FXAA
   /// changes all the same.
   double texture_changed_by_fxaa = 0;
-  /// star-METHOD, sheets-METHOD, filter-FILTER, wall-, text- and plane-truth, …, each with the width
-  /// in which it is shown.
+  /// star-METHOD, sheets-METHOD, filter-FILTER, wall-, text- and plane-truth, …, each with the
+  /// width in which it is shown.
   std::vector<std::pair<StudyFile, std::uint32_t>> pictures;
   std::vector<StudyFile> files;  ///< the scenes and cameras that they are drawn from
 };

@@ -26,9 +26,10 @@ std::vector<GratingSeen> gratings_seen();
 /// "grating-0.300"
 std::string grating_name(const GratingSeen& grating);
 
-/// The grating of the first 24 pixels in three strips: as it is, eight columns for each pixel; as its
-/// samples at the pixels' centres; and the signal that these samples are those of below half a cycle
-/// a pixel, which is what any ideal filter makes of them. With both frequencies in letters above.
+/// The grating of the first 24 pixels in three strips: as it is, eight columns for each pixel; as
+/// its samples at the pixels' centres; and the signal that these samples are those of below half a
+/// cycle a pixel, which is what any ideal filter makes of them. With both frequencies in letters
+/// above.
 /// Fails    OutputError if the font is missing.
 RgbImage grating_picture(const GratingSeen& grating);
 

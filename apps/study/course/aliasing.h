@@ -20,7 +20,8 @@ inline constexpr int wheel_pictures = 8;
 inline constexpr int wheel_degrees = 27;
 
 /// A wheel of 12 spokes, one of them red, in 96 × 96 pixels: wheel.obj, wheel.json; and
-/// wheel-motion.json, in which it turns to the right through all pictures, one in each unit of time.
+/// wheel-motion.json, in which it turns to the right through all pictures, one in each unit of
+/// time.
 SceneFiles wheel_files();
 /// What the pipeline draws of the times 0, 1, …
 std::vector<RgbImage> wheel_at_instants();

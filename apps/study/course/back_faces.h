@@ -20,8 +20,8 @@ struct FacingCount {
 std::vector<FacingCount> count_facings();
 
 /// Triangles whose third corner lies in the plane through the eye and the other two, but for its
-/// rounding to binary32: edge-on.obj and edge-on.json. The eye is the origin; all corners are numbers
-/// of binary32.
+/// rounding to binary32: edge-on.obj and edge-on.json. The eye is the origin; all corners are
+/// numbers of binary32.
 SceneFiles edge_on_files();
 
 /// What the three tests say of each of these triangles. A test is wrong where it does not say what

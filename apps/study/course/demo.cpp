@@ -54,9 +54,9 @@ std::uint64_t count_of(const std::vector<bool>& pixels) {
 constexpr std::uint32_t table_columns = 12, table_rows = 9;
 constexpr double table_near = 0.125;
 
-/// The two triangles of the tables, drawn in an order: 0 is black, at window depth 0.5; 1 is grey, from
-/// 0.25 at column 4 to 0.95 at column 11. Their sides are straight lines between those centres that the
-/// source's tables have inside and those that they have outside:
+/// The two triangles of the tables, drawn in an order: 0 is black, at window depth 0.5; 1 is grey,
+/// from 0.25 at column 4 to 0.95 at column 11. Their sides are straight lines between those centres
+/// that the source's tables have inside and those that they have outside:
 ///   black   x = 5.4 − k/2 and x = 5.8 + 3k/5 at the centres of row k
 ///   grey    x = 12.8 − 11k/5 and x = 8k/5 − 2, up to the right side of the window
 Scene black_and_grey(const std::vector<std::uint32_t>& order) {

@@ -21,8 +21,8 @@ struct Demo {
 Demo demo();
 SceneFiles demo_files();
 
-/// Rows of words: what the depth buffer holds, as "0.5", cleared to "1"; colours as W(hite), B(lack)
-/// and G(rey).
+/// Rows of words: what the depth buffer holds, as "0.5", cleared to "1"; colours as W(hite),
+/// B(lack) and G(rey).
 struct BufferContents {
   std::vector<std::string> depths, colours;
 };

@@ -9,8 +9,8 @@
 /// The exercises of the textbooks, a function each: pictures and figures.
 namespace fathom::studies {
 
-/// Exercise 1: eight lines from the middle of 65 × 65 pixels at the multiples of 45 degrees, drawn by
-/// the pipeline.
+/// Exercise 1: eight lines from the middle of 65 × 65 pixels at the multiples of 45 degrees, drawn
+/// by the pipeline.
 SceneFiles eight_lines_files();
 RgbImage eight_lines(pipeline::WireLine algorithm);
 

@@ -34,8 +34,8 @@ struct Square {
   int degrees;
   CornerRing corners;
 };
-/// Sides of 41; of that turned by 45 degrees the diagonals are 58, so that its corners are exact: it
-/// is larger by 1/1681.
+/// Sides of 41; of that turned by 45 degrees the diagonals are 58, so that its corners are exact:
+/// it is larger by 1/1681.
 std::vector<Square> squares() {
   return {{0, {{10, 10, 0}, {51, 10, 1}, {51, 51, 0}, {10, 51, 0}}},
           {45, {{30.5, 1.5, 0}, {59.5, 30.5, 1}, {30.5, 59.5, 0}, {1.5, 30.5, 0}}},

@@ -6,9 +6,9 @@
 
 namespace fathom::studies {
 
-/// A mesh of narrow triangles on the subpixel grid: how often its samples are covered. Every triangle
-/// is asked about every sample, by what the pipeline decides with (subpixel_grid.h): the pipeline's
-/// pictures show only one triangle at each.
+/// A mesh of narrow triangles on the subpixel grid: how often its samples are covered. Every
+/// triangle is asked about every sample, by what the pipeline decides with (subpixel_grid.h): the
+/// pipeline's pictures show only one triangle at each.
 struct SharedEdges {
   int bits = 0;
   std::uint64_t triangles = 0, turned_over = 0, without_area = 0;

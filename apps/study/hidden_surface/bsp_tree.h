@@ -4,8 +4,8 @@
 
 namespace fathom::studies {
 
-/// How a tree computes the corners at which it cuts polygons, on which side of a plane a corner lies,
-/// and whether a ray meets a piece.
+/// How a tree computes the corners at which it cuts polygons, on which side of a plane a corner
+/// lies, and whether a ray meets a piece.
 enum class TreeArithmetic {
   binary64,        ///< all in binary64
   exact_outlines,  ///< pieces in binary64, but whether a ray meets a piece is decided exactly

@@ -11,8 +11,8 @@
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/scene/scene.h"
 
-/// Z-buffer, painter's algorithm, Warnock's subdivision and a tree of planes, compared with the exact
-/// visible triangle and with each other.
+/// Z-buffer, painter's algorithm, Warnock's subdivision and a tree of planes, compared with the
+/// exact visible triangle and with each other.
 namespace fathom::studies {
 
 /// The textbooks' cases, by name.
@@ -21,7 +21,8 @@ struct HiddenSurfaceScene {
   Scene scene;
 };
 std::vector<HiddenSurfaceScene> hidden_surface_scenes();
-/// What sees them: 160 × 160 pixels, and no edge runs through a sample, where snapping would decide.
+/// What sees them: 160 × 160 pixels, and no edge runs through a sample, where snapping would
+/// decide.
 Camera hidden_surface_camera();
 
 struct TreeErrors {

@@ -13,9 +13,9 @@ struct StepCost {
   double binary32_ns, binary64_ns;
 };
 
-/// The explicit equation, whose products do not wait for each other; DDA, where each sum waits for the
-/// one before; and four DDAs in turns, a quarter of the line each, whose sums wait for those four steps
-/// before: the same additions.
+/// The explicit equation, whose products do not wait for each other; DDA, where each sum waits for
+/// the one before; and four DDAs in turns, a quarter of the line each, whose sums wait for those
+/// four steps before: the same additions.
 std::vector<StepCost> step_costs();
 
 /// The sum of the rows of all pixels, which each of them computes: m from 0 to 1, row 0 at first.

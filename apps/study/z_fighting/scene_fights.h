@@ -35,8 +35,8 @@ struct FightPicture {
   StudyFile png;
   std::string command;
 };
-/// fights-NAME: where it fights; error-NAME: how far decoded depths are off. The commands read these
-/// files of the scene and its camera.
+/// fights-NAME: where it fights; error-NAME: how far decoded depths are off. The commands read
+/// these files of the scene and its camera.
 std::vector<FightPicture> pictures_of(const std::string& name, const BufferedScene& buffered,
                                       const std::string& scene, const std::string& camera);
 

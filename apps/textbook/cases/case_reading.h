@@ -18,7 +18,8 @@ using Json = nlohmann::ordered_json;
 /// `name` becomes the member "name", also where the rest cannot be read if it stands in front.
 Json parse_case(std::string_view line, Json& name);
 
-/// Refuses keys that are none of `known`; "name" is known everywhere. `taker` is what takes the others.
+/// Refuses keys that are none of `known`; "name" is known everywhere. `taker` is what takes the
+/// others.
 void expect_only(const Json& object, std::initializer_list<std::string_view> known,
                  std::string_view taker = "this algorithm");
 

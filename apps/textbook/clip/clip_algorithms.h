@@ -38,12 +38,13 @@ Json sutherland_hodgman(const Json& object, Form form);
 template <class Number>
 Json homogeneous(const Json& object, Form form);
 
-/// {"plane", "points"}, {"plane", "line"} or {"polygon3", "planes"}; {"triangle", "eye"} in place of
-/// "plane"
+/// {"plane", "points"}, {"plane", "line"} or {"polygon3", "planes"}; {"triangle", "eye"} in place
+/// of "plane"
 template <class Number>
 Json plane(const Json& object, Form form);
 
-/// {"polygon3", "planes", "attributes"}, which two algorithms take; `algorithm` names the one asked.
+/// {"polygon3", "planes", "attributes"}, which two algorithms take; `algorithm` names the one
+/// asked.
 template <class Number>
 Json clip_in_space(const Json& object, const std::string& algorithm, Form form);
 

@@ -21,8 +21,8 @@ using clip::Form;
 using clip::Json;
 using Algorithm = Json (*)(const Json&, Form);
 
-/// An algorithm over either kernel; `binary64` is null where it has the exact one alone. `way` is its
-/// key that says how it finds the answer, not which one: another algorithm has no use for it.
+/// An algorithm over either kernel; `binary64` is null where it has the exact one alone. `way` is
+/// its key that says how it finds the answer, not which one: another algorithm has no use for it.
 struct Kernels {
   Algorithm exact, binary64;
   std::string_view way = {};

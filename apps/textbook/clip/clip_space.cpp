@@ -200,9 +200,9 @@ void check_normal(const clipping::Point3<Number>& N,
   throw InputError("the triangle's normal is rounded to zero; --kernel exact has it");
 }
 
-/// The plane through three points, front where they run counter-clockwise as seen, with what it says
-/// of itself: its normal, the normal's length, which is twice the triangle's area (rounded once), and
-/// on which side an eye is: N·V with V from the first corner to the eye.
+/// The plane through three points, front where they run counter-clockwise as seen, with what it
+/// says of itself: its normal, the normal's length, which is twice the triangle's area (rounded
+/// once), and on which side an eye is: N·V with V from the first corner to the eye.
 template <class Number>
 clipping::Plane<Number> plane_of_triangle(const Json& object, Json& result, Form form) {
   if (object.contains("plane")) throw InputError("expected \"plane\" or \"triangle\", not both");

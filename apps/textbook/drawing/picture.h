@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-/// Pictures of steps as SVG, readable in light and in dark. What is drawn comes from the JSON of the
-/// answer, so the numbers of a picture are those of --trace.
+/// Pictures of steps as SVG, readable in light and in dark. What is drawn comes from the JSON of
+/// the answer, so the numbers of a picture are those of --trace.
 namespace fathom::app::drawing {
 
 using Json = nlohmann::ordered_json;

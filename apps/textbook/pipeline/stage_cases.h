@@ -6,8 +6,8 @@
 #include "apps/textbook/cases/case_reading.h"
 #include "fathom/pipeline/options.h"
 
-/// `fathom pipeline run STAGE`: one stage of the pipeline by itself. A record goes in, and comes out
-/// with the stage's results, so that the answer of a stage is the case of the next one.
+/// `fathom pipeline run STAGE`: one stage of the pipeline by itself. A record goes in, and comes
+/// out with the stage's results, so that the answer of a stage is the case of the next one.
 namespace fathom::app {
 
 struct StageDescription {

@@ -8,8 +8,8 @@ namespace fathom::app::scan {
 
 /// {"triangle", "width", "height"}: the three edge functions at the centre of every pixel of the
 /// image, outside the triangle too; the inside of every edge is positive, as for edge-function.
-/// Answer   {"edges": [{"edge", "a", "b", "c"}], "values": [[[e_BC, e_CA, e_AB], …], …]}, row by row;
-///          both empty if the triangle has no area.
+/// Answer   {"edges": [{"edge", "a", "b", "c"}], "values": [[[e_BC, e_CA, e_AB], …], …]}, row by
+///          row; both empty if the triangle has no area.
 template <class Number>
 Json edge_values(const Json& object, const Form& form);
 

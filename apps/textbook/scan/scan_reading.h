@@ -14,14 +14,14 @@ pipeline::PixelWindow window_of(const Json& object);
 /// Refuses coordinates beyond ±2³¹; `where` names them.
 double checked_coordinate(double x, const std::string& where);
 
-/// The corners that close their rings: the last one of a ring where it repeats the first. Corners are
-/// numbered as they are written, ring after ring.
+/// The corners that close their rings: the last one of a ring where it repeats the first. Corners
+/// are numbered as they are written, ring after ring.
 struct ClosingCorner {
   std::size_t corner, first;
 };
 
-/// The rings of "polygon", each of three corners or more, without the corners that close them; these
-/// are appended to `closing`.
+/// The rings of "polygon", each of three corners or more, without the corners that close them;
+/// these are appended to `closing`.
 clipping::Rings<double> polygon_of(const Json& object,
                                    std::vector<ClosingCorner>* closing = nullptr);
 

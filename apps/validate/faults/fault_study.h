@@ -35,8 +35,8 @@ FaultSubject fault_subject(const ValidationScene& scene, const attribution::Othe
 /// the pixels that are changed; infinite where half of these are surfaces that came or went.
 double effect_of(const FaultSubject& subject, const attribution::OtherMap& map);
 
-/// Sizes of a fault whose effects are about 1, 3, 10 and 100: with the exact map of what is drawn in
-/// place of the renderer's. One of no size has the size 0.
+/// Sizes of a fault whose effects are about 1, 3, 10 and 100: with the exact map of what is drawn
+/// in place of the renderer's. One of no size has the size 0.
 std::vector<double> sizes_of(const Fault& fault, const FaultSubject& subject);
 
 /// A map that went wrong.

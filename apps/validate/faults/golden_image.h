@@ -11,8 +11,8 @@ namespace fathom::validation {
 
 /// Whether a comparison sees that a map is not the earlier one.
 struct GoldenVerdicts {
-  /// vtkImageDifference of grey pictures of the depths, above the 10 that VTK's tests allow; nothing
-  /// where VTK is not there.
+  /// vtkImageDifference of grey pictures of the depths, above the 10 that VTK's tests allow;
+  /// nothing where VTK is not there.
   bool vtk = false, has_vtk = false;
   /// A structural similarity of less than 0.99.
   /// Source   [WBSS04], windows of 8 × 8 pixels, grey pictures of 8 bits.

@@ -8,8 +8,8 @@
 
 namespace fathom::validation {
 
-/// Why a result is not good, in one line: why there is no map, else the first finding, else how many
-/// pixels are unexplained and the one to look at first. Empty where the result is good.
+/// Why a result is not good, in one line: why there is no map, else the first finding, else how
+/// many pixels are unexplained and the one to look at first. Empty where the result is good.
 std::string cause_of(const ValidationCase& validated);
 
 /// What is to be said first of a result: as attribution::verdict_text(), or why there is no map.

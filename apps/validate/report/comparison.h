@@ -40,8 +40,8 @@ struct Comparison {
   /// Why the run is worse, in one line: its first clause. Empty where it is not.
   [[nodiscard]] std::string regression() const;
   /// Why results are not compared though there is a baseline, in one clause: one of them is
-  /// incomparable, or the baseline has none of them. A gate would let all through there. Empty where
-  /// all is well.
+  /// incomparable, or the baseline has none of them. A gate would let all through there. Empty
+  /// where all is well.
   [[nodiscard]] std::string obstacle() const;
 };
 

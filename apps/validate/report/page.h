@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-/// The parts of report.html and comparison.html that are the same in every report: the files of page/
-/// by their names, compiled in by EmbedTexts.cmake.
+/// The parts of report.html and comparison.html that are the same in every report: the files of
+/// page/ by their names, compiled in by EmbedTexts.cmake.
 namespace fathom::validation::page {
 
 /// To the beginning of the style sheet; the style sheet; from its end to the data.

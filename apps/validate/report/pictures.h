@@ -3,8 +3,8 @@
 #include "apps/validate/report/validation_case.h"
 #include "fathom/image/rgb_image.h"
 
-/// The pictures of report.html as files, with legends. Small maps are enlarged by a whole factor, of
-/// very large ones every k-th pixel is shown.
+/// The pictures of report.html as files, with legends. Small maps are enlarged by a whole factor,
+/// of very large ones every k-th pixel is shown.
 namespace fathom::validation {
 
 /// What the pictures are called in the folder of a report.

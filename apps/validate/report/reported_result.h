@@ -24,7 +24,8 @@ struct ReportedResult {
   std::uint32_t width = 0, height = 0;
   std::uint64_t triangles = 0;
   std::array<std::uint64_t, attribution::pixel_class_count> counts{};
-  /// Errors of depth, relative to the exact one; the bound's width likewise, NaN where there is none.
+  /// Errors of depth, relative to the exact one; the bound's width likewise, NaN where there is
+  /// none.
   double median_error = 0, greatest_error = 0, median_bound = 0;
   std::vector<attribution::Finding> findings;
 

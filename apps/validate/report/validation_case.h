@@ -31,7 +31,8 @@ struct ValidationCase {
   /// predicted_fights.h.
   std::optional<std::uint64_t> predicted_fights;
 
-  /// Whether it is known which triangle each pixel shows: where it is not, z-fighting shows only where depths reveal it.
+  /// Whether it is known which triangle each pixel shows: where it is not, z-fighting shows only
+  /// where depths reveal it.
   [[nodiscard]] bool has_triangle_numbers() const { return !other.triangles.empty(); }
   [[nodiscard]] bool is_done() const { return failure.empty(); }
   /// Nothing is unexplained and nothing was found to be wrong.

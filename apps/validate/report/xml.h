@@ -15,8 +15,9 @@ struct XmlElement {
   std::string text;
 };
 
-/// A text as it can stand in an attribute or between tags, so that a reader gets it back. Characters
-/// that XML 1.0 cannot hold, and what could have effects on a terminal, become '?' or U+FFFD.
+/// A text as it can stand in an attribute or between tags, so that a reader gets it back.
+/// Characters that XML 1.0 cannot hold, and what could have effects on a terminal, become '?' or
+/// U+FFFD.
 /// Source   Extensible Markup Language 1.0, productions 2 (Char), 10 (AttValue), 14 (CharData) and
 ///          section 3.3.3, by which a line feed in an attribute is read as a space unless it is
 ///          escaped; fathom/text/printable.h.

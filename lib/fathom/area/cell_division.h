@@ -38,8 +38,8 @@ std::size_t size_of(const std::vector<State>& parts) {
 /// Calls `visit` with parts of the state, which must have
 ///   size()                how many pieces there are
 ///   halves()              the state in the halves of its part
-///   halves_along_edge()   the same on both sides of an edge that is not a side of the part; nothing
-///                         if there is none
+///   halves_along_edge()   the same on both sides of an edge that is not a side of the part;
+///                         nothing if there is none
 /// It ends, because pieces in a part have fewer edges that are not its sides than before a cut
 /// along an edge, and other cuts are limited.
 template <class State, class Visit>

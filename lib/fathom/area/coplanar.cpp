@@ -49,8 +49,8 @@ class VisibleTriangle {
         is_in_cell_(visibility_.add(surface())) {}
 
   /// Where both are and this one is visible, in convex polygons. Empty if the other is nowhere
-  /// behind it, or certainly farther than `within`. Where they are equally deep, the other must have
-  /// the higher number; `other_in_front` is in_front() of both.
+  /// behind it, or certainly farther than `within`. Where they are equally deep, the other must
+  /// have the higher number; `other_in_front` is in_front() of both.
   std::vector<ConvexPolygon> visible_before(std::uint32_t other, const ImageForm& other_in_front,
                                             double within) {
     const auto both = before(other, other_in_front);

@@ -25,8 +25,8 @@ struct CoverageFrame {
 /// Exact    always, by convex_union.h. A triangle with Δ = 0 projects to nothing; one that reaches
 ///          behind the camera projects to what its edge functions say (section 4), which needs no
 ///          clipping at W = 0.
-/// Fails    InputError where the camera or one of the triangles has a fault (find_fault); the rest of
-///          the scene is not looked at. std::out_of_range for the number of no triangle.
+/// Fails    InputError where the camera or one of the triangles has a fault (find_fault); the rest
+///          of the scene is not looked at. std::out_of_range for the number of no triangle.
 Ratio pixel_coverage(const CoverageFrame& frame, std::span<const std::uint32_t> triangles,
                      std::uint32_t column, std::uint32_t row);
 

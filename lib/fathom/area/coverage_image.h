@@ -14,14 +14,14 @@ namespace fathom::area {
 using VisitPixel = std::function<void(std::uint32_t column, std::uint32_t row,
                                       std::span<const SurfaceRegion* const> triangles)>;
 
-/// Visits every pixel of a share of the rows of which a triangle may cover a part, different ones at
-/// the same time. `part_done`, if set, is called after each band of the share, from any thread.
+/// Visits every pixel of a share of the rows of which a triangle may cover a part, different ones
+/// at the same time. `part_done`, if set, is called after each band of the share, from any thread.
 void for_each_pixel(const CoverageFrame& frame, const VisitPixel& visit,
                     const std::function<void()>& part_done = {}, const RowShare& share = {});
 
 /// Channel A of the whole image: width × height values, row by row from the top left, 0 where
-/// nothing is covered. Every pixel is computed by itself. `part_done` as above. Returns how decisions were
-/// made.
+/// nothing is covered. Every pixel is computed by itself. `part_done` as above. Returns how
+/// decisions were made.
 TierCounts write_coverage(const CoverageFrame& frame, float* values,
                           const std::function<void()>& part_done = {});
 

@@ -13,8 +13,8 @@ class CoveredParts {
  public:
   CoveredParts(ImageCell& cell, ConvexPolygon whole) : cell_(&cell), whole_(std::move(whole)) {}
 
-  /// Adds a part of the polygon. Returns false if the parts before certainly cover it, and then does
-  /// not keep it.
+  /// Adds a part of the polygon. Returns false if the parts before certainly cover it, and then
+  /// does not keep it.
   bool add(const ConvexPolygon& part);
   /// Whether the parts are certainly all of the polygon: what is added then changes nothing.
   [[nodiscard]] bool is_all() const { return is_all_; }

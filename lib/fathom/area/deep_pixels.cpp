@@ -90,7 +90,8 @@ EnclosedSum enclosed_sum(std::span<const Fragment> fragments) {
   return sum;
 }
 
-/// Areas of fragments that lie behind each other, in enclosures that are found when one is asked for.
+/// Areas of fragments that lie behind each other, in enclosures that are found when one is asked
+/// for.
 class AreasBehind {
  public:
   AreasBehind(std::span<const Fragment> fragments, const Boundary& uncovered)

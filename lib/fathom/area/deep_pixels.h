@@ -17,8 +17,8 @@ DeepMap visible_in_pixels(const TriangleSource& triangles, const Camera& camera,
                           const RenderOptions& options, const RowShare& share = {},
                           const std::function<void(double)>& progress = {});
 
-/// How much of each pixel of a share of the rows each matte covers, without names; `matte_of` gives the id for the number
-/// of a triangle, and triangles of equal ids are one matte.
+/// How much of each pixel of a share of the rows each matte covers, without names; `matte_of` gives
+/// the id for the number of a triangle, and triangles of equal ids are one matte.
 /// Exact    a coverage is the sum of the exact visible areas, rounded once.
 Mattes mattes_in_pixels(const TriangleSource& triangles, const Camera& camera,
                         const RenderOptions& options,

@@ -69,8 +69,8 @@ struct CellPart {
   }
   /// Whether a polygon in it is all of it.
   [[nodiscard]] bool is_all(const ConvexPolygon& polygon) const { return !first_inside(polygon); }
-  /// Cuts a polygon in it off at the edges of another one in it. Returns false, and leaves a polygon
-  /// that must not be used any more, if they have no area in common.
+  /// Cuts a polygon in it off at the edges of another one in it. Returns false, and leaves a
+  /// polygon that must not be used any more, if they have no area in common.
   [[nodiscard]] bool clip(ConvexPolygon& polygon, const ConvexPolygon& by,
                           TierCounts& counts) const {
     return polygon.bounds().may_meet(by.bounds()) &&

@@ -14,8 +14,8 @@ namespace fathom {
 ///
 /// Exact    the fractions are multiples of 1/256 or of fewer parts, and each sample is decided
 ///          exactly: by bounds first, or for the reference engine by exact numbers alone.
-/// Fails    InputError where map, scene or camera has a fault (find_fault), or the map is not of the
-///          camera's size; UsageError for a pattern that sample_pattern() does not make.
+/// Fails    InputError where map, scene or camera has a fault (find_fault), or the map is not of
+///          the camera's size; UsageError for a pattern that sample_pattern() does not make.
 /// Needs    in `options` the engine, culling and threads with which the map was rendered.
 void add_sampled_coverage(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                           const SamplePattern& pattern, const RenderOptions& options);

@@ -10,8 +10,8 @@
 
 namespace fathom::area {
 
-/// The surfaces of triangles, each with about twenty allocations of memory: they are made, and freed,
-/// in parts, which can be done by several threads.
+/// The surfaces of triangles, each with about twenty allocations of memory: they are made, and
+/// freed, in parts, which can be done by several threads.
 class SurfaceParts {
  public:
   using Part = std::vector<std::optional<SurfaceRegion>>;

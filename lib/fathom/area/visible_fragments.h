@@ -54,9 +54,9 @@ class CellVisibility {
 
   /// Removes pieces that are hidden by one that is the whole part; numbers change.
   void drop_hidden();
-  /// For divide(): the pieces in both halves of the part, and on both sides of an edge of a piece in
-  /// front or, where all are the whole part, of the line where two of them change places. Without
-  /// those hidden by one that is the whole half.
+  /// For divide(): the pieces in both halves of the part, and on both sides of an edge of a piece
+  /// in front or, where all are the whole part, of the line where two of them change places.
+  /// Without those hidden by one that is the whole half.
   [[nodiscard]] std::vector<CellVisibility> halves() const;
   [[nodiscard]] std::vector<CellVisibility> halves_along_edge();
 

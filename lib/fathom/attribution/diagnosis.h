@@ -7,8 +7,8 @@
 
 namespace fathom::attribution {
 
-/// What a model makes of a map, and the map with its fault put right, where a fault of the whole image
-/// was found.
+/// What a model makes of a map, and the map with its fault put right, where a fault of the whole
+/// image was found.
 struct Diagnosis {
   Attribution attribution;
   std::optional<Hypothesis> put_right;

@@ -10,8 +10,8 @@ namespace fathom::attribution {
 struct Estimate {
   std::string name;
   double value = 0;
-  /// Standard deviation, from residuals that are summed corner by corner of the mesh: triangles that
-  /// share one share its roundings.
+  /// Standard deviation, from residuals that are summed corner by corner of the mesh: triangles
+  /// that share one share its roundings.
   double deviation = 0;
   /// "pixels", "scene units", "rad" or empty.
   std::string unit;

@@ -47,8 +47,8 @@ void judge_by_any(Judgement& judgement) {
        .evidence = std::move(choice.evidence)});
 }
 
-/// Models of rasterizers mean nothing without near and far: where pixels stay open or the model is in
-/// doubt, that is worth a line.
+/// Models of rasterizers mean nothing without near and far: where pixels stay open or the model is
+/// in doubt, that is worth a line.
 void note_untried_models(Judgement& judgement) {
   const std::vector<Finding>& findings = judgement.attribution.findings;
   const bool is_in_doubt =
@@ -64,8 +64,8 @@ void note_untried_models(Judgement& judgement) {
        .pixels = unexplained(judgement)});
 }
 
-/// The bounds of a rasterizer's model follow from near and far. Where pixels stay unexplained and no cause was
-/// found, wrong ones are a possible cause.
+/// The bounds of a rasterizer's model follow from near and far. Where pixels stay unexplained and
+/// no cause was found, wrong ones are a possible cause.
 void note_clip_planes(Judgement& judgement) {
   const Camera& camera = judgement.truth->camera;
   const bool is_raster = std::holds_alternative<RasterModel>(judgement.model.kind);

@@ -9,8 +9,8 @@
 #include "fathom/attribution/other_map.h"
 #include "fathom/attribution/truth.h"
 
-/// A map that someone brings, of which nothing is known but the scene and the camera that it is said
-/// to show and perhaps the kind of its renderer.
+/// A map that someone brings, of which nothing is known but the scene and the camera that it is
+/// said to show and perhaps the kind of its renderer.
 namespace fathom::attribution {
 
 /// What is found in such a map.
@@ -37,8 +37,8 @@ Judgement judge(std::shared_ptr<const Truth> truth, const OtherMap& other,
                 const std::optional<RendererModel>& model);
 
 /// Judges a map of a scene. One of another size than the camera's is judged as the reading of it
-/// that explains most (other_size.h), and a map that fits its scene nowhere is said to be of another
-/// one (other_scene.h).
+/// that explains most (other_size.h), and a map that fits its scene nowhere is said to be of
+/// another one (other_scene.h).
 /// Fails    InputError that begins with `name`, the map's: it shows triangles that the scene has
 ///          not, or no reading of its size explains half of it.
 Judgement judge_map(const std::string& name, const OtherMap& other, const Scene& scene,

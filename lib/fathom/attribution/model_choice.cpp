@@ -30,8 +30,8 @@ bool explains_all(const Attribution& found) {
   return unexplained(found) == 0 && found.findings.empty();
 }
 
-/// Whether the map shows surfaces and the depth of none could be compared: each of their pixels may be an edge, as
-/// where a huge triangle passes the eye, so that nearly any map would be explained.
+/// Whether the map shows surfaces and the depth of none could be compared: each of their pixels may
+/// be an edge, as where a huge triangle passes the eye, so that nearly any map would be explained.
 bool is_vacuous(const Attribution& found, const OtherMap& other) {
   return found.median_relative_width == 0 &&
          std::any_of(other.depths.begin(), other.depths.end(),
@@ -142,8 +142,8 @@ double Candidates::left_by(const ModelSurvey& survey) const {
                           : static_cast<double>(unexplained(trial->attribution));
 }
 
-/// Fewest pixels first; of those that leave as many, the one with the widest bounds, which sees a gross
-/// fault alone.
+/// Fewest pixels first; of those that leave as many, the one with the widest bounds, which sees a
+/// gross fault alone.
 std::vector<ModelSurvey> Candidates::by_what_they_leave() const {
   std::vector<ModelSurvey> sorted = surveys_;
   std::stable_sort(sorted.begin(), sorted.end(), [&](const ModelSurvey& a, const ModelSurvey& b) {
@@ -226,9 +226,10 @@ bool shows_surfaces_where_open(const Attribution& found, const OtherMap& other) 
   return false;
 }
 
-/// How many times as wide as the named model's the bounds of another may be, where that explains what
-/// the named one calls a fault: wide bounds explain much. Faults of where surfaces are seen have no
-/// such limit: if another model explains them, they are as small as the roundings of a camera.
+/// How many times as wide as the named model's the bounds of another may be, where that explains
+/// what the named one calls a fault: wide bounds explain much. Faults of where surfaces are seen
+/// have no such limit: if another model explains them, they are as small as the roundings of a
+/// camera.
 double widest_for(const Attribution& mine, const OtherMap& other) {
   const std::string_view kind = mine.findings.empty() ? "" : mine.findings.front().kind;
   if (kind == "isolated-pixels" && shows_surfaces_where_open(mine, other)) return 10;
@@ -246,8 +247,8 @@ bool has_storage(const Attribution& found) {
                      [](const Finding& finding) { return finding.kind == "storage"; });
 }
 
-/// Whether a fault and another model say more than what the named model finds: they leave a tenth of
-/// its pixels, or none with fewer findings, where it needs a storage beside the fault.
+/// Whether a fault and another model say more than what the named model finds: they leave a tenth
+/// of its pixels, or none with fewer findings, where it needs a storage beside the fault.
 bool says_more(const Attribution& best, const Attribution& mine) {
   if (unexplained(mine) > 0) return unexplained(best) * 10 <= unexplained(mine);
   return unexplained(best) == 0 && best.findings.size() < mine.findings.size();

@@ -23,8 +23,9 @@ struct ModelSurvey {
 
   /// A model that leaves a pixel of the sample open does not explain the map.
   [[nodiscard]] bool may_explain_all() const { return unexplained == 0 && foreign == 0; }
-  /// Estimate for the whole map of the pixels that the model does not explain. A foreign pixel counts as
-  /// one unexplained pixel: a stray value is foreign to the storage of the right model, too.
+  /// Estimate for the whole map of the pixels that the model does not explain. A foreign pixel
+  /// counts as one unexplained pixel: a stray value is foreign to the storage of the right model,
+  /// too.
   [[nodiscard]] double estimated_unexplained() const {
     return static_cast<double>(foreign) + static_cast<double>(unexplained) / share;
   }

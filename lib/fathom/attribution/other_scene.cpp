@@ -19,10 +19,10 @@ struct Surfaces {
   std::uint64_t in_map = 0, in_scene = 0, in_either = 0, agreeing = 0, unexplained = 0;
 };
 
-/// How near two depths have to be to count as about the same: a hundredth of the range from the scene's
-/// nearest depth to its farthest. The depths of another scene that fell anywhere in that range would do
-/// so at one pixel of fifty, so at nine tenths of the pixels only the same scene does. A thousandth of
-/// the depth counts as well, for a wall that has no range.
+/// How near two depths have to be to count as about the same: a hundredth of the range from the
+/// scene's nearest depth to its farthest. The depths of another scene that fell anywhere in that
+/// range would do so at one pixel of fifty, so at nine tenths of the pixels only the same scene
+/// does. A thousandth of the depth counts as well, for a wall that has no range.
 class Agreement {
  public:
   explicit Agreement(const std::vector<double>& depths) {

@@ -26,7 +26,8 @@ struct ImportedCamera {
   Camera camera;
   /// Where `camera` is the pinhole part of a lens with distortion: which file, which lens.
   std::string distortion;
-  /// Why the data themselves have no camera of this image: it was not tracked, or not reconstructed.
+  /// Why the data themselves have no camera of this image: it was not tracked, or not
+  /// reconstructed.
   std::string absence;
   /// Why there is no camera though there should be: the message of an InputError.
   std::string fault;
@@ -39,20 +40,20 @@ struct CameraChoice {
   bool ignore_distortion = false;
 };
 
-/// The cameras that are asked for, in their order. Those with distortion are left out with a warning
-/// that counts them, unless they are taken without it, and so are images without a camera.
+/// The cameras that are asked for, in their order. Those with distortion are left out with a
+/// warning that counts them, unless they are taken without it, and so are images without a camera.
 /// `input` is the file's name for messages.
-/// Fails    InputError where one has a fault; where the image that is asked for is not there, has no
-///          camera, or its lens has distortion; and where no camera is left.
+/// Fails    InputError where one has a fault; where the image that is asked for is not there, has
+///          no camera, or its lens has distortion; and where no camera is left.
 std::vector<Camera> chosen_cameras(const std::vector<ImportedCamera>& imported,
                                    const std::string& input, const CameraChoice& choice,
                                    Warnings& warnings);
 
 /// A COLMAP model: the folder with cameras and images, .bin (preferred where both exist) or .txt.
 /// Sorted by image name. Takes SIMPLE_PINHOLE and PINHOLE, and the pinhole part of SIMPLE_RADIAL,
-/// RADIAL, OPENCV, FULL_OPENCV, FOV, SIMPLE_DIVISION, DIVISION and EUCM; fisheye and spherical models
-/// have none. Rigs and frames (COLMAP 3.12) are not needed: images has the pose of each image.
-/// A folder that has models in folders below it (sparse/0) is refused with their names.
+/// RADIAL, OPENCV, FULL_OPENCV, FOV, SIMPLE_DIVISION, DIVISION and EUCM; fisheye and spherical
+/// models have none. Rigs and frames (COLMAP 3.12) are not needed: images has the pose of each
+/// image. A folder that has models in folders below it (sparse/0) is refused with their names.
 std::vector<ImportedCamera> import_colmap(const std::filesystem::path& folder);
 /// Whether a folder has the files of a COLMAP model.
 bool is_colmap_model(const std::filesystem::path& folder);
@@ -68,16 +69,16 @@ std::vector<ImportedCamera> import_nerf(const std::filesystem::path& file, std::
 /// BOP's scene_camera.json, or the folder of a scene with it, in the order of image ids. A BOP data
 /// set keeps the image size in the camera.json of its root: it is looked for beside the file and in
 /// the two folders above, unless the caller gives a size (0: none). Without cam_R_w2c and cam_t_w2c
-/// the world is the camera frame, in which scene_gt.json gives its poses. Lengths are as in the file
-/// (millimetres).
+/// the world is the camera frame, in which scene_gt.json gives its poses. Lengths are as in the
+/// file (millimetres).
 std::vector<ImportedCamera> import_bop(const std::filesystem::path& input, std::uint32_t width,
                                        std::uint32_t height);
 
 /// The cameras of a glTF scene (.gltf, .glb), one for each node that has one, in the order of the
-/// nodes; called by the node's name, else the camera's. glTF has no image size; where a camera has an
-/// aspect ratio, the size must have it. The node's transform is that of the meshes on it (gltf/); its
-/// scale is ignored, as glTF says: the axes are scaled to length 1. Each entry of the inverse is rounded
-/// once. Lengths are as in the file (metres).
+/// nodes; called by the node's name, else the camera's. glTF has no image size; where a camera has
+/// an aspect ratio, the size must have it. The node's transform is that of the meshes on it
+/// (gltf/); its scale is ignored, as glTF says: the axes are scaled to length 1. Each entry of the
+/// inverse is rounded once. Lengths are as in the file (metres).
 std::vector<ImportedCamera> import_gltf(const std::filesystem::path& file, std::uint32_t width,
                                         std::uint32_t height);
 

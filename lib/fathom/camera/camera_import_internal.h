@@ -27,8 +27,8 @@ struct NamedStream {
   std::string name;
 };
 
-/// A camera as `read` fills it in; where that fails, with its fault. `where` is the place of what is wrong
-/// with the camera as a whole.
+/// A camera as `read` fills it in; where that fails, with its fault. `where` is the place of what
+/// is wrong with the camera as a whole.
 template <class Read>
 ImportedCamera imported_camera(std::string name, const std::string& where, const Read& read) {
   ImportedCamera result;
@@ -60,8 +60,8 @@ std::vector<ImportedCamera> parse_gltf_cameras(std::string_view bytes, const std
                                                std::uint32_t width, std::uint32_t height);
 /// The scene_camera.json of the folder of a scene. Fails with InputError where there is none.
 std::filesystem::path bop_camera_file(const std::filesystem::path& folder);
-/// The image size of the scenes in a folder, as the camera.json of their data set has it, unless one is
-/// given. Fails with InputError.
+/// The image size of the scenes in a folder, as the camera.json of their data set has it, unless
+/// one is given. Fails with InputError.
 std::pair<std::uint32_t, std::uint32_t> bop_image_size(const std::filesystem::path& folder,
                                                        std::uint32_t width, std::uint32_t height);
 /// The image size of a camera.json of BOP.

@@ -59,10 +59,11 @@ struct View {
 /// looking at `centre`. The eye may be straight above or below; the azimuth then says how the image
 /// is turned.
 ///
-/// Exact    where `up` is along an axis, each entry of R is a sine, a cosine or the product of two of
-///          them: the exact one, rounded once. Elsewhere the frame of `up` is rounded as look_at() does,
-///          and R, the product of the rounded ones, once more.
-///          t = (0, 0, distance) − R·centre is computed exactly from the rounded R and rounded once.
+/// Exact    where `up` is along an axis, each entry of R is a sine, a cosine or the product of two
+///          of them: the exact one, rounded once. Elsewhere the frame of `up` is rounded as
+///          look_at() does, and R, the product of the rounded ones, once more.
+///          t = (0, 0, distance) − R·centre is computed exactly from the rounded R and rounded
+///          once.
 /// Fails    UsageError if distance ≤ 0, elevation is outside [−90, 90], `up` is zero, a number is
 ///          not finite, or the lens is not valid.
 Camera look_from(const View& view, const Vector3& centre, double distance, const Lens& lens = {});

@@ -9,9 +9,9 @@
 
 #include "fathom/camera/camera_import.h"
 
-/// The cameras of data sets, by the layouts in which these are handed out; docs/data-sets.md has the
-/// conventions and their sources. What holds for camera_import.h holds here: exact rationals, rounded
-/// once; what is wrong with one camera is part of it.
+/// The cameras of data sets, by the layouts in which these are handed out; docs/data-sets.md has
+/// the conventions and their sources. What holds for camera_import.h holds here: exact rationals,
+/// rounded once; what is wrong with one camera is part of it.
 ///
 /// All fail with InputError, one line that names the file and the line or key, where the files as a
 /// whole cannot be followed, and where two images have one name.
@@ -57,25 +57,26 @@ std::vector<ImportedCamera> import_matrices(const std::vector<NamedPose>& poses,
                                             std::uint32_t height, const std::string& input);
 
 /// Poses as text. A file holds one matrix of 3 or 4 rows of 4 numbers and is called by its stem, or
-/// has a matrix of 12 or 16 numbers on each line, which are called "0", "1", …. Of a folder, all *.txt
-/// in the order of their names. Numbers may have commas between them.
+/// has a matrix of 12 or 16 numbers on each line, which are called "0", "1", …. Of a folder, all
+/// *.txt in the order of their names. Numbers may have commas between them.
 std::vector<NamedPose> read_poses(const std::filesystem::path& file_or_folder);
 
 /// K as text: 3 rows of 3 numbers, or, of each camera, a line of 9.
 std::vector<IntrinsicMatrix> read_intrinsic_matrices(const std::filesystem::path& file);
 
 /// Poses of the TUM RGB-D benchmark: a trajectory, "time tx ty tz qx qy qz qw" on each line, or the
-/// folder with its groundtruth.txt. Camera to world, in metres. They are called by their times as the file writes
-/// them; with a list of images (rgb.txt, depth.txt: "time file") by the images' files, each with the
-/// pose nearest to it in time: one with none within 0.02 s is absent.
-/// `lens` is that of tum_lens(), or a given one (640×480 and pixel centre 0 where they are not given).
+/// folder with its groundtruth.txt. Camera to world, in metres. They are called by their times as
+/// the file writes them; with a list of images (rgb.txt, depth.txt: "time file") by the images'
+/// files, each with the pose nearest to it in time: one with none within 0.02 s is absent.
+/// `lens` is that of tum_lens(), or a given one (640×480 and pixel centre 0 where they are not
+/// given).
 std::vector<ImportedCamera> import_tum(const std::filesystem::path& trajectory,
                                        const std::optional<std::filesystem::path>& images,
                                        const ImportedCamera& lens);
 
 /// The published lenses of TUM's Kinects by name: "ros" (what the registered depth images are meant
-/// for), "freiburg1", "freiburg2", "freiburg3"; the lenses of the first two have distortion. Nothing for
-/// another name.
+/// for), "freiburg1", "freiburg2", "freiburg3"; the lenses of the first two have distortion.
+/// Nothing for another name.
 std::optional<ImportedCamera> tum_lens(const std::string& name);
 /// A given lens in their place. Fails    UsageError where K is not given.
 ImportedCamera tum_lens(const GivenLens& given);
@@ -89,9 +90,9 @@ std::vector<ImportedCamera> import_7scenes(const std::filesystem::path& folder,
 /// ScanNet's two streams.
 enum class ScanNetStream { depth, colour };
 
-/// ScanNet: a folder with pose/N.txt and intrinsic/intrinsic_depth.txt or intrinsic_color.txt, in the
-/// order of N, which is the name. Camera to world, in metres; frames with a pose of -inf are absent.
-/// Where nothing else is given: 640×480 or 1296×968, pixel centre 0.
+/// ScanNet: a folder with pose/N.txt and intrinsic/intrinsic_depth.txt or intrinsic_color.txt, in
+/// the order of N, which is the name. Camera to world, in metres; frames with a pose of -inf are
+/// absent. Where nothing else is given: 640×480 or 1296×968, pixel centre 0.
 std::vector<ImportedCamera> import_scannet(const std::filesystem::path& folder,
                                            ScanNetStream stream, const GivenLens& given);
 
@@ -111,8 +112,8 @@ std::vector<ImportedCamera> import_replica(const std::filesystem::path& folder,
 /// P_rect_00 to P_rect_03 and their sizes S_rect). P = K·[I | t], so that camera i stands beside
 /// camera 0 by t, in metres.
 /// Without poses these cameras themselves in the frame of rectified camera 0, called "image_0" or
-/// "image_00", as their folders; with poses (3×4 on each line: camera 0 to world) camera `number` of
-/// each frame, called "000000", …. Pixel centre 0 where none is given.
+/// "image_00", as their folders; with poses (3×4 on each line: camera 0 to world) camera `number`
+/// of each frame, called "000000", …. Pixel centre 0 where none is given.
 /// Fails    UsageError where the image size is neither given nor in the file, and where there are
 ///          poses and no number.
 std::vector<ImportedCamera> import_kitti(const std::filesystem::path& calibration,

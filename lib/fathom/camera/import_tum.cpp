@@ -20,8 +20,8 @@ constexpr std::uint32_t kinect_width = 640, kinect_height = 480;
 /// In seconds: what the benchmark's own associate.py takes for simultaneous.
 constexpr double largest_difference = 0.02;
 
-/// A lens that the benchmark publishes for colour images. Those with distortion are not the lenses of
-/// its depth images, which the driver has registered to a pinhole camera.
+/// A lens that the benchmark publishes for colour images. Those with distortion are not the lenses
+/// of its depth images, which the driver has registered to a pinhole camera.
 struct PublishedLens {
   const char* name;
   double fx, fy, cx, cy;

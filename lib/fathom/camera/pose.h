@@ -19,8 +19,8 @@ std::array<double, 3> unit_vector(const ExactVector3& v);
 /// rounded once.
 Matrix3 rotation_of(const std::array<double, 4>& quaternion);
 
-/// World to camera, [R⁻¹ | −R⁻¹·eye], of a camera at `eye` whose axes in the world are the columns of
-/// that rotation R: each entry the exact one rounded once.
+/// World to camera, [R⁻¹ | −R⁻¹·eye], of a camera at `eye` whose axes in the world are the columns
+/// of that rotation R: each entry the exact one rounded once.
 Matrix34 view_from(const ExactVector3& eye, const std::array<double, 4>& quaternion);
 
 /// R·X, exactly.

@@ -6,8 +6,8 @@
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/camera/pose.h"
 
-/// From a lens and the poses of a data set to its cameras: what all layouts share. Only for .cpp files
-/// of this room.
+/// From a lens and the poses of a data set to its cameras: what all layouts share. Only for .cpp
+/// files of this room.
 /// Fails    InputError, beginning with `where`.
 namespace fathom::camera {
 
@@ -17,12 +17,12 @@ void set_intrinsics(Camera& camera, const IntrinsicMatrix& K, const std::string&
 /// The intrinsic matrix of four numbers.
 IntrinsicMatrix intrinsic_matrix(double fx, double fy, double cx, double cy);
 
-/// A camera at the world's origin: what is given, and of the rest what the data set has. A size that
-/// neither has is 0.
+/// A camera at the world's origin: what is given, and of the rest what the data set has. A size
+/// that neither has is 0.
 Camera lens_of(const GivenLens& given, const GivenLens& data_set, const std::string& where);
 
-/// World to camera, in our axes, of a pose [A | b]: exact, or each entry of the inverse rounded once.
-/// Fails where an entry is not finite, and where a pose that has to be inverted is singular.
+/// World to camera, in our axes, of a pose [A | b]: exact, or each entry of the inverse rounded
+/// once. Fails where an entry is not finite, and where a pose that has to be inverted is singular.
 Matrix34 camera_from_world(const Matrix34& pose, PoseDirection direction, CameraAxes axes,
                            const std::string& where);
 

@@ -7,14 +7,14 @@
 #include "fathom/clipping/points.h"
 #include "fathom/clipping/weiler_atherton.h"
 
-/// CGAL's Boolean set operations ([CGAL], 2D Regularized Boolean Set-Operations): another way to the
-/// answers of weiler_atherton(), and the judge of answers. What a region is, which points it has and
-/// where its border runs, is CGAL's own; ours is how rings are checked on their way in (rings.h), and
-/// the form of the answer (pieces.h), so that equal regions are equal lists.
+/// CGAL's Boolean set operations ([CGAL], 2D Regularized Boolean Set-Operations): another way to
+/// the answers of weiler_atherton(), and the judge of answers. What a region is, which points it
+/// has and where its border runs, is CGAL's own; ours is how rings are checked on their way in
+/// (rings.h), and the form of the answer (pieces.h), so that equal regions are equal lists.
 namespace fathom::clipping {
 
-/// Subject ∩ clip, subject − clip or subject ∪ clip, as weiler_atherton() gives them. A side is the exclusive or of
-/// its rings, which is the even-odd rule.
+/// Subject ∩ clip, subject − clip or subject ∪ clip, as weiler_atherton() gives them. A side is the
+/// exclusive or of its rings, which is the even-odd rule.
 /// Exact    nothing is rounded.
 /// Fails    InputError as checked_rings()
 std::vector<Polygon<Rational>> boolean_by_cgal(const Rings<Rational>& subject,

@@ -71,7 +71,8 @@ Box box_of(const Ring<Number>& ring) {
 /// The sign of cross(a, b, c) for points in these boxes, where the boxes settle it.
 std::optional<int> settled_sign_of_cross(const Box& a, const Box& b, const Box& c);
 
-/// Calls visit(i, k) once for every box i of one list and box k of the other that meet, in no order.
+/// Calls visit(i, k) once for every box i of one list and box k of the other that meet, in no
+/// order.
 /// Cost     n log n and the pairs
 /// Source   [ZE02]: a segment tree of the boxes that is streamed, by CGAL.
 void visit_meeting_boxes(const std::vector<Box>& some, const std::vector<Box>& others,

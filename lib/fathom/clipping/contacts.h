@@ -17,7 +17,8 @@ namespace fathom::clipping {
 template <class Number>
 std::vector<Point2<Number>> contacts(const Segment2<Number>& a, const Segment2<Number>& b);
 
-/// More points of contact are refused: each is a corner of the result, and n edges can meet in n²/4.
+/// More points of contact are refused: each is a corner of the result, and n edges can meet in
+/// n²/4.
 inline constexpr std::size_t most_contacts = std::size_t{1} << 18;
 
 /// Two sides, whose rings may pass through points again.
@@ -26,7 +27,8 @@ struct Sides {
   Rings<Number> subject, clip;
 };
 
-/// The rings, with every contact between a subject ring and a clip ring entered in both as a corner.
+/// The rings, with every contact between a subject ring and a clip ring entered in both as a
+/// corner.
 /// Cost     n log n, and the pairs of edges whose boxes meet
 /// Fails    InputError where there are more than `most_contacts`
 /// Exact    over Rational. Over double a crossing is rounded, to the same point in both rings.

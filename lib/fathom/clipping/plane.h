@@ -17,8 +17,8 @@ struct Plane {
 template <class Number>
 Plane<Number> plane_through(const Point3<Number>& Q, const Point3<Number>& N);
 
-/// (Q − P) × (R − P): from where it points to, P, Q, R run counter-clockwise; its length is twice the
-/// area of the triangle. The other way round it is the negative.
+/// (Q − P) × (R − P): from where it points to, P, Q, R run counter-clockwise; its length is twice
+/// the area of the triangle. The other way round it is the negative.
 template <class Number>
 Point3<Number> normal_of(const Point3<Number>& P, const Point3<Number>& Q, const Point3<Number>& R);
 

@@ -17,8 +17,8 @@ struct Passage {
   std::size_t point, ring, corner;
 };
 
-/// Passages through points that more than one ring passes, point by point, in the order in which the
-/// rings come to them.
+/// Passages through points that more than one ring passes, point by point, in the order in which
+/// the rings come to them.
 std::vector<std::vector<Passage>> shared_points(const NumberedRings& rings, std::size_t points) {
   std::vector<std::vector<Passage>> at(points);
   std::vector<std::size_t> order;
@@ -34,15 +34,15 @@ std::vector<std::vector<Passage>> shared_points(const NumberedRings& rings, std:
   return shared;
 }
 
-/// One of the two ends that a passage has at its point. Directions about the point are numbered; the
-/// same number is the same direction.
+/// One of the two ends that a passage has at its point. Directions about the point are numbered;
+/// the same number is the same direction.
 struct PassageEnd {
   std::size_t towards, passage, direction, other_direction;
 };
 
 /// Both ends of each passage, by their directions. Of ends in the same direction those come first
-/// whose passage has its other end before, the nearest first; then the others, the farthest first: so
-/// only passages that must cross are entwined.
+/// whose passage has its other end before, the nearest first; then the others, the farthest first:
+/// so only passages that must cross are entwined.
 std::vector<PassageEnd> ends_about(const std::vector<Passage>& passages, const NumberedRings& rings,
                                    const PointOrder& points) {
   std::vector<PassageEnd> ends;

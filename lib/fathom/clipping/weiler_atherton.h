@@ -23,10 +23,10 @@
 /// Degenerate contacts need two more things. Before, rings of one side that touch each other are
 /// made lists that bound one wedge of their polygon wherever they pass through a point, and edges
 /// that two of them share are dropped (weiler_atherton_sides.h). After, walks that pass through a
-/// point again are made such lists too (pieces.h). Nothing is moved: where edges of subject and clip
-/// run along each other, the *order* of edges about a point is that of a subject that lies a little
-/// further inside itself (for a union, outside itself), and that alone decides a shared vertex, a
-/// vertex on an edge, overlapping edges and identical polygons.
+/// point again are made such lists too (pieces.h). Nothing is moved: where edges of subject and
+/// clip run along each other, the *order* of edges about a point is that of a subject that lies a
+/// little further inside itself (for a union, outside itself), and that alone decides a shared
+/// vertex, a vertex on an edge, overlapping edges and identical polygons.
 namespace fathom::clipping {
 
 /// `join` is the union, a word that C++ keeps for itself.
@@ -84,9 +84,9 @@ struct WeilerAthertonTrace {
   std::vector<std::vector<WalkStep<Number>>> walks;
 };
 
-/// Subject ∩ clip, subject − clip or subject ∪ clip, as regions: parts of lower dimension are dropped. Polygons and
-/// holes are in the order of their least corners; rings start there and have no straight corners,
-/// so the same region always gives the same list.
+/// Subject ∩ clip, subject − clip or subject ∪ clip, as regions: parts of lower dimension are
+/// dropped. Polygons and holes are in the order of their least corners; rings start there and have
+/// no straight corners, so the same region always gives the same list.
 ///
 /// Cost     n log n, the pairs of a subject edge and a clip edge whose boxes meet, and the pairs of
 ///          rings of one side that share an edge

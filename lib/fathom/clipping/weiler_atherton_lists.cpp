@@ -75,8 +75,8 @@ void place_in_wedges(const std::vector<VisitEnd>& ends) {
   }
 }
 
-/// The crossings at one point that both sides visit, entered in their visits; kinds of crossings are
-/// appended.
+/// The crossings at one point that both sides visit, entered in their visits; kinds of crossings
+/// are appended.
 class PointOfContact {
  public:
   PointOfContact(std::span<Visit> subject, std::span<Visit> clip, std::vector<ContactKind>& kinds)

@@ -6,7 +6,8 @@
 #include "fathom/clipping/numbered_points.h"
 #include "fathom/clipping/weiler_atherton.h"
 
-/// Weiler–Atherton, step 2: the lists of subject and clip, with their entering and leaving contacts.
+/// Weiler–Atherton, step 2: the lists of subject and clip, with their entering and leaving
+/// contacts.
 namespace fathom::clipping {
 
 /// Both sides with their contacts entered, as lists that bound one wedge of their polygon wherever
@@ -39,11 +40,11 @@ struct PlaceLists {
 };
 
 /// The lists. What happens in a point follows from the order of edges about it. There each visit of
-/// a ring bounds a wedge; a subject wedge and a clip wedge cross if one side of the first lies in the
-/// second and the other does not: at most twice for each wedge, however many meet. Where a subject
-/// edge and a clip edge are the same, the order is that of a subject that lies a little further to
-/// its left, for a union to its right: then a slit between two polygons that share an edge lies in
-/// neither, for a union in both. It is the same order at both ends of the edge.
+/// a ring bounds a wedge; a subject wedge and a clip wedge cross if one side of the first lies in
+/// the second and the other does not: at most twice for each wedge, however many meet. Where a
+/// subject edge and a clip edge are the same, the order is that of a subject that lies a little
+/// further to its left, for a union to its right: then a slit between two polygons that share an
+/// edge lies in neither, for a union in both. It is the same order at both ends of the edge.
 /// Fails    InputError if the edges of a side do not alternate about a point; over Rational that
 ///          cannot happen.
 PlaceLists enter_crossings(const NumberedSides& sides, const PointOrder& points,

@@ -67,8 +67,8 @@ class CertifiedBand {
     }
   }
 
-  /// Draws the triangles that win from the visible one where they can have its code: those with lower numbers where
-  /// the first of equals wins, else those with higher ones.
+  /// Draws the triangles that win from the visible one where they can have its code: those with
+  /// lower numbers where the first of equals wins, else those with higher ones.
   void find_winners() {
     find_ends();
     for (const BoxedTriangle& boxed : band_.triangles) draw(boxed);

@@ -42,9 +42,9 @@ struct DepthBufferStatistics {
 ///   Zdecoded   FLOAT: the depth that the stored value means, in scene units, rounded once; +∞.
 /// against_exact:
 ///   Zerror     FLOAT: that depth minus the exact one, rounded once; 0.
-///   Zwinner    UINT: number of the triangle that wins if the nearer stored depth wins and triangles are
-///              drawn in the order of their numbers; of equal stored depths, `equal_depths` says which
-///              wins; 4294967295.
+///   Zwinner    UINT: number of the triangle that wins if the nearer stored depth wins and
+///              triangles are drawn in the order of their numbers; of equal stored depths,
+///              `equal_depths` says which wins; 4294967295.
 ///   Zfight     UINT: 1 where that is not the visible triangle, else 0; 0.
 ///
 /// Exact    each value follows from the exact depth of the visible triangle and is rounded once.

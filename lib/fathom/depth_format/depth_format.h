@@ -32,8 +32,8 @@ enum class Storage { unorm16, unorm24, unorm32, float16, float32, float64 };
 inline constexpr Storage all_storages[] = {Storage::unorm16, Storage::unorm24, Storage::unorm32,
                                            Storage::float16, Storage::float32, Storage::float64};
 
-/// Which of equal stored depths wins: the one drawn first (OpenGL's GL_LESS, GL_GREATER) or the one drawn last
-/// (GL_LEQUAL, GL_GEQUAL).
+/// Which of equal stored depths wins: the one drawn first (OpenGL's GL_LESS, GL_GREATER) or the one
+/// drawn last (GL_LEQUAL, GL_GEQUAL).
 enum class EqualDepths { first_wins, last_wins };
 
 /// A depth format. `near` and `far` bound the planar depths that it takes, in scene units; far is

@@ -7,8 +7,8 @@
 
 namespace fathom {
 
-/// How the depths of a reconstruction agree with the true ones, over all views. Scene units; sums are
-/// computed in binary64, in the order of the views and pixels.
+/// How the depths of a reconstruction agree with the true ones, over all views. Scene units; sums
+/// are computed in binary64, in the order of the views and pixels.
 struct DepthAgreement {
   std::uint64_t views = 0;
   /// Pixels that show both surfaces, or one of them.

@@ -24,9 +24,10 @@ std::pair<double, double> made_weights(double v, double w) {
 
 }  // namespace
 
-/// From above: the distance from a point of the triangle. Divided by their sum, if that is above 1, the
-/// weights are those of such a point, and q is near it (validation/proofs, evaluation_place).
-/// From below: the triangle lies wholly beyond a plane across g = p − q if its corners do; for any g,
+/// From above: the distance from a point of the triangle. Divided by their sum, if that is above 1,
+/// the weights are those of such a point, and q is near it (validation/proofs, evaluation_place).
+/// From below: the triangle lies wholly beyond a plane across g = p − q if its corners do; for any
+/// g,
 ///   distance ≥ min over the corners X of g·(p − X)/|g|
 /// (evaluation_plane).
 DistanceBounds distance_bounds(const PlacedTriangles::Corners& corners, const Vector& p) {

@@ -15,8 +15,8 @@ Dyadic square(const ExactVector3& v) {
   return dot(v, v);
 }
 
-/// Whether the foot of the perpendicular from p is on the inside of the line from `from` to `to`, of
-/// a triangle with this normal, which is not zero.
+/// Whether the foot of the perpendicular from p is on the inside of the line from `from` to `to`,
+/// of a triangle with this normal, which is not zero.
 bool is_inside(const WorldPoint& from, const WorldPoint& to, const WorldPoint& p,
                const ExactVector3& normal) {
   return dot(cross(between(from, to), between(from, p)), normal).sign() != Sign::negative;

@@ -13,8 +13,8 @@ struct MeasuredPoint {
   double distance = 0;
 };
 
-/// The points as a PLY file, binary little endian: x y z and the distance as `quality`, the name that MeshLab and
-/// CloudCompare know, all double.
+/// The points as a PLY file, binary little endian: x y z and the distance as `quality`, the name
+/// that MeshLab and CloudCompare know, all double.
 std::vector<std::byte> ply_of(const std::vector<MeasuredPoint>& points);
 
 }  // namespace fathom

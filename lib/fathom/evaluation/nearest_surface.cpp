@@ -12,8 +12,8 @@
 namespace fathom::evaluation {
 namespace {
 
-/// Not more than the distance of the exact point from the exact triangles in the box: each gap errs by
-/// at most bounds::difference_error (validation/proofs, evaluation_gap).
+/// Not more than the distance of the exact point from the exact triangles in the box: each gap errs
+/// by at most bounds::difference_error (validation/proofs, evaluation_gap).
 double least_distance(const Box& box, const Vector& p) {
   Vector gap;
   for (std::size_t k = 0; k < 3; ++k)

@@ -18,8 +18,8 @@ long power_of_unit(const TriangleSource& triangles);
 /// below 1: bounds on errors are plain numbers then, and nothing overflows.
 class PlacedTriangles {
  public:
-  /// Each coordinate is within bounds::corner_error of the exact one: of corners that are placed as they
-  /// are nothing is lost but what lies below 2⁻¹⁰⁷⁴, and others are rounded once.
+  /// Each coordinate is within bounds::corner_error of the exact one: of corners that are placed as
+  /// they are nothing is lost but what lies below 2⁻¹⁰⁷⁴, and others are rounded once.
   using Corners = std::array<Vector, 3>;
 
   /// The unit is 2 to the power of `power`, at least power_of_unit().

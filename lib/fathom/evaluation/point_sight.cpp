@@ -155,10 +155,11 @@ bool PointSight::is_in_image(const PlacedPoint& p, const View& view) const {
          U <= exact_W * Dyadic(camera_.width) && V <= exact_W * Dyadic(camera_.height);
 }
 
-// The point errs by at most bounds::point_error in each coordinate and the other end, at most M ≥ 1 in
-// each, by 2⁻⁵⁰·M: to a camera at infinity the line is long enough to leave the cube in which the scene
-// lies. The margins are what the tests lose by that and by rounding (validation/proofs, evaluation_line
-// and evaluation_cross). Where something is not finite, every test says that the line may meet the box.
+// The point errs by at most bounds::point_error in each coordinate and the other end, at most M ≥ 1
+// in each, by 2⁻⁵⁰·M: to a camera at infinity the line is long enough to leave the cube in which
+// the scene lies. The margins are what the tests lose by that and by rounding (validation/proofs,
+// evaluation_line and evaluation_cross). Where something is not finite, every test says that the
+// line may meet the box.
 PointSight::Line PointSight::line_to(const PlacedPoint& p) const {
   Vector end = eye_;
   if (camera_.projection == Projection::orthographic) {
@@ -178,8 +179,8 @@ PointSight::Line PointSight::line_to(const PlacedPoint& p) const {
   return line;
 }
 
-/// With λ = w/Δ the point's image is Σ λᵢ·qᵢ of the corners' images q, and the plane of the triangle
-/// has the depth Σ wᵢ·Dᵢ / Σ wᵢ there. Nothing where a sign is not settled or zero.
+/// With λ = w/Δ the point's image is Σ λᵢ·qᵢ of the corners' images q, and the plane of the
+/// triangle has the depth Σ wᵢ·Dᵢ / Σ wᵢ there. Nothing where a sign is not settled or zero.
 std::optional<bool> PointSight::hides_certainly(std::uint32_t number, const View& view) const {
   std::array<View, 3> corners;
   std::array<Image, 3> q;

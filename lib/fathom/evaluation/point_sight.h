@@ -17,9 +17,10 @@ namespace fathom::evaluation {
 /// A camera sees a point of a triangle that it does not see edge on and that culling keeps if the
 /// point's image lies in the closed rectangle of the image, its depth is above 0 and from near to
 /// far, and no other such triangle, its edges included, has a smaller depth in that range there.
-/// This is the specification's rule for a sample, but for edges, which hide on both sides: a point is
-/// not on a grid, and nothing has to be covered just once.
-/// Exact    every decision: by binary64 with bounds, and by exact numbers where these do not settle it.
+/// This is the specification's rule for a sample, but for edges, which hide on both sides: a point
+/// is not on a grid, and nothing has to be covered just once.
+/// Exact    every decision: by binary64 with bounds, and by exact numbers where these do not settle
+///          it.
 class PointSight {
  public:
   PointSight(const TriangleSource& source, const PlacedTriangles& triangles,

@@ -71,7 +71,8 @@ class Measurement {
   }
 
  private:
-  /// Neighbours are mostly seen by the same camera, so the one that saw the last point is asked first.
+  /// Neighbours are mostly seen by the same camera, so the one that saw the last point is asked
+  /// first.
   [[nodiscard]] bool is_seen(std::uint32_t triangle, const PlacedPoint& p,
                              std::size_t& last_sight) const {
     if (sights_.empty()) return true;
@@ -157,10 +158,12 @@ std::vector<SurfacePoint> points_on(const Surface& surface, const char* name, st
   }
 }
 
-/// Of a triangle: its corners, its place in the tree's order, at most one node for each, its share of the area.
+/// Of a triangle: its corners, its place in the tree's order, at most one node for each, its share
+/// of the area.
 constexpr double bytes_of_triangle = sizeof(PlacedTriangles::Corners) + sizeof(std::uint32_t) +
                                      sizeof(TriangleTree::Node) + sizeof(double);
-/// Of a point: its place on each surface, its distance from one of them, and that once more to be sorted.
+/// Of a point: its place on each surface, its distance from one of them, and that once more to be
+/// sorted.
 constexpr double bytes_of_point =
     2 * sizeof(SurfacePoint) + sizeof(std::optional<Distance>) + sizeof(double);
 /// Of a point that is kept, of each surface, while its list grows.

@@ -13,7 +13,8 @@ namespace fathom {
 
 /// How far the points of one surface are from another, over the points that count.
 struct SurfaceDistances {
-  /// Points that were put on the surface, and those of them that count: the ones that a camera sees.
+  /// Points that were put on the surface, and those of them that count: the ones that a camera
+  /// sees.
   std::uint64_t points = 0, seen = 0;
   /// Scene units; all 0 if no point counts.
   double mean = 0, rms = 0;
@@ -55,13 +56,15 @@ struct SurfaceComparison {
 
 /// Compares two surfaces in the same world. Points stand on each of them in proportion to area,
 /// always the same ones for the same surface; of these, those count that one of `cameras` sees
-/// of the surface on which they are, whatever the other is like; all of them if there are no cameras.
-/// A distance is that from the nearest point of the whole other surface, not from points on it.
+/// of the surface on which they are, whatever the other is like; all of them if there are no
+/// cameras. A distance is that from the nearest point of the whole other surface, not from points
+/// on it.
 ///
-/// Exact    what is seen, each distance (rounded once to binary64), and which are below a threshold.
-///          Means are sums in binary64 in the order of the points. The same on every machine.
-/// Fails    InputError where a scene or a camera has a fault (find_fault), or a surface has no area, or
-///          memory does not hold so many points;
+/// Exact    what is seen, each distance (rounded once to binary64), and which are below a
+///          threshold. Means are sums in binary64 in the order of the points. The same on every
+///          machine.
+/// Fails    InputError where a scene or a camera has a fault (find_fault), or a surface has no
+///          area, or memory does not hold so many points;
 ///          UsageError as require_meaningful().
 /// Source   [KPZK17] for precision, recall and F-score
 SurfaceComparison compare_surfaces(const Scene& reconstruction, const Scene& truth,

@@ -11,9 +11,9 @@
 namespace fathom {
 
 /// Those of the names that `name` is most likely a misspelling of, in the order of `names`: they
-/// differ from it by the least number of letters that are missing, too many, wrong or exchanged with
-/// their neighbour, at most one, or two where there are six letters or more; or by upper and lower
-/// case alone. Empty where none is that near.
+/// differ from it by the least number of letters that are missing, too many, wrong or exchanged
+/// with their neighbour, at most one, or two where there are six letters or more; or by upper and
+/// lower case alone. Empty where none is that near.
 std::vector<std::string> nearest_names(std::string_view name,
                                        const std::vector<std::string>& names);
 

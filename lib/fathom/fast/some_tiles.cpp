@@ -41,8 +41,8 @@ void for_each_list(const std::vector<Bins>& bins, std::uint32_t tile, const Visi
     for (const Side side : {Side::front, Side::back}) visit(part.in_tile(tile, side));
 }
 
-/// Parts of a round, enough for threads to share them out. Each has a table of all tiles, which takes
-/// longer to fill than the triangles of a round where an image is large.
+/// Parts of a round, enough for threads to share them out. Each has a table of all tiles, which
+/// takes longer to fill than the triangles of a round where an image is large.
 std::uint32_t parts_of_round(const RenderOptions& options) {
   return options.threads == 1 ? 1 : 8;
 }

@@ -13,10 +13,10 @@
 #include "fathom/rendering/rendered.h"
 #include "fathom/scene/triangle_source.h"
 
-/// A map that is drawn in several places, each of which has some tiles of the image and is given the
-/// triangles that may touch them, some at a time. What a tile shows depends neither on the others nor
-/// on the order in which triangles come: put together, the tiles are the map of render_fast(), bit for
-/// bit.
+/// A map that is drawn in several places, each of which has some tiles of the image and is given
+/// the triangles that may touch them, some at a time. What a tile shows depends neither on the
+/// others nor on the order in which triangles come: put together, the tiles are the map of
+/// render_fast(), bit for bit.
 namespace fathom {
 
 /// The tiles of an image: squares of side × side pixels, less at the right and below, numbered row
@@ -28,8 +28,9 @@ struct ImageTiles {
 /// Fails    InputError if there are 2³² tiles or more.
 ImageTiles tiles_of(const Camera& camera);
 
-/// Some triangles of an object of a scene, as a mesh of their own, with the numbers that they have in
-/// the scene, in ascending order; or else, where `numbers` is empty, those from `first_number` on.
+/// Some triangles of an object of a scene, as a mesh of their own, with the numbers that they have
+/// in the scene, in ascending order; or else, where `numbers` is empty, those from `first_number`
+/// on.
 struct SomeTriangles {
   std::uint32_t object = 0;
   Mesh mesh;
@@ -95,7 +96,8 @@ class TilesInRounds {
   SortedTriangles sort(std::vector<SomeTriangles> triangles);
   /// The same, but statistics count nothing of it: these triangles have been counted elsewhere.
   SortedTriangles sort_again(std::vector<SomeTriangles> triangles);
-  /// Says which tiles are drawn here, by their numbers in ascending order: once, before the first are.
+  /// Says which tiles are drawn here, by their numbers in ascending order: once, before the first
+  /// are.
   void choose(std::vector<std::uint32_t> tiles);
   /// Draws triangles in these tiles.
   /// Fails    OutputError where there is no room for tiles in a file.

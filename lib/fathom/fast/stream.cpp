@@ -20,8 +20,8 @@
 // which are transformed, sorted into tiles and drawn like those of a scene in memory; the tiles of
 // the band keep what is visible so far. How many rows a band has is found on the way: as many as
 // have tiles that fit into the allowed memory. Bands after the first leave out what the first saw
-// to lie elsewhere. Channel A needs all triangles that meet a tile together: it is written at the end
-// of the band (CoverageInRounds).
+// to lie elsewhere. Channel A needs all triangles that meet a tile together: it is written at the
+// end of the band (CoverageInRounds).
 namespace fathom {
 using namespace fast;
 using namespace rendering;

@@ -21,8 +21,8 @@ struct StreamLimits {
   /// need more, the files are read again for the rest of the image. At least one row of tiles, 64
   /// rows of pixels, is kept.
   std::uint64_t tile_bytes = std::uint64_t{1} << 30;
-  /// For channel A, memory for the triangles that these tiles need, about 200 bytes each. If there are
-  /// more, they wait in a file without a name in the folder that TMPDIR names.
+  /// For channel A, memory for the triangles that these tiles need, about 200 bytes each. If there
+  /// are more, they wait in a file without a name in the folder that TMPDIR names.
   std::uint64_t kept_bytes = std::uint64_t{1} << 30;
 };
 
@@ -30,8 +30,8 @@ struct StreamLimits {
 /// read by read_scene(), bit for bit.
 ///
 /// Memory   the channels asked for, and what the limits allow; nothing that grows with the number
-///          of triangles (but see TriangleStream), except that for channel A all that meet one tile are
-///          there together.
+///          of triangles (but see TriangleStream), except that for channel A all that meet one tile
+///          are there together.
 /// Fails    as render_reference(); UsageError for limits that allow no triangle; InputError if a
 ///          file changes in the meantime; for channel A, OutputError if there is no room for what
 ///          does not fit into the memory.

@@ -11,8 +11,8 @@
 
 namespace fathom::files {
 
-/// Small pieces of a file, here and there, through blocks that stay in memory (4 MiB in all). Slower
-/// than MappedFile; but a file that is cut short meanwhile is an error, not a signal.
+/// Small pieces of a file, here and there, through blocks that stay in memory (4 MiB in all).
+/// Slower than MappedFile; but a file that is cut short meanwhile is an error, not a signal.
 ///
 /// Several threads may read at the same time.
 class FileBlocks {

@@ -16,7 +16,8 @@ struct FileState {
 /// Fails    InputError "NAME: cannot be examined: …".
 FileState state_of(int descriptor, const std::string& name);
 
-/// Fails    InputError "NAME: has been cut short …" where the file is smaller than when it was opened.
+/// Fails    InputError "NAME: has been cut short …" where the file is smaller than when it was
+///          opened.
 void expect_whole(const FileState& opened, const FileState& now, const std::string& name);
 /// Fails    also InputError "NAME: has been written to …" where the states differ otherwise.
 void expect_unchanged(const FileState& opened, const FileState& now, const std::string& name);

@@ -31,8 +31,8 @@ class InputFile {
   enum class Reading { copied, mapped_where_large };
 
   /// Fails    InputError "PATH: why": missing, not readable, a directory, a device other than what
-  ///          standard input is, cut short while it is read, or more than largest_unsized_input from
-  ///          what is no regular file.
+  ///          standard input is, cut short while it is read, or more than largest_unsized_input
+  ///          from what is no regular file.
   explicit InputFile(const std::filesystem::path& path, Reading reading = Reading::copied);
   /// A file that another file names; "-" is an ordinary name. Fails    as open_confined().
   InputFile(const std::filesystem::path& path, const std::vector<Boundary>& boundaries,
@@ -49,7 +49,8 @@ class InputFile {
 
   /// For what has been made of the bytes: whether they were those of one state of the file.
   /// Fails    InputError where a regular file was written to while it was read or, if it is mapped,
-  ///          since. (A mapped file that is cut within its last page ends in zeros, without a signal.)
+  ///          since. (A mapped file that is cut within its last page ends in zeros, without a
+  ///          signal.)
   void expect_unchanged() const;
 
  private:

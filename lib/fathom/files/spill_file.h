@@ -12,8 +12,9 @@
 
 namespace fathom::files {
 
-/// Bytes that wait on a disk for want of memory, in a file without a name: it is gone with the object,
-/// and with the process, however that ends. Several threads may write and read at the same time.
+/// Bytes that wait on a disk for want of memory, in a file without a name: it is gone with the
+/// object, and with the process, however that ends. Several threads may write and read at the same
+/// time.
 class SpillFile {
  public:
   /// In a folder; else in the one that TMPDIR names, or /tmp.

@@ -16,7 +16,8 @@ struct ChannelName {
 };
 
 /// The map with these channels called otherwise, and the text channel_names_text (map_texts.h),
-/// "Z=Y,distance=D", by which read_map() gives them their own names back. Files of PFM and NPY name no channel.
+/// "Z=Y,distance=D", by which read_map() gives them their own names back. Files of PFM and NPY name
+/// no channel.
 /// Fails    UsageError if there is no such channel, it is named twice, a name is empty or holds one
 ///          of ",=" or NUL, or two channels would be called the same; InputError if the map has a
 ///          fault.

@@ -42,8 +42,8 @@ struct DifferenceSummary {
 struct ChannelComparison {
   std::string truth_channel, other_channel;
   bool identifiers = false;
-  /// Directions and positions: numbers of both signs, among which a count of ulps means little, since
-  /// half of all binary32 numbers lie between −1 and 1.
+  /// Directions and positions: numbers of both signs, among which a count of ulps means little,
+  /// since half of all binary32 numbers lie between −1 and 1.
   bool is_around_zero = false;
 
   std::uint64_t pixels = 0;
@@ -94,15 +94,16 @@ enum class Metrics {
 
 struct CompareOptions {
   /// Two numbers agree where one of the three tolerances allows it: so many ulps, an absolute
-  /// difference in the unit of the channel, a relative one (ChannelComparison says what is measured).
+  /// difference in the unit of the channel, a relative one (ChannelComparison says what is
+  /// measured).
   double tolerance_ulp = 0;
   /// Compare this channel only; empty: all that both have. If they have no name in common, a depth
   /// channel of each is compared (`ViewLayer.Depth.Z`), with a note.
   std::string channel;
   /// Its name in the other map, if that differs.
   std::string other_channel;
-  /// The value that means background in depth channels (NaN and infinities do as well); if empty, it
-  /// is what the map says (background.h), or else detected (surface.h) and noted.
+  /// The value that means background in depth channels (NaN and infinities do as well); if empty,
+  /// it is what the map says (background.h), or else detected (surface.h) and noted.
   std::optional<double> truth_background, other_background;
   double tolerance_absolute = 0;
   double tolerance_relative = 0;
@@ -119,11 +120,11 @@ MapComparison compare_maps(const DepthMap& truth, const DepthMap& other,
 /// What the colours of draw_differences() measure; ChannelComparison defines each.
 enum class DifferenceMeasure { absolute, relative, ulp };
 
-/// A picture of the differences in one channel (empty: of those that compare_maps() compares Z, else
-/// the first of depths, else the first): equal pixels dark, differing ones coloured by the logarithm
-/// of their difference; surfaces in only one map, and values that cannot be compared, have colours
-/// of their own. With a legend, in which the colours of absolute and relative differences begin at a
-/// millionth of the greatest.
+/// A picture of the differences in one channel (empty: of those that compare_maps() compares Z,
+/// else the first of depths, else the first): equal pixels dark, differing ones coloured by the
+/// logarithm of their difference; surfaces in only one map, and values that cannot be compared,
+/// have colours of their own. With a legend, in which the colours of absolute and relative
+/// differences begin at a millionth of the greatest.
 /// Fails    as compare_maps(); OutputError if the font is missing.
 RgbImage draw_differences(const DepthMap& truth, const DepthMap& other,
                           const CompareOptions& options = {},

@@ -30,17 +30,17 @@ struct StereoRig {
 };
 
 /// Returns a map with one channel: `to`, computed from the map's channel `from`, of the same type,
-/// with the map's texts. What shows no surface (surface_mask()) becomes `background`; so does what has
-/// no number: NaN, and a depth of +∞, which overflowed. Without `background`, that is 0 for
-/// disparity, as most data sets have it; for the others what the map says (background.h), or +∞. With
-/// +∞, a disparity is Middlebury's "unknown" there.
+/// with the map's texts. What shows no surface (surface_mask()) becomes `background`; so does what
+/// has no number: NaN, and a depth of +∞, which overflowed. Without `background`, that is 0 for
+/// disparity, as most data sets have it; for the others what the map says (background.h), or +∞.
+/// With +∞, a disparity is Middlebury's "unknown" there.
 ///   ray distance   Z·√(1 + x'² + y'²) with x', y' as in point_at() (Z itself if orthographic)
 /// Fails    UsageError if the channel `from` is missing or holds codes, or if disparity is asked
-///          for without a rig, with baseline ≤ 0, or with an orthographic camera, or for a background
-///          that is none (with_background); InputError if the map or the camera has a fault, and,
-///          naming the pixel, if a disparity plus doffs is negative (no point has it); OutputError,
-///          naming the pixel, if a surface has the value of the background: with doffs or in binary32,
-///          a disparity can be 0.
+///          for without a rig, with baseline ≤ 0, or with an orthographic camera, or for a
+///          background that is none (with_background); InputError if the map or the camera has a
+///          fault, and, naming the pixel, if a disparity plus doffs is negative (no point has it);
+///          OutputError, naming the pixel, if a surface has the value of the background: with doffs
+///          or in binary32, a disparity can be 0.
 DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity to,
                           const Camera& camera, const std::optional<StereoRig>& rig = std::nullopt,
                           std::optional<double> background = std::nullopt);
@@ -49,8 +49,8 @@ DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity
 ///   to binary32           rounded to nearest even; from codes, code / scale
 ///   to binary64           widened; from codes, code / scale rounded once
 ///   to scaled_unorm16     code = round-half-even(scale·D), computed exactly; background is 0.
-///                         `scale` is required. Where `beyond_is_none`, a surface whose code would be
-///                         above 65535 gets 0, and codes_beyond counts it.
+///                         `scale` is required. Where `beyond_is_none`, a surface whose code would
+///                         be above 65535 gets 0, and codes_beyond counts it.
 /// Fails    OutputError, naming the pixel, if a depth's code would be 0 or above 65535 (as for an
 ///          overflowed depth); UsageError if the channel is missing or ambiguous or does not hold
 ///          depth, or scale is not a positive number; InputError if the map has a fault or codes

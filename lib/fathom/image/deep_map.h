@@ -36,8 +36,9 @@ void check_deep_compression(Compression compression);
 /// Writes a deep scan-line EXR with the channels A, Z, ZBack (FLOAT), area (FLOAT) and id (UINT)
 /// and deepImageState SORTED; such files can have the compressions `none`, `rle` and `zips`.
 /// `threads` compress; 0: all of the machine.
-/// Fails    OutputError: "PATH: why"; InputError if there is not a count for each pixel and a sample
-///          for each that is counted; UsageError for another compression or number of threads.
+/// Fails    OutputError: "PATH: why"; InputError if there is not a count for each pixel and a
+///          sample for each that is counted; UsageError for another compression or number of
+///          threads.
 void write_deep_map(const DeepMap& map, const std::filesystem::path& path,
                     Compression compression = Compression::zips, int threads = 0);
 

@@ -36,23 +36,24 @@ struct DepthMap {
 
   /// For 16-bit codes: code = round-half-even(scale·D), 0 where there is no surface.
   std::optional<double> png_scale;
-  /// How many pixels show a surface whose code would be above 65535 and that has 0 instead, as if it
-  /// showed none; nullopt where such a depth is refused.
+  /// How many pixels show a surface whose code would be above 65535 and that has 0 instead, as if
+  /// it showed none; nullopt where such a depth is refused.
   std::optional<std::uint64_t> codes_beyond;
 
   /// Names of the objects that channel `object` numbers.
   std::vector<std::string> object_names;
   /// What the numbers in other channels stand for: tables["material"][n] is the name of material n.
   std::map<std::string, std::vector<std::string>> tables;
-  /// Attributes as they are in the file: `fathom.sources`, `fathom.engine`, … (`fathom.camera` is made from
-  /// camera, `fathom.objects` from object_names, `fathom.materials` and the like from tables).
+  /// Attributes as they are in the file: `fathom.sources`, `fathom.engine`, … (`fathom.camera` is
+  /// made from camera, `fathom.objects` from object_names, `fathom.materials` and the like from
+  /// tables).
   std::map<std::string, std::string> texts;
-  /// What it was rendered with; files are told of it as they need it, `fathom.camera` among their texts.
-  /// None in a map that was read: camera_of() finds it in the texts.
+  /// What it was rendered with; files are told of it as they need it, `fathom.camera` among their
+  /// texts. None in a map that was read: camera_of() finds it in the texts.
   std::optional<Camera> camera;
-  /// Attributes of an EXR that was read, as they are in it: `worldToCamera` and `worldToNDC`, row by row,
-  /// `pixelAspectRatio`, `screenWindowCenter` and `screenWindowWidth`. An EXR of a map without `camera`
-  /// has them again.
+  /// Attributes of an EXR that was read, as they are in it: `worldToCamera` and `worldToNDC`, row
+  /// by row, `pixelAspectRatio`, `screenWindowCenter` and `screenWindowWidth`. An EXR of a map
+  /// without `camera` has them again.
   std::map<std::string, std::vector<double>> numbers;
 
   /// nullptr if there is no such channel.
@@ -71,17 +72,17 @@ struct DepthMap {
   }
 };
 
-/// What is wrong with a map, in one line, or nothing if it has pixels and channels; these have names
-/// of their own, without NUL, and a value for each pixel; and the scale of codes is a positive
-/// number.
+/// What is wrong with a map, in one line, or nothing if it has pixels and channels; these have
+/// names of their own, without NUL, and a value for each pixel; and the scale of codes is a
+/// positive number.
 std::optional<std::string> find_fault(const DepthMap& map);
 
 /// Refuses a map that is not valid.
 /// Fails    InputError, "map: " and what find_fault() says.
 void require_valid(const DepthMap& map);
 
-/// The camera that a map carries: its own, or the one in its text `fathom.camera`; nullopt if it carries
-/// none. `name` is the map's for messages.
+/// The camera that a map carries: its own, or the one in its text `fathom.camera`; nullopt if it
+/// carries none. `name` is the map's for messages.
 /// Fails    InputError where the text is not one camera.
 std::optional<Camera> camera_of(const DepthMap& map, const std::string& name);
 

@@ -3,7 +3,8 @@
 #include <cstdint>
 
 /// The figures by which depth and stereo benchmarks rank methods: here of one channel of a map
-/// against the same of the true one. Sums are computed in binary64, pixel by pixel from the top left.
+/// against the same of the true one. Sums are computed in binary64, pixel by pixel from the top
+/// left.
 namespace fathom {
 
 /// Of depths d against true depths t, over the pixels where both maps show a surface and both

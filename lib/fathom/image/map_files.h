@@ -17,8 +17,9 @@ namespace fathom {
 /// Whether a file begins as COLMAP's dense maps do, with a number that is ended by "&".
 bool is_colmap_map(std::span<const std::byte> bytes);
 
-/// Refuses to write the map of a camera as a GeoTIFF, before any work is done, unless its pixels have a
-/// place in the world whatever their depth: it is orthographic and looks straight along the world's z.
+/// Refuses to write the map of a camera as a GeoTIFF, before any work is done, unless its pixels
+/// have a place in the world whatever their depth: it is orthographic and looks straight along the
+/// world's z.
 /// Fails    OutputError "NAME: a GeoTIFF needs an orthographic camera that …".
 void require_place_in_world(const Camera& camera, const std::string& name);
 
@@ -33,16 +34,17 @@ struct WriteOptions {
   Compression compression = Compression::zip;
   /// Threads to compress with; 0: all.
   int threads = 0;
-  /// The channel to write as PFM, PNG, NPY or for COLMAP; if empty, the map's only channel. As NPY also
-  /// a channel of several parts, "N" for N.X, N.Y and N.Z; for COLMAP "Nc".
+  /// The channel to write as PFM, PNG, NPY or for COLMAP; if empty, the map's only channel. As NPY
+  /// also a channel of several parts, "N" for N.X, N.Y and N.Z; for COLMAP "Nc".
   std::string channel;
   /// What says where in the world a GeoTIFF is; nullopt: the camera that the map carries.
   std::optional<Camera> camera;
 };
 
-/// How many bytes encode_map() takes at least beside a map of so many: for an EXR that is compressed what a
-/// chunk of its rows needs, which is all of a map with few rows; for PNG and GeoTIFF, whose rows are
-/// compressed a few at a time, nothing; for others a file as large as the map.
+/// How many bytes encode_map() takes at least beside a map of so many: for an EXR that is
+/// compressed what a chunk of its rows needs, which is all of a map with few rows; for PNG and
+/// GeoTIFF, whose rows are compressed a few at a time, nothing; for others a file as large as the
+/// map.
 double memory_to_encode(MapFormat format, Compression compression, std::uint32_t height,
                         double bytes_of_map);
 
@@ -53,12 +55,13 @@ double memory_to_encode(MapFormat format, Compression compression, std::uint32_t
 ///         `fathom:scale`, attributes as text chunks; or identifiers up to 65534.
 ///   NPY   one channel, C order, shape (height, width), version 1.0; one of several parts, of one
 ///         type, has shape (height, width, parts).
-///   NPZ   every channel as such an array, in a ZIP archive without compression, of less than 4 GiB;
-///         the texts and the names of objects as a JSON object in an array `fathom` that is a text.
+///   NPZ   every channel as such an array, in a ZIP archive without compression, of less than 4
+///         GiB; the texts and the names of objects as a JSON object in an array `fathom` that is a
+///         text.
 ///   COLMAP  a dense map: Z, 0 where no surface is; or Nc; both binary32 (files/colmap_file.cpp).
-///   TIFF  a GeoTIFF of less than 4 GiB, for others to read: a band of binary32 for every channel, with
-///         DEFLATE, and its place in the world, by a camera that require_place_in_world() takes
-///         (files/geotiff_write.cpp).
+///   TIFF  a GeoTIFF of less than 4 GiB, for others to read: a band of binary32 for every channel,
+///         with DEFLATE, and its place in the world, by a camera that require_place_in_world()
+///         takes (files/geotiff_write.cpp).
 /// Fails    OutputError: "PATH: why" (disk full, not writable), or if the format cannot hold what
 ///          the map has; InputError where the map has a fault (find_fault); UsageError if the
 ///          channel is missing or ambiguous, or the number of threads is out of range.
@@ -81,21 +84,22 @@ struct MapMemory {
 };
 
 /// Reads a map back, recognising its format by content. Channels have their own names, whatever
-/// with_channel_names() has called them. Parts of an array of pixels with several are called as those
-/// of the channel of its name, or NAME.0, NAME.1, …; an NPY has no names: "Z", "id" (32-bit integers)
-/// or "vector"; a map of COLMAP's "Z", +∞ where it has 0, or "Nc". Also EXR files of other programs: HALF
-/// channels are widened to binary32; a layered name is kept in full. Nothing is allocated for a
-/// size that the file cannot fill, or that takes more than `memory`. "-" is standard input.
+/// with_channel_names() has called them. Parts of an array of pixels with several are called as
+/// those of the channel of its name, or NAME.0, NAME.1, …; an NPY has no names: "Z", "id" (32-bit
+/// integers) or "vector"; a map of COLMAP's "Z", +∞ where it has 0, or "Nc". Also EXR files of
+/// other programs: HALF channels are widened to binary32; a layered name is kept in full. Nothing
+/// is allocated for a size that the file cannot fill, or that takes more than `memory`. "-" is
+/// standard input.
 /// Fails    InputError: "PATH: what is wrong and what was expected".
 DepthMap read_map(const std::filesystem::path& path, const MapMemory& memory = {});
 /// The same of a file that has been read already; `name` is its name for messages.
 DepthMap read_map(std::span<const std::byte> bytes, const std::string& name,
                   const MapMemory& memory = {});
 
-/// One array of an NPZ, as read_map() reads an NPY, whatever the others are like: `array` is its name;
-/// empty: there is only one.
-/// Fails    InputError as read_map(), and where there is no such array or, without a name, more than
-///          one.
+/// One array of an NPZ, as read_map() reads an NPY, whatever the others are like: `array` is its
+/// name; empty: there is only one.
+/// Fails    InputError as read_map(), and where there is no such array or, without a name, more
+///          than one.
 DepthMap read_npz_array(const std::filesystem::path& path, const std::string& array,
                         const MapMemory& memory = {});
 

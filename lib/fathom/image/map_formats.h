@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-/// The formats of map files: the only place that states what each is called and what it holds. Help,
-/// messages and tests of the pages take names and suffixes from this table; map_files.cpp has a codec
-/// for each row.
+/// The formats of map files: the only place that states what each is called and what it holds.
+/// Help, messages and tests of the pages take names and suffixes from this table; map_files.cpp has
+/// a codec for each row.
 namespace fathom {
 
 enum class MapFormat { exr, pfm, png, npy, npz, colmap, tiff };
@@ -161,8 +161,8 @@ std::string suffixes_of_float_maps();
 std::string names_of_readable_maps();
 
 /// Refuses images with more pixels than the format holds, before any work is done.
-/// Fails    OutputError "NAME: EXR holds fewer than 2^30 pixels a side", "NAME: an NPZ holds less than
-///          4 GiB" or the like.
+/// Fails    OutputError "NAME: EXR holds fewer than 2^30 pixels a side", "NAME: an NPZ holds less
+///          than 4 GiB" or the like.
 void require_size(MapFormat format, std::uint32_t width, std::uint32_t height,
                   const std::string& name);
 

@@ -9,16 +9,17 @@
 
 namespace fathom {
 
-/// A mask as the bytes of a PNG of one 8-bit grey channel, 255 where the mask is not 0 and else 0, as the data
-/// sets of BOP have in mask/ and mask_visib/. The same mask gives the same bytes.
+/// A mask as the bytes of a PNG of one 8-bit grey channel, 255 where the mask is not 0 and else 0,
+/// as the data sets of BOP have in mask/ and mask_visib/. The same mask gives the same bytes.
 ///   mask    height × width values, row by row from the top
 ///   name    the file's name for messages
-/// Fails    InputError if the mask has no pixel, or not as many as the size says, or the size is above
-///          2^31 − 1.
+/// Fails    InputError if the mask has no pixel, or not as many as the size says, or the size is
+///          above 2^31 − 1.
 std::vector<std::byte> encode_mask(std::span<const std::uint8_t> mask, std::uint32_t width,
                                    std::uint32_t height, const std::string& name);
 
-/// Writes it to a file. Fails as encode_mask(), and OutputError, "PATH: why", if it cannot be written.
+/// Writes it to a file. Fails as encode_mask(), and OutputError, "PATH: why", if it cannot be
+/// written.
 void write_mask(std::span<const std::uint8_t> mask, std::uint32_t width, std::uint32_t height,
                 const std::filesystem::path& path);
 

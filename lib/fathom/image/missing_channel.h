@@ -6,15 +6,15 @@
 #include "fathom/failures/unknown_name.h"
 #include "fathom/image/depth_map.h"
 
-/// Errors about names of channels: they carry the names that there are, and ask for the one that may be
-/// meant, also where a name is a word that other programs use ("depth" for Z).
+/// Errors about names of channels: they carry the names that there are, and ask for the one that
+/// may be meant, also where a name is a word that other programs use ("depth" for Z).
 namespace fathom {
 
 /// The names of all channels that can be rendered, in the order of channel_table.
 std::vector<std::string> names_of_channels();
 
-/// The error of a name that channel_named() does not know: "there is no channel 'depth'; there are Z,
-/// A, …; did you mean 'Z'?"
+/// The error of a name that channel_named() does not know: "there is no channel 'depth'; there are
+/// Z, A, …; did you mean 'Z'?"
 UnknownName unknown_channel(const std::string& name);
 
 /// The channels of a map as users name them: N where N.X, N.Y and N.Z are there, each once.
@@ -26,13 +26,14 @@ std::string list_of_channels(const DepthMap& map);
 /// "N is N.X, N.Y, N.Z" where the map holds N in parts; else empty.
 std::string text_of_parts(const DepthMap& map, const std::string& name);
 
-/// The error of a name that no single channel of the map has: "the map has no channel 'z', only Z, N; did
-/// you mean 'Z'?", or "N is N.X, N.Y, N.Z; name one"; `which` is the map, "the map".
+/// The error of a name that no single channel of the map has: "the map has no channel 'z', only Z,
+/// N; did you mean 'Z'?", or "N is N.X, N.Y, N.Z; name one"; `which` is the map, "the map".
 UsageError missing_channel(const DepthMap& map, const std::string& name,
                            const std::string& which = "the map");
 
-/// The channels of which one has to be chosen, as an error about the setting `channel`: "this format
-/// holds one channel, and the map has Z, N; name the one to write". `refusal` is its beginning.
+/// The channels of which one has to be chosen, as an error about the setting `channel`: "this
+/// format holds one channel, and the map has Z, N; name the one to write". `refusal` is its
+/// beginning.
 UsageError ambiguous_channel(const std::vector<std::string>& names, const std::string& refusal,
                              const std::string& use);
 

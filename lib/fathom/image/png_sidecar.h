@@ -14,8 +14,8 @@ namespace fathom {
 ///   none      the code where no surface is: 0; 65535 of identifiers
 ///   beyond    how many pixels show a surface that lies too deep for the codes and has `none`
 ///   width, height   pixels
-/// Fails    UsageError if there is no such channel, or several of which none is named; InputError if
-///          the map has a fault.
+/// Fails    UsageError if there is no such channel, or several of which none is named; InputError
+///          if the map has a fault.
 std::string png_sidecar(const DepthMap& map, const std::string& channel = "");
 
 }  // namespace fathom

@@ -15,8 +15,8 @@ enum class PointFrame { world, camera };
 /// rounded once; otherwise points come from `Z` (or `distance`) by point_at() and camera_to_world()
 /// in binary64.
 /// Unit     scene units.
-/// Fails    InputError if the map or the camera has a fault; UsageError if there is no Z, distance or
-///          P.
+/// Fails    InputError if the map or the camera has a fault; UsageError if there is no Z, distance
+///          or P.
 std::vector<std::array<double, 3>> points_of(const DepthMap& map, const Camera& camera,
                                              PointFrame frame);
 
@@ -26,9 +26,9 @@ struct PointCloudOptions {
   bool binary64 = true;
 };
 
-/// Writes points_of() as PLY, binary little endian: x y z; nx ny nz (float) where the map has N; id,
-/// face, object (uint) where it has them. Normals are the map's own (world); for the camera frame
-/// they are transformed by the inverse transpose and normalised again.
+/// Writes points_of() as PLY, binary little endian: x y z; nx ny nz (float) where the map has N;
+/// id, face, object (uint) where it has them. Normals are the map's own (world); for the camera
+/// frame they are transformed by the inverse transpose and normalised again.
 /// Fails    as points_of(); OutputError: "PATH: why".
 void write_point_cloud(const DepthMap& map, const Camera& camera, const std::filesystem::path& path,
                        const PointCloudOptions& options = {});

@@ -9,8 +9,8 @@
 namespace fathom {
 namespace {
 
-/// Whether this is an archive whose first member is an array of NumPy's. Meshes come in archives, too
-/// (3MF).
+/// Whether this is an archive whose first member is an array of NumPy's. Meshes come in archives,
+/// too (3MF).
 bool is_npz(std::string_view content) {
   constexpr std::size_t name_at = 30;
   if (!content.starts_with("PK\x03\x04") || content.size() < name_at) return false;

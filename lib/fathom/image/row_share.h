@@ -4,8 +4,9 @@
 
 namespace fathom {
 
-/// The rows of an image that one of several processes makes: bands of eight rows go round to them in turn,
-/// so that each has some of everything that the image shows. By itself, one process has all.
+/// The rows of an image that one of several processes makes: bands of eight rows go round to them
+/// in turn, so that each has some of everything that the image shows. By itself, one process has
+/// all.
 struct RowShare {
   static constexpr std::uint32_t rows_per_band = 8;
 

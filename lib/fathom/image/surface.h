@@ -32,8 +32,8 @@ struct BackgroundRule {
 ///   codes (16 bits): 0;
 ///   any value that is not finite: those are the background, and no finite value is;
 ///   the greatest value is 1e10, 65504 or the greatest binary32 number: that value;
-///   any value is 0 or below: 0 (and values below 0, but not of disparities, which may be negative);
-///   otherwise there is no background.
+///   any value is 0 or below: 0 (and values below 0, but not of disparities, which may be
+///   negative); otherwise there is no background.
 BackgroundRule detect_background(const ImageChannel& channel);
 
 /// The rule for a depth channel of a map: what the map says (background.h), or else the guess.
@@ -46,8 +46,8 @@ const Samples<std::uint32_t>* identifiers_of(const DepthMap& map);
 /// One byte per pixel: 1 where `channel` of `map` shows a surface.
 /// `A` shows something at every pixel. If the map has an identifier channel, that decides (unless
 /// `by_identifiers` is false), which distinguishes a depth that overflowed to +∞ from background.
-/// Otherwise the channel's own background decides (the rule for depths: given, or background_of()); a
-/// channel without one follows the map's `Z`, if there is one; else every pixel counts.
+/// Otherwise the channel's own background decides (the rule for depths: given, or background_of());
+/// a channel without one follows the map's `Z`, if there is one; else every pixel counts.
 /// Fails    InputError if the map has a fault (find_fault), or names a background that is none.
 std::vector<std::uint8_t> surface_mask(const DepthMap& map, const ImageChannel& channel,
                                        const std::optional<BackgroundRule>& rule = std::nullopt,

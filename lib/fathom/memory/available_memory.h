@@ -17,7 +17,8 @@ struct MemoryAllowance {
 
 /// The memory that this process may take in all: the least of the machine's, of what the control
 /// groups around it allow (memory.max and memory.high, memory.limit_in_bytes; those of containers)
-/// and of its own limits (ulimit -v, ulimit -d). What other processes take meanwhile is not counted.
+/// and of its own limits (ulimit -v, ulimit -d). What other processes take meanwhile is not
+/// counted.
 MemoryAllowance available_memory();
 /// What the control groups alone allow; nullopt where they set no limit.
 std::optional<MemoryAllowance> control_group_allowance();

@@ -27,8 +27,8 @@ struct Object {
   std::shared_ptr<const ObjectSegments> segments = nullptr;
 };
 
-/// How much memory the numbers of a transform take, in bytes: they grow with every transform that it
-/// is composed of.
+/// How much memory the numbers of a transform take, in bytes: they grow with every transform that
+/// it is composed of.
 std::uint64_t bytes_of(const WorldFromMesh& transform);
 /// The same of an object, with its name and its transform.
 std::uint64_t bytes_of(const Object& object);

@@ -15,8 +15,8 @@ using Point2 = std::array<double, 2>;
 /// The number of a corner in the face.
 using Corner = std::uint32_t;
 
-/// The sign of the turn a → b → c, as orientation() gives it, which is asked where binary64 does not
-/// settle it.
+/// The sign of the turn a → b → c, as orientation() gives it, which is asked where binary64 does
+/// not settle it.
 ///
 /// Bound. Each difference is rounded once, and each product, so that `left` and `right` carry
 /// relative errors of at most (1+u)³ − 1 < 3.01u, u = 2⁻⁵³; their difference is rounded once more.

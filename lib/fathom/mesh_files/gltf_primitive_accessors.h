@@ -16,8 +16,8 @@ struct GltfPrimitiveAccessors {
 
 /// Opens the accessors of a primitive; all but positions and indices only if `attributes` are asked
 /// for. Primitives that name the same accessor get the same object. Whatever a primitive is made of
-/// comes from here. A primitive that Draco has compressed is decoded into accessors of its own, where
-/// the asset does not also have what it is made of as it is.
+/// comes from here. A primitive that Draco has compressed is decoded into accessors of its own,
+/// where the asset does not also have what it is made of as it is.
 GltfPrimitiveAccessors open_primitive(const text::JsonValue& primitive, GltfAccessors& accessors,
                                       bool attributes);
 

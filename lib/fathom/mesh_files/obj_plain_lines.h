@@ -7,9 +7,9 @@
 #include "fathom/text/text_cursor.h"
 
 /// The plainest lines of an OBJ: vertices and faces that have no comment, are not joined to another
-/// line and end with an LF, as most of a large file are. They are counted in a third of the time that
-/// it takes to look for all that a line may have, as words are passed over several characters at a
-/// time, and read without looking for it either. For this room's .cpp files only.
+/// line and end with an LF, as most of a large file are. They are counted in a third of the time
+/// that it takes to look for all that a line may have, as words are passed over several characters
+/// at a time, and read without looking for it either. For this room's .cpp files only.
 namespace fathom::mesh_files {
 
 /// What their characters are.
@@ -80,8 +80,8 @@ inline const char* count_plain_face(const char* at, const char* last, ObjCounts&
   return at;
 }
 
-/// Counts the statement at the cursor if it is a vertex or a face on a plain line, and moves to the end
-/// of the line. False, and nothing happens, where it is not.
+/// Counts the statement at the cursor if it is a vertex or a face on a plain line, and moves to the
+/// end of the line. False, and nothing happens, where it is not.
 inline bool count_plain_line(text::TextCursor& cursor, ObjCounts& counts) {
   const char* const at = cursor.position() + 1;
   const char* const last = cursor.limit();
@@ -93,22 +93,23 @@ inline bool count_plain_line(text::TextCursor& cursor, ObjCounts& counts) {
   return end != nullptr;
 }
 
-/// Where the words begin that follow the keyword and one blank; null where another statement stands.
+/// Where the words begin that follow the keyword and one blank; null where another statement
+/// stands.
 inline const char* plain_words_after(char keyword, const text::TextCursor& cursor) {
   const char* const at = cursor.position();
   return cursor.rest() > 2 && at[0] == keyword && at[1] == ' ' ? at + 2 : nullptr;
 }
 
-/// Whether word `k` of three ends at `at`, as in nearly all files: by one blank, or by the line end.
-/// Then `at` is behind the blank.
+/// Whether word `k` of three ends at `at`, as in nearly all files: by one blank, or by the line
+/// end. Then `at` is behind the blank.
 inline bool ends_plain_word(std::size_t k, const char*& at, const char* last) {
   if (at == last || *at != (k < 2 ? ' ' : '\n')) return false;
   at += k < 2 ? 1 : 0;
   return true;
 }
 
-/// Reads "f 1 2 3", with indices of so many vertices, as places of the corners. False where the line
-/// is another one: then the cursor stays.
+/// Reads "f 1 2 3", with indices of so many vertices, as places of the corners. False where the
+/// line is another one: then the cursor stays.
 inline bool read_plain_triangle(text::TextCursor& cursor, std::uint64_t vertices,
                                 std::array<std::uint32_t, 3>& corners) {
   const char* at = plain_words_after('f', cursor);

@@ -37,10 +37,10 @@ Segmentation obj_segmentation(std::string_view keyword);
 
 /// Makes segments of lines, one segmentation at a time.
 ///
-/// A name is what follows the keyword, without the blanks around it: it may hold blanks and '#', and
-/// the several groups of a `g` are one name. Bytes that are not UTF-8 are taken for ISO 8859-1. `g`
-/// alone means the group `default`; `o` and `usemtl` alone mean none, as does everything before the
-/// first line.
+/// A name is what follows the keyword, without the blanks around it: it may hold blanks and '#',
+/// and the several groups of a `g` are one name. Bytes that are not UTF-8 are taken for ISO 8859-1.
+/// `g` alone means the group `default`; `o` and `usemtl` alone mean none, as does everything before
+/// the first line.
 class ObjSegments {
  public:
   explicit ObjSegments(Segmentation by) : segments_{by, {}, {}} {}

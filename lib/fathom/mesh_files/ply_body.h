@@ -32,8 +32,8 @@ using PlyVertex = std::array<double, slot_count>;
 ///   vertex(values)
 ///   begin_faces(element, columns, most, rows)   `most` faces of three corners fit into the file
 ///   face(face, rows)                        after its row
-///   triangle(corners)                       instead of it, if the sink has this function: of a face
-///                                           of three corners that has no label
+///   triangle(corners)                       instead of it, if the sink has this function: of a
+///                                           face of three corners that has no label
 ///   begin_strips(element, indices)
 ///   strip_corner(strip, row, rows)          before a corner of a strip is read
 ///   strip_triangle(triangle)                a face of its own
@@ -161,7 +161,8 @@ class PlyBody {
     rows.take_point(layout, point);
   };
 
-  /// Where the coordinates lie if they are floats of one type and nothing else is wanted of a vertex.
+  /// Where the coordinates lie if they are floats of one type and nothing else is wanted of a
+  /// vertex.
   static std::optional<PlyPointLayout> point_layout(const PlyElement& element,
                                                     const std::vector<int>& plan) {
     PlyPointLayout layout;

@@ -53,9 +53,9 @@ struct PlyHeader {
 /// Only so many bytes of a file are searched for the end of its header.
 inline constexpr std::size_t longest_ply_header = std::size_t{128} << 10;
 
-/// Reads the header of a PLY file; lines end with LF, CR LF or CR, as the first one does. Other lines
-/// before the first element are skipped, with a warning: Blender 2.4 forgot the word `comment`.
-/// Later ones are errors: they could be misspelt properties.
+/// Reads the header of a PLY file; lines end with LF, CR LF or CR, as the first one does. Other
+/// lines before the first element are skipped, with a warning: Blender 2.4 forgot the word
+/// `comment`. Later ones are errors: they could be misspelt properties.
 /// Fails    InputError "FILE: line N: …".
 PlyHeader read_ply_header(std::string_view text, const std::string& file, Warnings& warnings);
 

@@ -50,8 +50,8 @@ class BinaryRows {
   /// Number of the next byte in the file.
   [[nodiscard]] std::uint64_t position() const { return bytes_.position(); }
 
-  /// A row at once, where its three coordinates are all that is wanted of it. False of a row that is not at
-  /// hand or has one that is not finite: it is then still to be read, value by value.
+  /// A row at once, where its three coordinates are all that is wanted of it. False of a row that
+  /// is not at hand or has one that is not finite: it is then still to be read, value by value.
   bool take_point(const PlyPointLayout& layout, std::array<double, 3>& point) {
     if (!bytes_.has_at_hand(layout.row_size)) return false;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -64,8 +64,8 @@ class BinaryRows {
     bytes_.advance(layout.row_size);
     return true;
   }
-  /// The same of a list of three indices below `count`, as most faces are: a byte and three integers
-  /// of 32 bits.
+  /// The same of a list of three indices below `count`, as most faces are: a byte and three
+  /// integers of 32 bits.
   bool take_triangle(const PlyProperty& list, std::uint64_t count, CornerIndices& triangle) {
     if (list.count_type != PlyType::uint8) return false;
     if (list.type != PlyType::int32 && list.type != PlyType::uint32) return false;

@@ -10,7 +10,8 @@
 #include "fathom/mesh_files/streams.h"
 
 // The file is read through once, with the rows and checks of the ordinary reader, or, where that is
-// not asked for, taken for what its size lets suppose; what is kept is where things are. Faces are read again, from the file, whenever triangles are asked for.
+// not asked for, taken for what its size lets suppose; what is kept is where things are. Faces are
+// read again, from the file, whenever triangles are asked for.
 namespace fathom::mesh_files {
 using namespace mesh;
 using namespace files;

@@ -11,8 +11,9 @@ namespace fathom::mesh_files {
 
 /// Where things are in a binary PLY file if all of its faces are triangles, which its size lets
 /// suppose and does not prove: two faces of three corners take as much as one of two and one of
-/// four. It is proved when every part has been checked, in whatever order and by whomever: the first
-/// row begins where it is said to, and each that has three corners puts the next one in its place.
+/// four. It is proved when every part has been checked, in whatever order and by whomever: the
+/// first row begins where it is said to, and each that has three corners puts the next one in its
+/// place.
 class PlySupposedTriangles {
  public:
   /// nullopt where the file has another size, no faces, rows of other lengths, strips of triangles,
@@ -27,8 +28,8 @@ class PlySupposedTriangles {
   /// The place of the list of corners among the properties of a face.
   [[nodiscard]] std::size_t indices() const { return indices_; }
 
-  /// Whether the faces of one of `parts` equal parts have three corners each. Looks at its vertices,
-  /// too.
+  /// Whether the faces of one of `parts` equal parts have three corners each. Looks at its
+  /// vertices, too.
   /// Fails    InputError, as the ordinary reader, where a vertex is not finite.
   [[nodiscard]] bool check(const files::RandomAccessFile& file, std::uint64_t part,
                            std::uint64_t parts) const;

@@ -30,8 +30,8 @@ struct PlyVertexLayout {
   std::optional<PlyType> label_type = std::nullopt;
 };
 
-/// The layout of an element without lists that has x, y and z, whose property `label`, if it is one,
-/// is a label.
+/// The layout of an element without lists that has x, y and z, whose property `label`, if it is
+/// one, is a label.
 PlyVertexLayout layout_of_vertices(const PlyElement& element, std::uint64_t offset, bool big_endian,
                                    std::optional<std::size_t> label);
 

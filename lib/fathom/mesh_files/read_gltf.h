@@ -27,10 +27,10 @@ struct GltfAsset {
 /// Reads a glTF 2.0 asset (.gltf or .glb): one object per node with a mesh, depth first, of the
 /// default scene, or of the first if none is named; an asset without scenes gives all its nodes,
 /// with a warning. Nodes that show the same glTF mesh share a Mesh. Faces are numbered over all
-/// objects of the asset. No image is opened. If asked for, triangles have the name of their material,
-/// their group that of the glTF mesh, their part that of the node; what has none is "material 3",
-/// "mesh 3", "node 3" by its number in the file. A node with EXT_mesh_gpu_instancing gives an object
-/// for each instance, with the node's name and its number: "tree[7]".
+/// objects of the asset. No image is opened. If asked for, triangles have the name of their
+/// material, their group that of the glTF mesh, their part that of the node; what has none is
+/// "material 3", "mesh 3", "node 3" by its number in the file. A node with EXT_mesh_gpu_instancing
+/// gives an object for each instance, with the node's name and its number: "tree[7]".
 ///
 /// `path` names the file in messages; buffers beside it are looked for from its folder.
 /// Exact    positions are binary32, widened, or integers (KHR_mesh_quantization), which are

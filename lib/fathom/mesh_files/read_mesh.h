@@ -14,11 +14,12 @@
 namespace fathom::mesh_files {
 
 /// Wavefront OBJ: v, vt, vn and f lines, and, if asked for, o, g and usemtl (obj_segments.h has how
-/// names are read); s, mtllib and the like are ignored, other keywords are ignored with a warning. Indices count from 1, negative ones backwards from the last
-/// one read; positive ones may point forward. `v x y z w` is the point (x/w, y/w, z/w), with a
-/// warning unless w is 1. `v x y z r g b [a]` has a colour; vertices without one are white. Where
-/// no vertex has a z it is 0, with a warning. A corner whose texture coordinate or normal is not in
-/// the file has none, with a warning. Read in parallel, with a result that does not depend on it.
+/// names are read); s, mtllib and the like are ignored, other keywords are ignored with a warning.
+/// Indices count from 1, negative ones backwards from the last one read; positive ones may point
+/// forward. `v x y z w` is the point (x/w, y/w, z/w), with a warning unless w is 1. `v x y z r g b
+/// [a]` has a colour; vertices without a colour are white. If no vertex has a z, every z is 0, with
+/// a warning. A corner whose texture coordinate or normal is not in the file has none, with a
+/// warning. Read in parallel, with a result that does not depend on it.
 Mesh read_obj(std::string_view text, const std::string& file, const ReadOptions& options,
               Warnings& warnings);
 
@@ -35,10 +36,10 @@ Mesh read_ply(std::span<const std::byte> bytes, const std::string& file, const R
 Mesh read_stl(std::span<const std::byte> bytes, const std::string& file, const ReadOptions& options,
               Warnings& warnings);
 
-/// Object File Format, ascii: OFF with the prefixes ST, C and N, comments; the word OFF is optional.
-/// One vertex and one face per line, with or without a colour behind it, or words that come out
-/// exactly (docs/conventions.md has the rule). Face colours are ignored. Refused: binary, 4OFF,
-/// nOFF.
+/// Object File Format, ascii: OFF with the prefixes ST, C and N, comments; the word OFF is
+/// optional. One vertex and one face per line, with or without a colour behind it, or words that
+/// come out exactly (docs/conventions.md has the rule). Face colours are ignored. Refused: binary,
+/// 4OFF, nOFF.
 Mesh read_off(std::string_view text, const std::string& file, const ReadOptions& options,
               Warnings& warnings);
 

@@ -21,18 +21,19 @@ struct ReadOptions {
   bool attributes = false;
   /// Keep lines and points: OBJ's l and p, PLY's edges, glTF's modes 0 to 3.
   bool primitives = false;
-  /// Keep what triangles are called: OBJ's usemtl, g and o; the materials, meshes and nodes of glTF;
-  /// a PLY's labels. At most 4 bytes for each triangle and segmentation, beside the names.
+  /// Keep what triangles are called: OBJ's usemtl, g and o; the materials, meshes and nodes of
+  /// glTF; a PLY's labels. At most 4 bytes for each triangle and segmentation, beside the names.
   bool segments = false;
-  /// Of a binary STL or PLY that stays in its file: look at all of it when it is opened. Or else each
-  /// triangle is looked at when it is read, and the stream does not know its bounds. So much for STL, and
-  /// for a PLY without labels that has the size of one in which all faces are triangles: whether it is one,
-  /// TriangleStream::check_part() tells. Other PLY files are looked at anyway.
+  /// Of a binary STL or PLY that stays in its file: look at all of it when it is opened. Or else
+  /// each triangle is looked at when it is read, and the stream does not know its bounds. So much
+  /// for STL, and for a PLY without labels that has the size of one in which all faces are
+  /// triangles: whether it is one, TriangleStream::check_part() tells. Other PLY files are looked
+  /// at anyway.
   bool check_when_opened = true;
   /// Compute Source::sha256.
   bool hash = true;
-  /// Files that are named by other files (a scene file's meshes, a glTF asset's buffers) must lie in
-  /// this folder, where their symbolic links have led; empty: anywhere.
+  /// Files that are named by other files (a scene file's meshes, a glTF asset's buffers) must lie
+  /// in this folder, where their symbolic links have led; empty: anywhere.
   std::filesystem::path confine;
   /// Gives the path of the program fathom-formats, which reads what others' libraries read; called
   /// when a file first needs it. Without this function it is looked for beside the running program.
@@ -44,9 +45,9 @@ struct ReadOptions {
   /// memory, beside 64 MiB; more is an error. See expansion_budget.h.
   std::uint64_t max_expansion = 64;
   /// Map files of more than 64 MiB, and the vertices of a PLY that stays in its file, instead of
-  /// reading them into memory. Only for programs that handle the signal SIGBUS (files/mapped_file.h):
-  /// they get it where another program cuts a mapped file short meanwhile. Without mapping, that is
-  /// an InputError.
+  /// reading them into memory. Only for programs that handle the signal SIGBUS
+  /// (files/mapped_file.h): they get it where another program cuts a mapped file short meanwhile.
+  /// Without mapping, that is an InputError.
   bool map_large_files = false;
 };
 

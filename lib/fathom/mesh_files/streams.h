@@ -14,8 +14,8 @@ std::unique_ptr<TriangleStream> open_stl_stream(std::unique_ptr<files::RandomAcc
                                                 bool check, Warnings& warnings);
 
 /// `header` is that of the file, and binary. Of the options, `segments`, `check_when_opened` and
-/// `map_large_files` matter. A file that can be taken for one of triangles alone is not read through
-/// where neither a check nor segments are wanted.
+/// `map_large_files` matter. A file that can be taken for one of triangles alone is not read
+/// through where neither a check nor segments are wanted.
 std::unique_ptr<TriangleStream> open_ply_stream(std::unique_ptr<files::RandomAccessFile> file,
                                                 const PlyHeader& header, const ReadOptions& options,
                                                 Warnings& warnings);

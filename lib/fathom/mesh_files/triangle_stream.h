@@ -23,11 +23,13 @@ struct TriangleChunk {
 /// The triangles of a binary STL or PLY file that need not fit into memory, in the order and with
 /// the numbers and corners that read_scene() gives them, bit for bit.
 ///
-/// The file has been read through once and checked, with the messages of the ordinary readers, unless
-/// that was not asked for (ReadOptions::check_when_opened); it must not change while the stream exists; where it is seen to have, reading fails. Memory: for an
-/// STL none that grows with the file; for a PLY 4 MiB of its vertices, or all of them mapped
-/// (ReadOptions::map_large_files), and if not all faces have three corners, they take 24 bytes for every 256 of the file's faces; strips take 48
-/// for every 1024 corners. (If vertices have list properties: 24 bytes per vertex instead.)
+/// The file has been read through once and checked, with the messages of the ordinary readers,
+/// unless that was not asked for (ReadOptions::check_when_opened); it must not change while the
+/// stream exists; where it is seen to have, reading fails. Memory: for an STL none that grows with
+/// the file; for a PLY 4 MiB of its vertices, or all of them mapped (ReadOptions::map_large_files),
+/// and if not all faces have three corners, they take 24 bytes for every 256 of the file's faces;
+/// strips take 48 for every 1024 corners. (If vertices have list properties: 24 bytes per vertex
+/// instead.)
 ///
 /// Several threads may read at the same time.
 class TriangleStream {
@@ -48,9 +50,9 @@ class TriangleStream {
   };
   [[nodiscard]] virtual std::optional<Bounds> bounds() const = 0;
 
-  /// Where the file was opened without being read through (ReadOptions::check_when_opened), looks at
-  /// one of `parts` equal parts of what reading triangles does not look at. False: the file is not
-  /// what its size let suppose, and has to be opened again and read through.
+  /// Where the file was opened without being read through (ReadOptions::check_when_opened), looks
+  /// at one of `parts` equal parts of what reading triangles does not look at. False: the file is
+  /// not what its size let suppose, and has to be opened again and read through.
   /// Fails    InputError, as when it is read through.
   [[nodiscard]] virtual bool check_part(std::uint64_t /*part*/, std::uint64_t /*parts*/) const {
     return true;
@@ -85,8 +87,8 @@ std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path
                                                      const ReadOptions& options,
                                                      Warnings& warnings);
 
-/// Whether a file is a regular one of a format that can be opened so, as far as its beginning tells;
-/// false also where it cannot be read.
+/// Whether a file is a regular one of a format that can be opened so, as far as its beginning
+/// tells; false also where it cannot be read.
 bool is_streamable(const std::filesystem::path& path, const ReadOptions& options);
 
 }  // namespace fathom

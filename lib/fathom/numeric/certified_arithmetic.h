@@ -6,8 +6,8 @@
 #include "fathom/numeric/interval.h"
 
 /// Arithmetic of binary64 numbers with bounds that count every rounding of their own, so that many
-/// operations may follow each other; a divisor may err by almost all of itself. sum(), product() and
-/// quotient() of certified_value.h serve double-words too.
+/// operations may follow each other; a divisor may err by almost all of itself. sum(), product()
+/// and quotient() of certified_value.h serve double-words too.
 namespace fathom {
 
 /// More than at most 6 roundings of a bound's own terms, none of them negative, can take from it.

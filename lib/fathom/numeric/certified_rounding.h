@@ -22,8 +22,8 @@ inline constexpr double interval_widening = 0x1p-51, distance_room = 1 + 0x1p-50
 /// How much of the leading word certainly is of the number.
 inline constexpr double sign_room = 1 - 0x1p-50;
 
-/// The sign of a number that is certainly not 0: |hi + lo| ≥ |hi|·(1 − u), and the factor covers the
-/// rounding of the product, too. Exact zeroes are not known, either.
+/// The sign of a number that is certainly not 0: |hi + lo| ≥ |hi|·(1 − u), and the factor covers
+/// the rounding of the product, too. Exact zeroes are not known, either.
 inline std::optional<int> certain_sign(const WordPair& x, double error) {
   if (!(std::abs(x.hi) * sign_room > error)) return std::nullopt;
   return x.hi > 0 ? 1 : -1;

@@ -5,8 +5,8 @@
 namespace fathom {
 
 /// A sum of any number of quotients whose exact sum would have too long a denominator: each term is
-/// rounded down to a multiple of 2⁻³²⁰, and the terms that this changed are counted. The order of the
-/// terms does not matter.
+/// rounded down to a multiple of 2⁻³²⁰, and the terms that this changed are counted. The order of
+/// the terms does not matter.
 class EnclosedSum {
  public:
   void add(const Ratio& term);

@@ -89,10 +89,10 @@ Real cotangent_of_half_radians(double angle) {
           []() -> std::optional<Ratio> { return std::nullopt; }};
 }
 
-// With a and b cosines of rational angles in degrees α and β (a sine is a cosine), 4·a·b is the sum of
-// 2·cos(α + β) and 2·cos(α − β), which are algebraic integers. So it is one, too, and where it is
-// rational it is an integer: the product is a multiple of ¼, a binary64 number with which no two of them
-// border. Enclosures that are narrow enough round to one number.
+// With a and b cosines of rational angles in degrees α and β (a sine is a cosine), 4·a·b is the sum
+// of 2·cos(α + β) and 2·cos(α − β), which are algebraic integers. So it is one, too, and where it
+// is rational it is an integer: the product is a multiple of ¼, a binary64 number with which no two
+// of them border. Enclosures that are narrow enough round to one number.
 double round_product_to_binary64(const Real& a, const Real& b) {
   const auto bits_of = [](const Ratio& x) {
     return std::bit_cast<std::uint64_t>(round_to_binary64(x));

@@ -4,9 +4,9 @@
 
 /// Sines, cosines and cotangents of binary64 angles, as numbers that round correctly (real.h).
 ///
-/// Of an angle in degrees that is rational, sine and cosine are rational only where they are 0, ±½ or
-/// ±1, and the tangent where it is 0 or ±1 (Niven). Of an angle in radians that is rational and not 0,
-/// the tangent is irrational (Lambert).
+/// Of an angle in degrees that is rational, sine and cosine are rational only where they are 0, ±½
+/// or ±1, and the tangent where it is 0 or ±1 (Niven). Of an angle in radians that is rational and
+/// not 0, the tangent is irrational (Lambert).
 /// Source   [Niv56]
 namespace fathom {
 

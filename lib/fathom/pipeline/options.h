@@ -46,9 +46,11 @@ enum class DrawOrder { file, front_to_back, back_to_front, random };
 
 /// `temporal` and `temporal_area` are for scenes that move (render_moving.h).
 enum class AntialiasMethod { none, ssaa, msaa, jitter, area, fxaa, taa, temporal, temporal_area };
-/// What FXAA takes for an edge, and how much of it is smoothed; the defaults are the published ones.
+/// What FXAA takes for an edge, and how much of it is smoothed; the defaults are the published
+/// ones.
 struct FxaaSettings {
-  /// The least range of luma around a pixel that is an edge: of the greatest luma there, and at all.
+  /// The least range of luma around a pixel that is an edge: of the greatest luma there, and at
+  /// all.
   double threshold = 0.166, least_threshold = 0.0833;
   /// How much of details below a pixel is removed, from 0 to 1.
   double subpixel = 0.75;
@@ -80,7 +82,8 @@ struct LightSource {
   bool in_world = false;
 };
 
-/// How surfaces reflect: colour·(ambient + diffuse·N·L) + specular·(cos of the highlight)^shininess.
+/// How surfaces reflect: colour·(ambient + diffuse·N·L) + specular·(cos of the
+/// highlight)^shininess.
 struct Material {
   double ambient = 0.15, diffuse = 0.75, specular = 0.25, shininess = 40;
   SpecularModel highlight = SpecularModel::blinn;

@@ -54,8 +54,8 @@ struct PrimitiveTrace {
   std::uint32_t number = 0;                ///< in the scene
   std::vector<CornerTrace> corners;        ///< three, two or one
   std::vector<WindowCornerTrace> polygon;  ///< after clipping; empty if nothing is left
-  /// Of triangles: the three tests; for those that were clipped, of the first three corners that are
-  /// left.
+  /// Of triangles: the three tests; for those that were clipped, of the first three corners that
+  /// are left.
   Facing in_world{}, in_ndc{}, in_window{};
   bool culled = false;
   /// Number of fragments in the viewport and the scissor box, over all parts of the primitive.

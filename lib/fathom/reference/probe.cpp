@@ -24,7 +24,8 @@ std::array<Sign, 3> edge_signs(const ProjectedTriangle& t, const ImagePoint& s) 
   return signs;
 }
 
-/// Which signs an interval would settle: those that the reference engine does not ask dyadic numbers for.
+/// Which signs an interval would settle: those that the reference engine does not ask dyadic
+/// numbers for.
 std::array<bool, 3> edges_by_interval(const ProjectedTriangle& t, const ImagePoint& s) {
   std::array<bool, 3> by_interval{};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -24,11 +24,12 @@ struct CoveringTriangle {
   /// For an edge function that is zero: whether the edge is a left or a top edge.
   std::array<bool, 3> left_or_top{};
   bool front_facing = false;
-  /// Whether an interval by CGAL settles the sign of Δ, and those of the edge functions, as in the reference engine.
-  /// Where none does, dyadic numbers decide alone.
+  /// Whether an interval by CGAL settles the sign of Δ, and those of the edge functions, as in the
+  /// reference engine. Where none does, dyadic numbers decide alone.
   bool facing_by_interval = false;
   std::array<bool, 3> edge_by_interval{};
-  /// Which arithmetic settles the sign of Δ, and that of the edge function of corner i (deciders.h).
+  /// Which arithmetic settles the sign of Δ, and that of the edge function of corner i
+  /// (deciders.h).
   [[nodiscard]] std::string_view facing_decided_by() const;
   [[nodiscard]] std::string_view edge_decided_by(std::size_t i) const;
   /// Exact planar depth at the sample, in scene units.

@@ -51,9 +51,10 @@ struct Verification {
 ///          looked at exactly.
 /// Needs    in `options` the channels, culling and encoding with which the map was rendered;
 ///          threads are this call's own.
-/// Fails    InputError where map, scene or camera has a fault (find_fault), or the map is not of the
-///          camera's size; UsageError for options that mean nothing (require_meaningful), a channel
-///          of theirs that the map does not have so, or another number of choices than pixels.
+/// Fails    InputError where map, scene or camera has a fault (find_fault), or the map is not of
+///          the camera's size; UsageError for options that mean nothing (require_meaningful), a
+///          channel of theirs that the map does not have so, or another number of choices than
+///          pixels.
 Verification verify(const DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                     const RenderOptions& options, const PixelChoice& chosen,
                     const std::function<void(double)>& progress = {});

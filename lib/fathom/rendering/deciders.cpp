@@ -7,8 +7,8 @@ constexpr std::string_view own_bounds = "Fathom's bounds";
 constexpr std::string_view words_then_dyadic =
     "double-words with Fathom's bounds, then dyadic numbers";
 
-// Where each stands: triangle/projected_triangle.cpp (facing, edges), reference/reference.cpp (visibility, range),
-// area/half_plane.cpp (coverage).
+// Where each stands: triangle/projected_triangle.cpp (facing, edges), reference/reference.cpp
+// (visibility, range), area/half_plane.cpp (coverage).
 constexpr std::array<Deciders, 7> reference_deciders{{
     {"facing", cgal_determinant, dyadic_numbers},
     {"edges", cgal_form, dyadic_numbers},

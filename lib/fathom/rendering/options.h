@@ -24,12 +24,12 @@ enum class Cull { none, back, front };
 struct DepthEncoding {
   using Type = StoredType;
   Type type = Type::binary32;
-  /// For scaled_unorm16: code = round-half-even(scale·D/divisor), 0 for no surface; the quotient is exact.
-  /// A depth whose code would be 0 or above 65535 is an OutputError that names the pixel.
+  /// For scaled_unorm16: code = round-half-even(scale·D/divisor), 0 for no surface; the quotient is
+  /// exact. A depth whose code would be 0 or above 65535 is an OutputError that names the pixel.
   /// Unit     scale codes stand for `divisor` scene units.
   double scale = 1000;
-  /// But one above 65535 gets the code 0, as if no surface were there; DepthMap::codes_beyond counts
-  /// them.
+  /// But one above 65535 gets the code 0, as if no surface were there; DepthMap::codes_beyond
+  /// counts them.
   bool beyond_is_none = false;
   double divisor = 1;
 };
@@ -71,8 +71,9 @@ struct RenderContext {
   std::function<void(double)> progress;
 };
 
-/// Refuses options that mean nothing: no channel, a scale, a divisor or their quotient that is not a
-/// positive number for scaled_unorm16, a widening that is not a number from 1 on, a negative number of threads.
+/// Refuses options that mean nothing: no channel, a scale, a divisor or their quotient that is not
+/// a positive number for scaled_unorm16, a widening that is not a number from 1 on, a negative
+/// number of threads.
 /// Fails    UsageError.
 void require_meaningful(const RenderOptions& options);
 

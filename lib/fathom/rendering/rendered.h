@@ -95,8 +95,8 @@ struct Rendered {
   DepthMap map;
   RenderStatistics statistics;
   /// Where FastSwitches::find_doubtful asks for them: the pixels (row · width + column) at which a
-  /// bound of the fast engine did not settle a decision about an edge, the range, visibility, or the
-  /// rounding of Z or of A; some of them twice.
+  /// bound of the fast engine did not settle a decision about an edge, the range, visibility, or
+  /// the rounding of Z or of A; some of them twice.
   std::vector<std::uint64_t> doubtful;
 };
 

@@ -31,14 +31,15 @@ struct BopImage {
   std::vector<BopInstance> instances;
 };
 
-/// The images of scene_camera.json and scene_gt.json in a folder, in the order of their ids; those that one
-/// of the files lacks are not there.
+/// The images of scene_camera.json and scene_gt.json in a folder, in the order of their ids; those
+/// that one of the files lacks are not there.
 /// `width` and `height` are in pixels; 0: those of the data set's camera.json (import_bop()).
 /// Fails    InputError, one line that names the file and the key.
 std::vector<BopImage> read_bop_images(const std::filesystem::path& folder, std::uint32_t width,
                                       std::uint32_t height);
 
-/// The models obj_000001.ply and so on that images show, from a folder. Lengths are as in the files.
+/// The models obj_000001.ply and so on that images show, from a folder. Lengths are as in the
+/// files.
 /// Fails    InputError, also where a model is missing.
 class BopModels {
  public:

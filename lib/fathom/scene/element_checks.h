@@ -13,8 +13,8 @@
 #include "fathom/scene/triangle_source.h"
 
 /// Quick looks at parts of the lists of a mesh, in a form that compilers turn into vector
-/// instructions. To look at a large mesh takes as long as to read it from memory, a twentieth of the
-/// time in which it is rendered; so who reads it anyway looks at each part just before.
+/// instructions. To look at a large mesh takes as long as to read it from memory, a twentieth of
+/// the time in which it is rendered; so who reads it anyway looks at each part just before.
 namespace fathom::scene {
 
 /// What require_valid() and require_renderable() ask (scene_fault.h), but for the vertices and

@@ -29,7 +29,8 @@ struct Motion {
   std::string file = "motion";  ///< for messages
 };
 
-/// Reads {"objects": [{"name", "keyframes": [{"time", "transform"}]}]}; transforms as in scene files.
+/// Reads {"objects": [{"name", "keyframes": [{"time", "transform"}]}]}; transforms as in scene
+/// files.
 /// Fails    InputError naming the key: times that do not increase, no keyframes, a name twice,
 ///          unknown keys.
 Motion read_motion(std::string_view text, const std::filesystem::path& path);

@@ -21,8 +21,8 @@ namespace fathom {
 ///   attributes   are finite; those of vertices are as many as these; texture_triangles and
 ///                normal_triangles are empty or as long as `triangles`, of numbers of the list that
 ///                they are for, or no_index
-///   segments     are at most one list for each segmentation, of one number or one for each triangle;
-///                a number has a name, a label is below 2³² − 2, or it is `unsegmented`
+///   segments     are at most one list for each segmentation, of one number or one for each
+///                triangle; a number has a name, a label is below 2³² − 2, or it is `unsegmented`
 ///   in all       there are at most 2³² − 2 triangles.
 /// A transform may be singular, a mesh empty or placed by no object.
 /// Cost     one look at every number, by all threads of with_threads().

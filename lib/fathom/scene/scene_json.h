@@ -31,8 +31,8 @@ struct PlacedFile {
   std::optional<std::uint32_t> label;
 };
 
-/// Reads a scene file: {"meshes": [{"file", "transform", "name", "draw", "material", "label"}]}, all
-/// but the first optional; draw_state_json.h has "draw".
+/// Reads a scene file: {"meshes": [{"file", "transform", "name", "draw", "material", "label"}]},
+/// all but the first optional; draw_state_json.h has "draw".
 /// Fails    InputError, naming the key; unknown keys are errors.
 std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesystem::path& path);
 

@@ -12,12 +12,12 @@
 
 namespace fathom {
 
-/// The segments of a whole scene: what channels `material`, `group`, `part` and `label` have of each
-/// triangle (specification, section 6), and the names that these numbers stand for.
+/// The segments of a whole scene: what channels `material`, `group`, `part` and `label` have of
+/// each triangle (specification, section 6), and the names that these numbers stand for.
 ///
-/// Names are numbered from 0 through all objects in their order, and within a mesh as it lists them:
-/// a name has one number, in however many files it stands. Labels are the numbers of their files.
-/// A view: the scene must outlive it unchanged. Several threads may ask at the same time.
+/// Names are numbered from 0 through all objects in their order, and within a mesh as it lists
+/// them: a name has one number, in however many files it stands. Labels are the numbers of their
+/// files. A view: the scene must outlive it unchanged. Several threads may ask at the same time.
 class SceneSegments {
  public:
   /// Of these segmentations.
@@ -26,8 +26,8 @@ class SceneSegments {
 
   /// The number of the segment that a triangle belongs to, `unsegmented` where it belongs to none
   /// or the segmentation was not wanted.
-  /// Fails    InputError where a file of a StreamedScene has changed or cannot be read any more, and
-  ///          where the scene has a fault there (scene_fault.h).
+  /// Fails    InputError where a file of a StreamedScene has changed or cannot be read any more,
+  ///          and where the scene has a fault there (scene_fault.h).
   [[nodiscard]] std::uint32_t number(Segmentation by, const TriangleOrigin& origin) const;
   /// The same of an object as a whole, where it is one segment for itself.
   [[nodiscard]] std::uint32_t number_of_object(Segmentation by, std::size_t object) const;

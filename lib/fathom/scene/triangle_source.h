@@ -13,8 +13,8 @@ namespace fathom {
 /// Triangles by number, whether the scene is in memory or in files. A view: the scene must outlive
 /// it unchanged. Several threads may ask at the same time.
 /// Fails    std::out_of_range where `number` is not below count(); InputError where a file of a
-///          StreamedScene has changed or cannot be read any more, and where a triangle that is asked
-///          for has a fault. The whole scene is looked at by require_valid() (scene_fault.h).
+///          StreamedScene has changed or cannot be read any more, and where a triangle that is
+///          asked for has a fault. The whole scene is looked at by require_valid() (scene_fault.h).
 class TriangleSource {
  public:
   /// Fails    InputError if an object names no mesh, or there are more than 2³² − 2 triangles: one

@@ -8,14 +8,14 @@
 namespace fathom::scene {
 
 /// How often the surface turns around `eye`, a point in the mesh's frame: 1 inside a closed surface
-/// whose triangles are counter-clockwise seen from outside, −1 where they are so seen from inside, 0
-/// outside; a fraction where the surface is open.
+/// whose triangles are counter-clockwise seen from outside, −1 where they are so seen from inside,
+/// 0 outside; a fraction where the surface is open.
 /// Source   the sum of signed solid angles, by the formula of van Oosterom and Strackee
 ///          (tan(Ω/2) = det(a, b, c) / (|a||b||c| + …)), over 4π.
 double winding_number(const Mesh& mesh, const std::array<double, 3>& eye);
 
-/// How many more triangles the ray from `eye` along +x leaves through than it enters by: the winding
-/// number of a closed surface, as that of one ray, which is far cheaper.
+/// How many more triangles the ray from `eye` along +x leaves through than it enters by: the
+/// winding number of a closed surface, as that of one ray, which is far cheaper.
 /// Fails    ElementFault where a triangle has a corner beyond the vertices.
 int crossings_along_x(const Mesh& mesh, const std::array<double, 3>& eye);
 

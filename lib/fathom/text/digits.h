@@ -45,8 +45,8 @@ inline constexpr std::uint64_t eight_zeros = 0x3030303030303030;  // '0': '9' be
   return {word, count};
 }
 
-/// The digits at `at`, behind which it moves, as they follow those of `before`: the number modulo 2⁶⁴,
-/// so that it is right where there are at most 19 of them in all.
+/// The digits at `at`, behind which it moves, as they follow those of `before`: the number modulo
+/// 2⁶⁴, so that it is right where there are at most 19 of them in all.
 [[gnu::always_inline]] inline DigitRun read_digits(const char*& at, const char* last,
                                                    DigitRun before = {}) {
   while (static_cast<std::size_t>(last - at) >= sizeof(std::uint64_t)) {
@@ -61,8 +61,8 @@ inline constexpr std::uint64_t eight_zeros = 0x3030303030303030;  // '0': '9' be
   return before;
 }
 
-/// Marks in the highest bits of eight characters, up to the first that is marked, those that do not lie
-/// between `least` and `greatest`, of ASCII.
+/// Marks in the highest bits of eight characters, up to the first that is marked, those that do not
+/// lie between `least` and `greatest`, of ASCII.
 template <char least, char greatest>
 [[gnu::always_inline]] inline std::uint64_t marks_of_others(const char* at) {
   constexpr std::uint64_t each = 0x0101010101010101;
@@ -73,8 +73,8 @@ template <char least, char greatest>
   return (word | above | ~not_below) & (0x80 * each);
 }
 
-/// Moves `at` behind the characters there that lie between `least` and `greatest`, of ASCII. Sixteen at a
-/// time, so that no branch depends on the length of a usual word.
+/// Moves `at` behind the characters there that lie between `least` and `greatest`, of ASCII.
+/// Sixteen at a time, so that no branch depends on the length of a usual word.
 template <char least, char greatest>
 [[gnu::always_inline]] inline void skip_characters(const char*& at, const char* last) {
   while (last - at >= 16) {

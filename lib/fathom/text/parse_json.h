@@ -48,8 +48,9 @@ class JsonFault : public InputError {
 /// `root` holds what had been read by then.
 ///
 /// Cost     n log n of n bytes, whatever they are.
-/// Fails    JsonFault where the text is no JSON, NUL behind it included, and for what nlohmann would accept: a key twice in
-///          one object, a number beyond binary64, more than `deepest_json` levels.
+/// Fails    JsonFault where the text is no JSON, NUL behind it included, and for what nlohmann
+///          would accept: a key twice in one object, a number beyond binary64, more than
+///          `deepest_json` levels.
 template <class Json>
 void parse_json(std::string_view text, Json& root);
 

@@ -91,8 +91,8 @@ class TextCursor {
     return false;
   }
 
-  /// What is left of this line, and of those that are joined to it, as it stands there, comments and
-  /// the '\' that join lines included. The cursor stays.
+  /// What is left of this line, and of those that are joined to it, as it stands there, comments
+  /// and the '\' that join lines included. The cursor stays.
   [[nodiscard]] std::string_view rest_of_line() const;
 
   /// The next word of this line; empty at its end.

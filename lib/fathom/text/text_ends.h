@@ -11,8 +11,8 @@ namespace fathom::text {
 /// there may stand for what is lost of it and are kept: they are no part of a word or number.
 std::string_view without_padding(std::string_view text);
 
-/// The text without the zero bytes behind it: some exporters pad the JSON of a GLB with them, where glTF
-/// has spaces.
+/// The text without the zero bytes behind it: some exporters pad the JSON of a GLB with them, where
+/// glTF has spaces.
 std::string_view without_zeros(std::string_view text);
 
 /// Fails    InputError if the text is in UTF-16, with a byte order mark or without.

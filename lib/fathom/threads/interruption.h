@@ -17,7 +17,8 @@ using InterruptionRequest = const std::atomic<bool>*;
 InterruptionRequest current_interruption();
 
 /// While it lives, work of this thread obeys `request`; so does parallel work that it asks for
-/// (threads.h), in all its threads. What starts a thread of its own passes current_interruption() on.
+/// (threads.h), in all its threads. What starts a thread of its own passes current_interruption()
+/// on.
 class Interruptible {
  public:
   explicit Interruptible(InterruptionRequest request);
@@ -30,11 +31,12 @@ class Interruptible {
 };
 
 /// Throws Interrupted where the end of this thread's work has been requested. Takes nanoseconds.
-/// Parallel work asks before each piece; longer pieces, and loops that are not parallel, ask at least
-/// every tenth of a second.
+/// Parallel work asks before each piece; longer pieces, and loops that are not parallel, ask at
+/// least every tenth of a second.
 void check_interruption();
 
-/// check_interruption() at every 256th call, for work of nanoseconds such as a comparison in a sort.
+/// check_interruption() at every 256th call, for work of nanoseconds such as a comparison in a
+/// sort.
 class OccasionalInterruption {
  public:
   void operator()() {

@@ -15,7 +15,8 @@
 namespace fathom {
 
 /// Calls work(0), …, work(count − 1), several at the same time, in the threads of with_threads() or
-/// in all that there are. An exception ends it and is passed on; so does a request (interruption.h).
+/// in all that there are. An exception ends it and is passed on; so does a request
+/// (interruption.h).
 void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work);
 
 /// in_parallel() for work(first), …, work(end − 1), with first ≤ end.
@@ -32,10 +33,10 @@ inline constexpr int most_threads = 1024;
 /// Fails    UsageError "threads: expected …" unless 0 ≤ threads ≤ most_threads.
 void require_thread_count(int threads);
 
-/// Runs `work` with as many threads as asked for; 0: all. Several threads may call at the same time,
-/// and `work` may call again; nothing of the process is changed, so that there are no more threads
-/// than TBB has for it: the machine's, unless the program that this is part of says otherwise
-/// (tbb::global_control).
+/// Runs `work` with as many threads as asked for; 0: all. Several threads may call at the same
+/// time, and `work` may call again; nothing of the process is changed, so that there are no more
+/// threads than TBB has for it: the machine's, unless the program that this is part of says
+/// otherwise (tbb::global_control).
 /// Fails    UsageError as require_thread_count().
 void run_with_threads(int threads, const std::function<void()>& work);
 

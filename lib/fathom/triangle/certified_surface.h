@@ -371,9 +371,9 @@ int turn_of(const PlacedNormal<Real>& normal, const ObjectRays& world, const Ima
 /// The unit normal in a frame, turned that way; every error is +∞ if it is not known.
 ///
 /// Underflow. Components of placed normals are multiples of 2⁻⁵⁶⁶ (2⁻²⁶² of an entry times 2⁻³⁰⁴ of
-/// n), so their squares may lose words below 2⁻¹⁰⁷⁴. That is less than 2⁻³⁰⁰ of |n|²: quotient() knows
-/// nothing unless |n| is 2²⁰ times its error, which is above 2⁻¹⁰¹ of the greatest size, and that is
-/// at least 2⁻²⁵⁰. The slack covers it.
+/// n), so their squares may lose words below 2⁻¹⁰⁷⁴. That is less than 2⁻³⁰⁰ of |n|²: quotient()
+/// knows nothing unless |n| is 2²⁰ times its error, which is above 2⁻¹⁰¹ of the greatest size, and
+/// that is at least 2⁻²⁵⁰. The slack covers it.
 template <class Real>
 Vector<Certified<Real>> unit(const PlacedNormal<Real>& normal, int turn) {
   Vector<Certified<Real>> result;

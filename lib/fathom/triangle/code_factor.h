@@ -8,7 +8,8 @@
 
 namespace fathom::triangle {
 
-/// The factor from depths to codes in binary64, and by which part of itself the exact one may differ.
+/// The factor from depths to codes in binary64, and by which part of itself the exact one may
+/// differ.
 struct CodeFactor {
   double value;
   double error = 0;

@@ -44,8 +44,8 @@ class CornerNormals {
   std::vector<std::uint64_t> first_vertex_;
 };
 
-/// The normals of corners in the world, as exact numbers. One for each thread: it remembers the sums
-/// that it was asked about last.
+/// The normals of corners in the world, as exact numbers. One for each thread: it remembers the
+/// sums that it was asked about last.
 class ExactCornerNormals {
  public:
   explicit ExactCornerNormals(std::shared_ptr<const CornerNormals> normals)

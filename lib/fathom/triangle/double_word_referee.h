@@ -10,8 +10,8 @@
 
 namespace fathom::triangle {
 
-/// A triangle under a perspective camera in double-words: what its weights of B and C and D are made
-/// of (certified_surface.h), at the samples of the image and up to `beyond` beyond them.
+/// A triangle under a perspective camera in double-words: what its weights of B and C and D are
+/// made of (certified_surface.h), at the samples of the image and up to `beyond` beyond them.
 struct WideForms {
   static constexpr double beyond = 8;
   WeightForms<WordPair> weights;

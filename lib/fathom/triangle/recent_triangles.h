@@ -7,8 +7,8 @@
 namespace fathom::triangle {
 
 /// What was found out about the triangles (or vertices) that were asked about last, by number: one
-/// for each number modulo `most`, so that triangles with neighbouring numbers, which are often neighbours in
-/// the image, do not displace each other.
+/// for each number modulo `most`, so that triangles with neighbouring numbers, which are often
+/// neighbours in the image, do not displace each other.
 template <class Facts, std::size_t most>
 class RecentTriangles {
  public:

@@ -18,8 +18,8 @@ namespace fathom::vtk {
 struct DrawnScene {
   /// An object for each actor that is drawn, its mesh in the actor's own frame.
   Scene scene;
-  /// For each object, how VTK holds its corners, and the mapper that draws it. Shifts and scales are known once it has
-  /// drawn.
+  /// For each object, how VTK holds its corners, and the mapper that draws it. Shifts and scales
+  /// are known once it has drawn.
   std::vector<attribution::RasterPart> parts;
   std::vector<vtkSmartPointer<vtkOpenGLPolyDataMapper>> mappers;
   /// What is visible and not in the scene.

@@ -12,8 +12,9 @@
 class vtkRenderWindow;
 class vtkRenderer;
 
-/// VTK's depth buffer, explained pixel by pixel: the oracle for a regression test without a baseline.
-/// The sources of this library are installed and compiled with the VTK of whoever uses it.
+/// VTK's depth buffer, explained pixel by pixel: the oracle for a regression test without a
+/// baseline. The sources of this library are installed and compiled with the VTK of whoever uses
+/// it.
 namespace fathom::vtk {
 
 /// A prop that is hidden while depth is drawn, and why.
@@ -39,23 +40,26 @@ struct DepthVerdict {
   [[nodiscard]] bool is_good() const { return cause.empty(); }
 };
 
-/// The cause or that all is explained, the pixels of each class, and what was left out: a line each.
+/// The cause or that all is explained, the pixels of each class, and what was left out: a line
+/// each.
 std::ostream& operator<<(std::ostream& out, const DepthVerdict& verdict);
 
-/// Renders the window and compares the depth buffer with the exact depths of what its renderer shows.
+/// Renders the window and compares the depth buffer with the exact depths of what its renderer
+/// shows.
 ///
-/// Takes       from VTK itself: polygons and triangle strips of the actors (also in assemblies) that a
-///             vtkPolyDataMapper draws, their matrices, the camera's matrices, viewport, depth buffer
-///             and its type, sample position, and how mappers shift and scale coordinates. A polygon
-///             of more than three corners is the fan from its first one, as VTK draws it.
+/// Takes       from VTK itself: polygons and triangle strips of the actors (also in assemblies)
+///             that a vtkPolyDataMapper draws, their matrices, the camera's matrices, viewport,
+///             depth buffer and its type, sample position, and how mappers shift and scale
+///             coordinates. A polygon of more than three corners is the fan from its first one, as
+///             VTK draws it.
 /// Checks too  that the camera's matrices are those of its position, focal point, view up, view
 ///             angle or parallel scale, window centre and clipping range (cameras that have a
 ///             transform of the user's or an explicit projection are taken as they are).
 /// Leaves out  what is not opaque triangles alone, each named in the verdict: translucent actors,
-///             actors with clipping planes, visible edges, culled faces, lines, vertices, wireframes
-///             or points, shaders of the user's, polygon offsets, hidden cells; glyphs, composite
-///             mappers, volumes, annotations and other props. They are hidden for this one Render()
-///             and shown again afterwards.
+///             actors with clipping planes, visible edges, culled faces, lines, vertices,
+///             wireframes or points, shaders of the user's, polygon offsets, hidden cells; glyphs,
+///             composite mappers, volumes, annotations and other props. They are hidden for this
+///             one Render() and shown again afterwards.
 /// Exact       the truth and the bounds, as attribute_and_name().
 /// Fails       InputError, one line: where nothing is left to compare, VTK has no OpenGL, stereo or
 ///             more than one layer is drawn, or the camera cannot be expressed.

@@ -46,7 +46,8 @@ bool is_one_of(vtkObject& object, const char* const (&classes)[count]) {
                      [&](const char* name) { return object.IsA(name) != 0; });
 }
 
-/// Mappers of VTK's that are vtkOpenGLPolyDataMappers and draw something else than their input's polygons.
+/// Mappers of VTK's that are vtkOpenGLPolyDataMappers and draw something else than their input's
+/// polygons.
 constexpr const char* other_mappers[] = {"vtkCompositePolyDataMapper2", "vtkOpenGLSphereMapper",
                                          "vtkOpenGLStickMapper"};
 /// Actors that draw by other mappers than their own where time is short.

@@ -64,8 +64,9 @@ std::string numpy_type_of(ChannelType type) {
   return type == ChannelType::binary32 ? std::string(name_of(StoredType::binary32)) : "";
 }
 
-/// Where the values of one channel of all maps go: an array of Python's, of the channel's type, with
-/// the number of the camera first, if there are several, and its parts last, if it has several.
+/// Where the values of one channel of all maps go: an array of Python's, of the channel's type,
+/// with the number of the camera first, if there are several, and its parts last, if it has
+/// several.
 struct Target {
   Target(const Channel channel, py::array& array)
       : names(part_names(channel)),

@@ -27,8 +27,8 @@ using namespace std::chrono_literals;
   while (true) ::pause();
 }
 
-/// Without the GIL until take() is called. Not in a destructor: once Python exits, a thread that wants
-/// the GIL is unwound (before Python 3.14), which nothing noexcept survives.
+/// Without the GIL until take() is called. Not in a destructor: once Python exits, a thread that
+/// wants the GIL is unwound (before Python 3.14), which nothing noexcept survives.
 class WithoutGil {
  public:
   WithoutGil() : state_(PyEval_SaveThread()) {}
@@ -89,8 +89,8 @@ void run_here(const std::function<void()>& work) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// A thread that does one piece of work after the other for the main thread: to start a thread for each
-/// call takes longer than to render a small map.
+/// A thread that does one piece of work after the other for the main thread: to start a thread for
+/// each call takes longer than to render a small map.
 class Worker {
  public:
   Worker() : thread_([this] { work_on(); }) {}

@@ -19,14 +19,15 @@ namespace fathom::python {
 /// thread looks for signals twenty times a second. Where one raises an exception, as Ctrl-C does,
 /// the work is asked to end (threads/interruption.h), and the exception leaves this call.
 ///
-/// In another thread, when Python exits: the work is asked to end, and the thread stands still until the
-/// process is gone, as Python's own daemon threads do.
+/// In another thread, when Python exits: the work is asked to end, and the thread stands still
+/// until the process is gone, as Python's own daemon threads do.
 void run_apart(const std::function<void()>& work);
 
 /// Asks work in other threads to end when Python exits. To be called once by each extension module.
 void end_work_at_exit(Module& module);
 
-/// The result of work(progress) as run_apart() does it. Where the work reports progress it can end, too.
+/// The result of work(progress) as run_apart() does it. Where the work reports progress it can end,
+/// too.
 template <class Work>
 auto run(const Work& work) {
   const std::function<void(double)> progress = [](double) { check_interruption(); };

@@ -1,5 +1,5 @@
-// The extension module _studies, which fathom.studies loads when a study is run: so what studies are
-// made of, the textbooks' pipeline among it, does not slow down `import fathom`.
+// The extension module _studies, which fathom.studies loads when a study is run: so what studies
+// are made of, the textbooks' pipeline among it, does not slow down `import fathom`.
 
 #include <pybind11/stl.h>
 

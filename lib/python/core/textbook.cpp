@@ -1,6 +1,7 @@
-// The extension module _textbook, which fathom.scan and fathom.pipeline load when they are called: so
-// the textbooks' pipeline does not slow down `import fathom`. Cases and answers are JSON, exactly as the
-// commands read and print them; options are those of the commands, read by the commands' own parsers.
+// The extension module _textbook, which fathom.scan and fathom.pipeline load when they are called:
+// so the textbooks' pipeline does not slow down `import fathom`. Cases and answers are JSON,
+// exactly as the commands read and print them; options are those of the commands, read by the
+// commands' own parsers.
 
 #include <pybind11/stl.h>
 

@@ -1,5 +1,5 @@
-// The tiles of an image, and that the triangles of a tile are all that cover a sample of it, or meet
-// it.
+// The tiles of an image, and that the triangles of a tile are all that cover a sample of it, or
+// meet it.
 #include "fathom/fast/bins/bins.h"
 
 #include <gtest/gtest.h>
@@ -167,7 +167,8 @@ TEST(ImageObjects, OwnTheNumbersOfTheirTriangles) {
   EXPECT_EQ(objects[3].vertices[1].u, 8);  // 4·1/1 + 4
 }
 
-/// Every triangle is asked for at samples of every tile, exactly, or for the area that it has there.
+/// Every triangle is asked for at samples of every tile, exactly, or for the area that it has
+/// there.
 void check(const Scene& scene, const Camera& camera, Cull cull, bool by_area, int& met) {
   Filling filling(scene, camera);
   const TriangleSource& triangles = filling.triangles;

@@ -1,5 +1,5 @@
-// How near triangles can be: the same by vectors of every kind as by one number after the other, and
-// never less than the number.
+// How near triangles can be: the same by vectors of every kind as by one number after the other,
+// and never less than the number.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tests/fast/bins/nearness_test.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
@@ -124,8 +124,8 @@ void expect_equal(const std::vector<double>& numbers, Numbers& n) {
   }
 }
 
-/// Where rounding to binary32 or moving up changes its mind: a binary32 number, the middle between it
-/// and the next, and the neighbours of both.
+/// Where rounding to binary32 or moving up changes its mind: a binary32 number, the middle between
+/// it and the next, and the neighbours of both.
 void add_boundaries(float x, std::vector<double>& numbers) {
   // The next one; behind the greatest number, what would follow if there were more exponents.
   const double next = std::abs(x) == std::numeric_limits<float>::max()

@@ -72,7 +72,8 @@ TEST(PixelArea, IntervalsContainTheExactArea) {
   EXPECT_GT(settled, cases * 9 / 10);
 }
 
-/// A triangle that is there a thousand times, and one beside it that has an edge in common with all.
+/// A triangle that is there a thousand times, and one beside it that has an edge in common with
+/// all.
 TEST(PixelArea, EdgesInOnePlaceAreOne) {
   const SquareTriangle t{{{0.125, 0.25}, {0.75, 0.25}, {0.25, 0.875}}};
   const SquareTriangle beside{{{0.75, 0.25}, {0.875, 1.5}, {0.25, 0.875}}};

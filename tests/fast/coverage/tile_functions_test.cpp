@@ -1,5 +1,5 @@
-// Functions over a tile: their least and greatest values in pixels err by no more than their bounds,
-// and by as much as stated shares of them.
+// Functions over a tile: their least and greatest values in pixels err by no more than their
+// bounds, and by as much as stated shares of them.
 #include "fathom/fast/coverage/tile_functions.h"
 
 #include <gtest/gtest.h>
@@ -132,8 +132,8 @@ TEST_P(FunctionShares, OfExactSetupsOverATile) {
 
 INSTANTIATE_TEST_SUITE_P(Fast, FunctionShares, ::testing::Bool());
 
-/// Ends of the range of any exponent: functions are finite, and where they are certain of a sign at a
-/// point, it is that of q less the end.
+/// Ends of the range of any exponent: functions are finite, and where they are certain of a sign at
+/// a point, it is that of q less the end.
 TEST(TileFunctions, AreFiniteForEveryRangeOfDepths) {
   Numbers n(39);
   const auto any_limit = [&] {
@@ -174,8 +174,8 @@ TEST(TileFunctions, AreFiniteForEveryRangeOfDepths) {
   EXPECT_GT(certain, 30000 / effort);
 }
 
-/// A pixel beside the corner of a triangle, which none of its sides separates from it, and pixels of
-/// random triangles against their clipped area.
+/// A pixel beside the corner of a triangle, which none of its sides separates from it, and pixels
+/// of random triangles against their clipped area.
 TEST(CertainlyMissesPixel, IsSaidOfPixelsWithoutAnArea) {
   std::mt19937_64 random(38);
   std::uniform_real_distribution<double> place(-3, 4);

@@ -1,4 +1,5 @@
-// The outlines of triangles in a tile: which pixels they meet, and the number of triangles along rows.
+// The outlines of triangles in a tile: which pixels they meet, and the number of triangles along
+// rows.
 #include "fathom/fast/coverage/tile_outlines.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Channel A of scenes that are rendered in rounds: the values of the same scene in memory, bit for bit,
-// whatever is kept in memory and whatever has to wait on a disk.
+// Channel A of scenes that are rendered in rounds: the values of the same scene in memory, bit for
+// bit, whatever is kept in memory and whatever has to wait on a disk.
 #include "fathom/fast/rounds/coverage_in_rounds.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // What tiles compute in binary32, for the vector instructions that every processor has: functions
-// and their bounds from both sides, surfaces over a tile, and which triangles are left out as hidden.
+// and their bounds from both sides, surfaces over a tile, and which triangles are left out as
+// hidden.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -136,7 +136,8 @@ TEST(Tile, ShowsTheNearestInColumnsBeyondTheRangeOfInt) {
   EXPECT_GT(seen, 1000);
 }
 
-/// Two small triangles that are near, and after them so many large ones, each nearer than the one before.
+/// Two small triangles that are near, and after them so many large ones, each nearer than the one
+/// before.
 TileScene nearer_and_nearer(std::uint32_t large) {
   std::vector<MeshPoint> vertices{{-0.4, -0.4, 1}, {-0.1, -0.4, 1}, {-0.4, -0.1, 1},
                                   {0.4, 0.4, 1},   {0.1, 0.4, 1},   {0.4, 0.1, 1}};
@@ -177,8 +178,8 @@ TEST(Tile, ForgetsSurfacesThatAreHidden) {
   EXPECT_EQ(number_at(tile, 32, 32), x.drawn.size() - 1);
 }
 
-/// What was drawn before back faces stays known when hidden surfaces are forgotten: before them, among
-/// them, and when the tile is packed.
+/// What was drawn before back faces stays known when hidden surfaces are forgotten: before them,
+/// among them, and when the tile is packed.
 TEST(Tile, KnowsFrontFacesWhereItForgetsOthers) {
   TileScene x = nearer_and_nearer(40'000);
   for (const std::size_t front : {2, 100, 19'000, 39'999, 40'001}) {
@@ -201,8 +202,8 @@ TEST(Tile, KnowsFrontFacesWhereItForgetsOthers) {
   }
 }
 
-/// Each tile has a place of most_packed_bytes in a file: more would be another tile's. Surfaces that fill
-/// their list to its end are as many as others.
+/// Each tile has a place of most_packed_bytes in a file: more would be another tile's. Surfaces
+/// that fill their list to its end are as many as others.
 TEST(Tile, PackedIsWithinItsPlaceWhereTheListIsFull) {
   for (const std::uint32_t in_first_batch : {7U, 8U}) {
     Tile tile;
@@ -250,7 +251,8 @@ TileScene small_triangles(std::mt19937_64& random, int count) {
   return {testing::scene_of(vertices, triangles), testing::camera_of(64, 64, 64)};
 }
 
-/// At each sample the same surface, with the same q and the same bound, and as much is known of front faces.
+/// At each sample the same surface, with the same q and the same bound, and as much is known of
+/// front faces.
 TEST(Tile, ComesBackFromAFileAsItWas) {
   std::mt19937_64 random(203);
   TileScene x = small_triangles(random, 3000);

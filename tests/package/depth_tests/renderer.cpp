@@ -1,6 +1,6 @@
-// A renderer as small as one can be, in another project: it draws scene.obj as camera.json sees it by
-// casting a ray through the middle of each pixel, in binary32, and writes a PFM. What it can do wrong, the
-// tests ask for by name.
+// A renderer as small as one can be, in another project: it draws scene.obj as camera.json sees it
+// by casting a ray through the middle of each pixel, in binary32, and writes a PFM. What it can do
+// wrong, the tests ask for by name.
 //   renderer MAP [FAULT]
 #include <array>
 #include <chrono>

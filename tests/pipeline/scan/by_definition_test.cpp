@@ -190,7 +190,8 @@ TEST(Convexity, TurnsSidesAndTurningNumbers) {
   EXPECT_GT(stars, 5);
 }
 
-/// Left and top edges shorter than a pixel, with a centre on them; and all other triangles of halves.
+/// Left and top edges shorter than a pixel, with a centre on them; and all other triangles of
+/// halves.
 TEST(EdgeFunction, TrianglesCoverWhatTheRuleSays) {
   std::mt19937_64 random(65);
   const auto covered_by = [](const std::vector<Corner>& t, const Corner& p) {

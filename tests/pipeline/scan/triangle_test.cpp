@@ -69,8 +69,8 @@ TEST(Triangle, BothWindingsCoverTheSameAndZeroAreaNothing) {
             (std::vector<Pixel>{{0, 0}}));
 }
 
-/// The two right triangles whose areas, 100 and 18, are their counts: as many centres on the slanted
-/// edge's one side as beyond it.
+/// The two right triangles whose areas, 100 and 18, are their counts: as many centres on the
+/// slanted edge's one side as beyond it.
 TEST(Triangle, OneHundredAndEighteenPixels) {
   EXPECT_EQ(by_edge_functions(triangle_of(0, 0, 20, 0, 0, 10)).size(), 100u);
   EXPECT_EQ(by_edge_functions(triangle_of(0, 0, 9, 0, 0, 4)).size(), 18u);

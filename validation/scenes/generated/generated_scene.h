@@ -26,7 +26,8 @@ struct GeneratedArguments {
 };
 
 /// A scene of one object. Its source is called "generated:terrain:1000000".
-/// Fails    UsageError where the edge is not above 0, or above 1; InputError for too many triangles.
+/// Fails    UsageError where the edge is not above 0, or above 1; InputError for too many
+///          triangles.
 StreamedScene generated_scene(const GeneratedArguments& arguments);
 
 /// A camera that looks obliquely down on such a scene, which fills its image: about half of the

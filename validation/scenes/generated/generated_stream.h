@@ -22,8 +22,8 @@ class GeneratedStream : public TriangleStream {
   [[nodiscard]] std::uint32_t face_of(std::uint32_t number) const override { return number; }
 
  private:
-  /// Adds triangles first ≤ number < end, at least one, all of which there are. They have the corners
-  /// that triangle() gives them, bit for bit.
+  /// Adds triangles first ≤ number < end, at least one, all of which there are. They have the
+  /// corners that triangle() gives them, bit for bit.
   virtual void add_triangles(std::uint32_t first, std::uint32_t end, Mesh& mesh) const = 0;
 
   std::uint32_t count_;

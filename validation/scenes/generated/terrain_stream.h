@@ -4,13 +4,13 @@
 
 namespace fathom::bench {
 
-/// A landscape over the unit square of x and z, y up, as a scanner leaves it: a grid of square cells
-/// of two triangles each, counter-clockwise from above, row by row from the side of the least z. A
-/// row has √(count / 2) cells, rounded up; the last row ends where the triangles do, and there may
-/// be a row less than columns.
+/// A landscape over the unit square of x and z, y up, as a scanner leaves it: a grid of square
+/// cells of two triangles each, counter-clockwise from above, row by row from the side of the least
+/// z. A row has √(count / 2) cells, rounded up; the last row ends where the triangles do, and there
+/// may be a row less than columns.
 ///
-/// Neighbours follow each other: for ranks that draw parts of an image, the kindest order that there
-/// is.
+/// Neighbours follow each other: for ranks that draw parts of an image, the kindest order that
+/// there is.
 class TerrainStream : public GeneratedStream {
  public:
   explicit TerrainStream(std::uint32_t count);

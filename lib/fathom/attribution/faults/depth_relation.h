@@ -24,8 +24,8 @@ struct DepthRelation {
   std::uint64_t pixels = 0;
 };
 
-/// Those that hold at four fifths of the pixels where both show a surface, the simplest first; their
-/// constants are estimated, and taken for round numbers where they are as good.
+/// Those that hold at four fifths of the pixels where both show a surface, the simplest first;
+/// their constants are estimated, and taken for round numbers where they are as good.
 std::vector<DepthRelation> depth_relations(const Truth& truth, const OtherMap& other);
 
 /// The map with the depths that its values mean.

@@ -11,8 +11,8 @@
 
 namespace fathom::attribution {
 
-/// What may be a little off in a whole image: the camera's pose, its intrinsic parameters, the lens,
-/// the numbers that depths became.
+/// What may be a little off in a whole image: the camera's pose, its intrinsic parameters, the
+/// lens, the numbers that depths became.
 enum class Parameter {
   turn_x,  ///< of the pose: X′ = X + turn × X + move in the camera's frame, rad
   turn_y,
@@ -53,8 +53,8 @@ struct WindowSteps {
 };
 std::optional<WindowSteps> window_steps(const Camera& camera, const RendererModel& model);
 
-/// What depths become: scaled and offset, their window depths biased, then decoded with another near
-/// and far.
+/// What depths become: scaled and offset, their window depths biased, then decoded with another
+/// near and far.
 class DepthDeviation {
  public:
   DepthDeviation(const Camera& camera, const RendererModel& model, const Deviation& deviation);
@@ -90,8 +90,8 @@ class DepthDeviation {
 struct DeviationSet {
   /// As of a Finding.
   const char* kind;
-  /// What is off, for a sentence "… is off"; nothing for a kind that has a sentence of its own: bias,
-  /// shift, decoding.
+  /// What is off, for a sentence "… is off"; nothing for a kind that has a sentence of its own:
+  /// bias, shift, decoding.
   const char* subject;
   std::span<const Parameter> parameters;
   /// focal_x and focal_y are one.

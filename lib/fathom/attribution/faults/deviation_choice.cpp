@@ -15,10 +15,10 @@ constexpr double roundings = 0.01;
 /// named, the others are alternatives.
 constexpr double indistinguishable = 1.05;
 /// What the cost has to fall to for anything to be named, and how many standard deviations each
-/// parameter has to be off by, of those that the residuals show. (What corners may be off by is told
-/// as part of the deviation, but it is the most that there may be: a set of six parameters would have
-/// to be far off before each of them were beyond it.) That it then explains the pixels that were
-/// unexplained is for others to see.
+/// parameter has to be off by, of those that the residuals show. (What corners may be off by is
+/// told as part of the deviation, but it is the most that there may be: a set of six parameters
+/// would have to be far off before each of them were beyond it.) That it then explains the pixels
+/// that were unexplained is for others to see.
 constexpr double evidence = 0.99, least_shown = 6;
 
 bool is_significant(const FittedDeviation& fit) {

@@ -113,8 +113,8 @@ Range range_around(const Truth& truth, std::size_t pixel) {
   return {*least, *greatest};
 }
 
-/// The greatest relative gap between the exact depths of a pixel and its neighbours: at a silhouette
-/// that between the surfaces, on a slope the little that it falls from pixel to pixel.
+/// The greatest relative gap between the exact depths of a pixel and its neighbours: at a
+/// silhouette that between the surfaces, on a slope the little that it falls from pixel to pixel.
 Range gap_around(const Truth& truth, std::size_t pixel) {
   std::vector<double> depths = depths_around(truth, pixel);
   std::sort(depths.begin(), depths.end());

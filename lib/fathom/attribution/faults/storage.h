@@ -20,9 +20,9 @@ struct CoarseStorage {
 
 /// Storages, coarser than the model's own, that all surfaces of a map fit in: half floats,
 /// multiples of a common step, codes of depth or window depth between near and far. The coarsest.
-/// Exact    a value fits a storage if it is within four roundings to binary32 of one of its own, and
-///          these are at least 16 times as far apart. All values have to, and so many that chance
-///          gives a map a storage that it has not once in 2²⁰.
+/// Exact    a value fits a storage if it is within four roundings to binary32 of one of its own,
+///          and these are at least 16 times as far apart. All values have to, and so many that
+///          chance gives a map a storage that it has not once in 2²⁰.
 /// Source   16 bits in millimetres and the like: docs/validation.md, "Findings".
 std::optional<CoarseStorage> coarse_storage(const Camera& camera, const OtherMap& other,
                                             const RendererModel& model);

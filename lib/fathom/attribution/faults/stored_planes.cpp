@@ -69,8 +69,8 @@ Lattice fitted(const Lattice& near_by, const std::vector<double>& values) {
   return {mean - step * mean_code, step};
 }
 
-/// The coarsest lattice through all values. The least difference of neighbours is a small multiple of the
-/// step, which values farther and farther away make exact.
+/// The coarsest lattice through all values. The least difference of neighbours is a small multiple
+/// of the step, which values farther and farther away make exact.
 std::optional<Lattice> lattice_of(const std::vector<double>& values) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < values.size(); ++i) {

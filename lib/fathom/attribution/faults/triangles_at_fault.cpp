@@ -16,7 +16,8 @@
 namespace fathom::attribution {
 namespace {
 
-/// Pixels that touch and have to be explained by a triangle's absence, or by that of its neighbours.
+/// Pixels that touch and have to be explained by a triangle's absence, or by that of its
+/// neighbours.
 constexpr std::size_t least_pixels = 3;
 /// Missing triangles that are named one by one.
 constexpr std::size_t most_named = 3;
@@ -78,8 +79,8 @@ bool shows_what_is_behind(const OtherMap& other, const Attribution& found) {
   return surfaces * 5 >= all * 4;
 }
 
-/// Nearly all that are turned one way are missing, and hardly any that is turned the other way. Edges
-/// leave some of either.
+/// Nearly all that are turned one way are missing, and hardly any that is turned the other way.
+/// Edges leave some of either.
 std::optional<Finding> culling(const Truth& truth, const std::map<std::uint32_t, Sightings>& seen,
                                const std::set<std::uint32_t>& gone, std::uint64_t pixels) {
   std::array<std::uint64_t, 2> all{}, lost{};

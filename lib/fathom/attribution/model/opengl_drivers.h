@@ -8,14 +8,16 @@
 namespace fathom::attribution {
 
 /// What is taken for known of how a driver rasterizes, beyond what OpenGL demands and answers: from
-/// its sources, for the drivers that are named here. Of others nothing is, which gives wider bounds.
+/// its sources, for the drivers that are named here. Of others nothing is, which gives wider
+/// bounds.
 struct DriverFacts {
   /// Depth is interpolated between the corners as they were before they were snapped.
   bool depth_before_snap = false;
   /// Corners are not snapped, whatever GL_SUBPIXEL_BITS says: edges are computed in binary32, anew
   /// for each triangle, so that a sample between two that share one may belong to neither.
   bool snaps = true;
-  /// Depths are rounded to the nearest code; OpenGL allows either of the two about them ([GL46] 2.3.5.2).
+  /// Depths are rounded to the nearest code; OpenGL allows either of the two about them ([GL46]
+  /// 2.3.5.2).
   bool nearest_codes = false;
 };
 

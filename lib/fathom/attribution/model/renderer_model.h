@@ -15,8 +15,8 @@
 /// the bounds that follow from it.
 namespace fathom::attribution {
 
-/// Corners that a renderer holds in a frame of their own, in binary32 as position − shift, and takes
-/// to clip coordinates by one matrix, which it has multiplied in binary64 and rounded once.
+/// Corners that a renderer holds in a frame of their own, in binary32 as position − shift, and
+/// takes to clip coordinates by one matrix, which it has multiplied in binary64 and rounded once.
 struct RasterPart {
   /// Takes the part's frame to the world.
   std::array<std::array<double, 4>, 3> world_from_part{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
@@ -31,8 +31,8 @@ struct RasterModel {
   ///
   /// Frame    world, scene units.
   std::array<double, 3> shift{0, 0, 0}, scale{1, 1, 1};
-  /// Whether the shift is the one that VTK's mappers choose for the mesh (raster/vtk_shift.h), where
-  /// the matrix is not known; `shift` then says nothing.
+  /// Whether the shift is the one that VTK's mappers choose for the mesh (raster/vtk_shift.h),
+  /// where the matrix is not known; `shift` then says nothing.
   bool shift_as_vtk = false;
   /// The matrix that takes held positions to clip coordinates, row by row, where it is known; its
   /// entries then are not a source of error, and neither are the positions.
@@ -85,8 +85,8 @@ struct RayModel {
 struct SamplePosition {
   double x = 0.5, y = 0.5;
   double error = 0;
-  /// Radial distortion of the lens, without a unit: what an ideal one shows at radius r of the plane
-  /// at depth 1 is shown at r·(1 + k1·r² + k2·r⁴). Perspective only.
+  /// Radial distortion of the lens, without a unit: what an ideal one shows at radius r of the
+  /// plane at depth 1 is shown at r·(1 + k1·r² + k2·r⁴). Perspective only.
   /// Source   [Bro71], as OpenCV has it.
   double k1 = 0, k2 = 0;
 };
@@ -97,8 +97,9 @@ struct RendererModel {
   SamplePosition sample;
   /// No sample between two triangles that share an edge is missed.
   bool watertight = true;
-  /// Of triangles with the same corners, which have equal depths whatever the roundings are, the one that is seen,
-  /// where the renderer's rule is known. Triangles are drawn in the order of their numbers.
+  /// Of triangles with the same corners, which have equal depths whatever the roundings are, the
+  /// one that is seen, where the renderer's rule is known. Triangles are drawn in the order of
+  /// their numbers.
   std::optional<EqualDepths> equal_depths;
   /// What was written down in place of the depths, where that is known; depths of the map are then
   /// those that its values mean.

@@ -52,8 +52,8 @@ std::array<ClipRow, 4> rows_of_matrix(const std::array<float, 16>& matrix) {
   return rows;
 }
 
-/// Where positions stand before the view is applied: place·(position) with the shift put back, and the
-/// sums of the magnitudes of its terms.
+/// Where positions stand before the view is applied: place·(position) with the shift put back, and
+/// the sums of the magnitudes of its terms.
 struct Place {
   Eigen::Matrix4d value = Eigen::Matrix4d::Identity(), terms = Eigen::Matrix4d::Identity();
 };

@@ -25,7 +25,8 @@ struct TileGrid {
   std::uint32_t columns, rows;
 };
 
-/// Consecutive triangles of some objects, and for each tile those that can be visible in it, or that meet it.
+/// Consecutive triangles of some objects, and for each tile those that can be visible in it, or
+/// that meet it.
 class Bins {
  public:
   /// For the triangles first ≤ number < end of the objects.
@@ -50,7 +51,8 @@ class Bins {
   };
   void fill(const Context& context);
 
-  /// Numbers of the triangles of a side (front, where that takes exact numbers), those of one object next to each other.
+  /// Numbers of the triangles of a side (front, where that takes exact numbers), those of one
+  /// object next to each other.
   [[nodiscard]] std::span<const TileEntry> in_tile(std::uint32_t tile, Side side) const {
     return lists_[index(side)].in_tile(tile);
   }

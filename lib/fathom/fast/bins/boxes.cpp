@@ -164,8 +164,8 @@ bool sort_triangles(const BoxRequest& r, BoxBatch& out) {
   return true;
 }
 
-/// The edge functions of triangles of the batch, by their places in it, as many as there are lanes or
-/// fewer. Those of all lanes are made, with the first triangle in what is left.
+/// The edge functions of triangles of the batch, by their places in it, as many as there are lanes
+/// or fewer. Those of all lanes are made, with the first triangle in what is left.
 HWY_INLINE void put_edges_at(const BoxRequest& r, const std::size_t* places, std::size_t count,
                              BoxBatch& out) {
   CornerIndices corners[8];

@@ -1,5 +1,5 @@
-// Triangles of a tile, read in time. Included once for every kind of vector instructions, by the files
-// that foreach_target.h compiles for each.
+// Triangles of a tile, read in time. Included once for every kind of vector instructions, by the
+// files that foreach_target.h compiles for each.
 #if defined(FATHOM_FAST_FETCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FATHOM_FAST_FETCH_INL_H
 #undef FATHOM_FAST_FETCH_INL_H

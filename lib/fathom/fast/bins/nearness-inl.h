@@ -28,7 +28,8 @@ HWY_INLINE hn::Vec<DU> moved_up_in_24_bits(V q) {
                         hn::And(hn::Add(bits, hn::Set(du, 0x1FF)), whole));
 }
 
-/// nearness_in() of boxes of pixels that lie in the tile of this column and row, in the lower halves.
+/// nearness_in() of boxes of pixels that lie in the tile of this column and row, in the lower
+/// halves.
 HWY_INLINE hn::Vec<DU> nearness_in(hn::Vec<DU> q, const Boxes& box, V tile_column, V tile_row) {
   const DU du;
   const auto block_of = [](V pixel) HWY_ATTR {

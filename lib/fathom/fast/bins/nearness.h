@@ -7,11 +7,11 @@
 
 namespace fathom::fast {
 
-/// How near a triangle can be at its samples in a tile, and where they are, in 32 bits: the greatest
-/// q of a covered sample rounded up, as a binary32 number of 24 bits, and in the last eight the
-/// block of the box's first sample (column, row: three bits each), whether the box meets more
-/// than two by two blocks (four by four it meets at most), and whether the triangle, which is there
-/// for its area, certainly covers no sample.
+/// How near a triangle can be at its samples in a tile, and where they are, in 32 bits: the
+/// greatest q of a covered sample rounded up, as a binary32 number of 24 bits, and in the last
+/// eight the block of the box's first sample (column, row: three bits each), whether the box meets
+/// more than two by two blocks (four by four it meets at most), and whether the triangle, which is
+/// there for its area, certainly covers no sample.
 using Nearness = std::uint32_t;
 
 /// Its parts.

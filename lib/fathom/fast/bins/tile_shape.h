@@ -15,8 +15,8 @@ struct TileShape {
   static constexpr std::size_t blocks = std::size_t{blocks_of_row} * blocks_of_row;
 
   /// Samples are kept by cells of 4 × 4, row by row of the tile, each row by row: a vector has as
-  /// much of a cell as it can, always at the same place of memory, which a processor can hand from a
-  /// write to the next read.
+  /// much of a cell as it can, always at the same place of memory, which a processor can hand from
+  /// a write to the next read.
   static constexpr std::uint32_t cell = 4;
   /// Index of a sample by its column and row within the tile.
   static constexpr std::size_t index(std::uint32_t column, std::uint32_t row) {

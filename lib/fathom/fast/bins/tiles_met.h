@@ -33,9 +33,9 @@ class TileRowEdges {
 
   // An edge function that is certainly negative at the corner of a tile's part of the box where it
   // is greatest is so at all its samples; and in all of their pixels, as that part is taken to be
-  // greater by one sample on each side, for which the bound holds, too. Products and sums are rounded
-  // monotonically, so a function that is so in a tile is so in all tiles of the row on one side of it:
-  // what is left between missed tiles at the row's ends are tiles of which none is.
+  // greater by one sample on each side, for which the bound holds, too. Products and sums are
+  // rounded monotonically, so a function that is so in a tile is so in all tiles of the row on one
+  // side of it: what is left between missed tiles at the row's ends are tiles of which none is.
   /// Empty if there is none.
   [[nodiscard]] PixelBox met() const {
     std::uint32_t first = box_.first_column / size_, last = box_.last_column / size_;
@@ -70,8 +70,8 @@ class TileRowEdges {
   std::array<double, 3> at_row_;
 };
 
-/// Calls add(part) for parts of the box that lie in tiles of one row each; the tiles of the box that
-/// have no part are certainly missed by the triangle.
+/// Calls add(part) for parts of the box that lie in tiles of one row each; the tiles of the box
+/// that have no part are certainly missed by the triangle.
 /// Needs    a box that is not empty.
 template <class Add>
 void for_parts_met(const BoxEdges& edges, const PixelBox& box, std::uint32_t tile_size,

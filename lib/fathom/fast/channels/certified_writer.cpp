@@ -8,8 +8,8 @@
 
 // How to read this file: CertifiedWriter::write() is the list of channels. What follows from q
 // alone is rounded for a whole row (channel_rows.h), and so is what follows from the triangle
-// (surface_lanes.h, wide_rows.h); for what that leaves, PixelWriter has a function for each channel,
-// which goes through the tiers. Values and their bounds come from
+// (surface_lanes.h, wide_rows.h); for what that leaves, PixelWriter has a function for each
+// channel, which goes through the tiers. Values and their bounds come from
 // triangle/certified_surface.h and double_word_surface.h, roundings from
 // numeric/certified_rounding.h.
 namespace fathom::fast {
@@ -18,8 +18,8 @@ using namespace triangle;
 
 namespace {
 
-/// Copies settled values of a row to its pixels, as far as they are wanted; returns the samples that
-/// are left.
+/// Copies settled values of a row to its pixels, as far as they are wanted; returns the samples
+/// that are left.
 template <class T>
 std::uint64_t copy(const VisibleRow& row, std::uint64_t wanted, const RoundedValues<T>& rounded,
                    T* target, RenderStatistics& statistics) {

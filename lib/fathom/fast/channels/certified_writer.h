@@ -88,7 +88,8 @@ class CertifiedWriter {
   const rendering::ChannelValues values_;
   const MapRows rows_;
   const ValueFrame frame_;
-  /// Whether a channel was asked for that double-words begin with: Zlow, or depth or distance in binary64.
+  /// Whether a channel was asked for that double-words begin with: Zlow, or depth or distance in
+  /// binary64.
   bool needs_wide_;
   /// Whether one was asked for that needs to know the surfaces of the tile.
   bool needs_surfaces_;

@@ -25,8 +25,8 @@ struct alignas(64) MapRow : std::array<T, TileShape::size> {};
 
 /// How rows are written to a map: as usual where the system has just provided its memory; else past
 /// the caches. Then nothing waits for what the memory held before: writing a tile's rows into a map
-/// of 8 MB, other writes in between, takes a third of the time of ordinary writes. Other threads see
-/// what was written after finish() of this thread.
+/// of 8 MB, other writes in between, takes a third of the time of ordinary writes. Other threads
+/// see what was written after finish() of this thread.
 struct MapRows {
   bool past_caches = false;
 

@@ -95,9 +95,9 @@ HWY_INLINE void store(const Surfaces& s, hn::Vec<DT32> places, std::uint32_t col
   hn::Store(places, DT32(), row.places.data() + column);
 }
 
-/// Calls shown(column, surfaces, which lanes show one) for as many samples of a row at once as there
-/// are lanes, or empty(column) where none of them shows a surface. `surfaces`: filled if not null.
-/// Returns which samples show one.
+/// Calls shown(column, surfaces, which lanes show one) for as many samples of a row at once as
+/// there are lanes, or empty(column) where none of them shows a surface. `surfaces`: filled if not
+/// null. Returns which samples show one.
 template <class Shown, class Empty>
 HWY_INLINE std::uint64_t look_at_row(const Tile& tile, std::uint32_t row, SurfacesOfRow* surfaces,
                                      const Shown& shown, const Empty& empty) {
@@ -155,8 +155,8 @@ HWY_INLINE RowBits round_row(const Tile& tile, std::uint32_t row, float* depths,
   return bits;
 }
 
-/// Writes the depths of a row rounded to binary32, +∞ where there is no surface; those that are open
-/// mean nothing. `surfaces`: filled if not null.
+/// Writes the depths of a row rounded to binary32, +∞ where there is no surface; those that are
+/// open mean nothing. `surfaces`: filled if not null.
 RowBits round_depths_of_row(const Tile& tile, std::uint32_t row, bool perspective, float* depths,
                             SurfacesOfRow* surfaces) {
   return perspective ? round_row<true>(tile, row, depths, surfaces)

@@ -23,7 +23,8 @@ struct TileOutput {
   MapLayout layout;
 };
 
-/// Writes the visible surfaces; stops at the first fault in row order, whose pixel is that of the map.
+/// Writes the visible surfaces; stops at the first fault in row order, whose pixel is that of the
+/// map.
 std::optional<triangle::EncodingFault> resolve(const Tile& tile, const TileOutput& output,
                                                const DrawContext& context);
 

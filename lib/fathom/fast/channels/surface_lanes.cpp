@@ -261,7 +261,8 @@ HWY_INLINE CertifiedLanes form_at(const LaneForm* forms, const LaneIndices& indi
   return {hn::MulAdd(f.third, u, hn::MulAdd(f.second, constant(v), f.first)), f.fourth};
 }
 
-/// 1/y, whose relative error is at most 4u, and the part of y that y errs by; NaN if nothing is known.
+/// 1/y, whose relative error is at most 4u, and the part of y that y errs by; NaN if nothing is
+/// known.
 struct Divisor {
   V inverse, error;
 };

@@ -73,8 +73,8 @@ HWY_INLINE CertifiedWideLanes depth_of(const WideForms& f, V u, bool perspective
 }
 
 /// Like ray_length() in triangle/double_word_surface.h; terms that are 0 are left out, and of the
-/// sum of the squares the one of y and 1 are added first, which is the same for a row of pixels if y
-/// is.
+/// sum of the squares the one of y and 1 are added first, which is the same for a row of pixels if
+/// y is.
 class RayLengths {
  public:
   HWY_INLINE RayLengths(const SceneRays& rays, double v)

@@ -15,8 +15,8 @@ inline constexpr double moved_length = 2.83, moved_end = 6.3;
 /// A cut by a line: error/max(|a|, |b|), and its own roundings (pixel_union.cpp).
 inline constexpr double cut_error = 8, cut_rounding = 64 * unit_roundoff<double>;
 
-/// Coordinates of at most `far` pixels are computed within rounding_room, also along edges whose ends
-/// differ by least_rise in height (tile_outlines.cpp; row_of_edge).
+/// Coordinates of at most `far` pixels are computed within rounding_room, also along edges whose
+/// ends differ by least_rise in height (tile_outlines.cpp; row_of_edge).
 inline constexpr double far = 0x1p28, rounding_room = 0x1p-20, least_rise = 0x1p-20;
 
 }  // namespace fathom::fast::area_bounds

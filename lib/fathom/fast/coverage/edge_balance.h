@@ -25,8 +25,8 @@ class EdgeBalance {
 
   /// Empties it, with room for about so many different edges; there may be more.
   void start(std::size_t expected_edges);
-  /// Vertices must be less than 2³² − 1. Cancels edges from `to` to `from`, and keeps this one until
-  /// its opposite comes.
+  /// Vertices must be less than 2³² − 1. Cancels edges from `to` to `from`, and keeps this one
+  /// until its opposite comes.
   void add(std::uint32_t from, std::uint32_t to, std::uint32_t times = 1) {
     const std::uint64_t edge = word_of_edge(from, to), opposite = word_of_edge(to, from);
     for (std::size_t i = place_of_edge(from, to, shift_);; i = (i + 1) & mask_) {

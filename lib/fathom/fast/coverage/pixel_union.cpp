@@ -21,8 +21,8 @@ void PixelUnion::add(std::span<const SquarePoint> corners, double area_error) {
   ++polygons_;
 }
 
-// A line crosses the boundary of each polygon twice or not at all; between the two it is inside. The
-// measure of a union of spans changes by no more than one of its ends is moved.
+// A line crosses the boundary of each polygon twice or not at all; between the two it is inside.
+// The measure of a union of spans changes by no more than one of its ends is moved.
 double PixelUnion::covered_length(std::span<const SquareEdges::Crossing> crossings) {
   is_inside_.assign(static_cast<std::size_t>(polygons_), false);
   double length = 0, left = 0;

@@ -37,8 +37,8 @@ class PixelUnion {
 struct UncertainHalfPlane {
   /// Finite: an infinite term minus another one is NaN, which no comparison finds on either side.
   double a, b, c;
-  /// Of f at any point of the unit square, including the roundings of its evaluation; +∞: nothing is
-  /// known.
+  /// Of f at any point of the unit square, including the roundings of its evaluation; +∞: nothing
+  /// is known.
   double error;
 };
 

@@ -9,17 +9,17 @@
 // Let the corners of all triangles go straight from their exact to their computed places, by at
 // most ε in each coordinate. At the start the sum of the triangles' winding numbers around a point
 // is the number of triangles that cover it. Cancelled edges cancel all the way, so the sum changes
-// only where an edge that is left passes over the point, which is then within r = √2·ε of that edge.
-// Within the square such a strip has an area of at most 2r·(√2 + 2r) ≤ 4.1ε, and of at most
+// only where an edge that is left passes over the point, which is then within r = √2·ε of that
+// edge. Within the square such a strip has an area of at most 2r·(√2 + 2r) ≤ 4.1ε, and of at most
 // 2rl + πr², l being the length of the edge within r of the square. Everywhere else
 // the winding number of the computed edges is the exact number of triangles; in particular at a
 // point where that number is certain for all points within ε.
 //
-// From there it follows everywhere else. Let each edge be bent so that it passes the middles of slabs
-// where its crossings are computed: that moves it by at most ξ, and no end. The number just to the
-// left of x = 0 changes from one middle to another exactly where bent edges pass it in between, and
-// along a middle at the crossings as computed. The point of which the number is known is more than
-// 2ξ away from any crossing, so it has the same number with bent edges.
+// From there it follows everywhere else. Let each edge be bent so that it passes the middles of
+// slabs where its crossings are computed: that moves it by at most ξ, and no end. The number just
+// to the left of x = 0 changes from one middle to another exactly where bent edges pass it in
+// between, and along a middle at the crossings as computed. The point of which the number is known
+// is more than 2ξ away from any crossing, so it has the same number with bent edges.
 //
 // The length of the points with a positive winding number changes by no more than a crossing is
 // moved, and crossings at the same place may come in any order: square_edges.h.
@@ -27,8 +27,8 @@ namespace fathom::fast {
 
 namespace {
 
-/// Not less than the length of the segment within `margin` of the square in both coordinates. Shares
-/// of the segment and its length err by 8u together.
+/// Not less than the length of the segment within `margin` of the square in both coordinates.
+/// Shares of the segment and its length err by 8u together.
 /// Source   [LB84]
 double length_near_square(const SquarePoint& p, const SquarePoint& q, double margin) {
   double first = 0, last = 1;

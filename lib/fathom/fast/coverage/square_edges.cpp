@@ -118,7 +118,8 @@ bool SquareEdges::is_beyond_a_side(const Crossing& c) const {
   return std::max(c.x_low, c.x_high) < -margin || std::min(c.x_low, c.x_high) > 1 + margin;
 }
 
-// On the way from x = 0 at the upper end to any point of the strip, each edge is passed at most once.
+// On the way from x = 0 at the upper end to any point of the strip, each edge is passed at most
+// once.
 SquareEdges::Strip SquareEdges::strip(double thickness) const {
   Strip strip{thickness, passed_, 0, 0};
   for (const Crossing& c : crossings_) {

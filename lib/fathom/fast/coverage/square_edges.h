@@ -11,10 +11,10 @@ struct SquarePoint {
   double x, y;
 };
 
-/// Line segments that cross the unit square, swept from top to bottom in slabs: heights within which
-/// none of them ends and, except for rounding, no two cross each other or a side of the square.
-/// There, a length along a horizontal line that depends on the order of the crossings is linear in
-/// the height.
+/// Line segments that cross the unit square, swept from top to bottom in slabs: heights within
+/// which none of them ends and, except for rounding, no two cross each other or a side of the
+/// square. There, a length along a horizontal line that depends on the order of the crossings is
+/// linear in the height.
 ///
 /// Let X ≥ 1 bound the x of the segments' ends, and u be the unit roundoff.
 /// 1. x at a height y of an edge is computed as x₀ + (y − y₀)·s with s = (x₁ − x₀)/(y₁ − y₀), y
@@ -22,10 +22,10 @@ struct SquarePoint {
 ///    5.1u·|x₁ − x₀| ≤ 10.2uX, and the sum 3uX more: ξ = 16uX covers it.
 /// 2. Breaks at ends are exact. Where the computed distance of two edges has opposite signs at two
 ///    successive ends, a break is set where the linear interpolation of these two distances
-///    vanishes. The true distance differs from that by at most 2ξ everywhere, so it is at most 2ξ at
-///    that place, which is computed with an error of at most 8u. Where the signs are not opposite,
-///    the distance does not fall below −2ξ on the other side. The same holds for an edge and a side
-///    of the square.
+///    vanishes. The true distance differs from that by at most 2ξ everywhere, so it is at most 2ξ
+///    at that place, which is computed with an error of at most 8u. Where the signs are not
+///    opposite, the distance does not fall below −2ξ on the other side. The same holds for an edge
+///    and a side of the square.
 /// 3. So in a slab, except for the 8u at its two ends, any two crossings whose order is somewhere
 ///    different from that at mid-height differ there by at most 4ξ. Sorting them as at mid-height
 ///    moves each by at most 4ξ (running maximum).
@@ -33,23 +33,24 @@ struct SquarePoint {
 ///    of crossings as long as their order is fixed, therefore differs by at most 8nξ from a linear
 ///    function that has the value at mid-height, n being the number of crossings and of sides of
 ///    the square; the value computed at mid-height adds nξ. Edges of which the computed x is below
-///    −4ξ at two successive ends, or above 1 + 4ξ, lie beyond that side in between: they do not count,
-///    and where there are no others, the length is constant, and no break is set.
-/// 5. The 8u at both ends of a slab, times a length of at most 1: 16u per slab that an edge may meet.
-///    A slab too thin for its middle to lie inside it is left out: 2u. An edge that rises by less
-///    than 2⁻⁶⁰ is left out, except for breaks at its ends: it is met in a slab no higher than that.
-///    Products and sums: 4u of the sum per slab.
-/// Together 9nξ times the heights in which edges may be met, 32u per slab there, per thin slab and per
-/// level edge, and 4u of the sum per slab; error() returns 10nξ times those heights, and that.
+///    −4ξ at two successive ends, or above 1 + 4ξ, lie beyond that side in between: they do not
+///    count, and where there are no others, the length is constant, and no break is set.
+/// 5. The 8u at both ends of a slab, times a length of at most 1: 16u per slab that an edge may
+///    meet. A slab too thin for its middle to lie inside it is left out: 2u. An edge that rises by
+///    less than 2⁻⁶⁰ is left out, except for breaks at its ends: it is met in a slab no higher than
+///    that. Products and sums: 4u of the sum per slab.
+/// Together 9nξ times the heights in which edges may be met, 32u per slab there, per thin slab and
+/// per level edge, and 4u of the sum per slab; error() returns 10nξ times those heights, and that.
 ///
 /// Where the length is all or nothing between two successive ends, because all edges together could
 /// not change what it depends on, neither order nor place of the edges matters.
 ///
 /// Between two successive ends where a single edge may be met, nothing depends on an order:
-/// 6. In a slab the edge's x differs from what of it is within the square by at most 4ξ if that is so
-///    in the middle, and is otherwise within 4ξ of a side: 5ξ with the value computed at mid-height,
-///    for which error() has 6ξ. The 8u at an end count times what the length varies there, 4ξ and the
-///    slope times 8u: up to a slope of 2²⁰ that is less than 2⁻²⁹, and u per slab is more than enough.
+/// 6. In a slab the edge's x differs from what of it is within the square by at most 4ξ if that is
+///    so in the middle, and is otherwise within 4ξ of a side: 5ξ with the value computed at
+///    mid-height, for which error() has 6ξ. The 8u at an end count times what the length varies
+///    there, 4ξ and the slope times 8u: up to a slope of 2²⁰ that is less than 2⁻²⁹, and u per slab
+///    is more than enough.
 class SquareEdges {
  public:
   struct Edge {
@@ -74,9 +75,9 @@ class SquareEdges {
     /// In the order of their x.
     std::span<const Crossing> crossings;
     /// On the way here from the top: the sum of the tags of edges that have come from the right to
-    /// the left of x = 0, less those that have gone from the left to the right. If a tag says by how
-    /// much something that depends on the point grows from the left of the edge to its right, then
-    /// it has grown by so much at x = 0 (at the left of it, as far as edges pass through it).
+    /// the left of x = 0, less those that have gone from the left to the right. If a tag says by
+    /// how much something that depends on the point grows from the left of the edge to its right,
+    /// then it has grown by so much at x = 0 (at the left of it, as far as edges pass through it).
     std::int32_t passed;
   };
 
@@ -96,8 +97,8 @@ class SquareEdges {
 
   /// Those that are neither level nor certainly outside the square.
   [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
-  /// Calls visit(Slab) for one after another, as long as it returns true, but for those in strips for
-  /// which decide(Strip) returns true.
+  /// Calls visit(Slab) for one after another, as long as it returns true, but for those in strips
+  /// for which decide(Strip) returns true.
   template <class Decide, class Visit>
   void for_each_slab(const Decide& decide, const Visit& visit);
   /// The sum over the slabs of thickness times length(Slab); and over strips of thickness times

@@ -61,8 +61,8 @@ void TileCoverage::settle_open(const DrawContext& context) {
 
 namespace {
 
-/// The parts of a segment, 0 to 1 from p to q, between which it is near the unit square; where that is
-/// not the whole segment, what is left out is at least about a pixel away from the square.
+/// The parts of a segment, 0 to 1 from p to q, between which it is near the unit square; where that
+/// is not the whole segment, what is left out is at least about a pixel away from the square.
 struct Part {
   double first = 0, last = 1;
 };
@@ -118,8 +118,8 @@ std::pair<SquarePoint, SquarePoint> TileCoverage::exact_ends(const OutlineEdge& 
           point_between(from, to, Dyadic(last), corner)};
 }
 
-// Edges that certainly miss the pixel are left out, so that where it is only beside one, the area is
-// known without any error.
+// Edges that certainly miss the pixel are left out, so that where it is only beside one, the area
+// is known without any error.
 Interval TileCoverage::area_between_edges(std::uint32_t pixel, Corners corners) {
   const std::uint32_t column = pixel % size, row = pixel / size;
   const double x = column, y = row;

@@ -25,12 +25,12 @@ namespace fathom::fast {
 ///
 /// How many triangles cover a point of the image changes only across edges that do not lie between
 /// two adjacent triangles (TileOutlines). A pixel that no such edge meets is covered wholly or not
-/// at all, as its sample is, and one that a single triangle covers is covered wholly. That holds for
-/// front faces alone, too: where they are seen to cover a pixel, back faces need not be looked at,
-/// and in most tiles they do so everywhere. What is left is mostly silhouettes. There, the area between
-/// such edges counts (PixelWinding) or, where triangles are cut by the range of depths, the area of
-/// the union of what meets the pixel (PixelUnion). Where a bound does not settle the rounding, first the ends of the edges are
-/// computed from exact numbers, and in the end the area.
+/// at all, as its sample is, and one that a single triangle covers is covered wholly. That holds
+/// for front faces alone, too: where they are seen to cover a pixel, back faces need not be looked
+/// at, and in most tiles they do so everywhere. What is left is mostly silhouettes. There, the area
+/// between such edges counts (PixelWinding) or, where triangles are cut by the range of depths, the
+/// area of the union of what meets the pixel (PixelUnion). Where a bound does not settle the
+/// rounding, first the ends of the edges are computed from exact numbers, and in the end the area.
 class TileCoverage {
  public:
   struct Scene {
@@ -78,8 +78,8 @@ class TileCoverage {
   /// Finds pixels that front faces cover, whatever is behind them; returns whether all are covered.
   bool look_at_front();
   void mark_open();
-  /// Looks for pixels that large triangles cover, from `begin` on, as far as open pixels need it, and
-  /// takes the triangles for small from then on; returns whether none is left.
+  /// Looks for pixels that large triangles cover, from `begin` on, as far as open pixels need it,
+  /// and takes the triangles for small from then on; returns whether none is left.
   bool fill_large(std::size_t begin);
   /// Whether any pixel of the box is open, and not covered wholly.
   [[nodiscard]] bool is_open(const TileBox& box) const;
@@ -96,13 +96,14 @@ class TileCoverage {
   void find_references();
   void meet_triangles();
   void meet(const TileBox& box, const Shape& shape);
-  /// Whether all of a pixel certainly lies inside a triangle, and whether all certainly lies outside.
+  /// Whether all of a pixel certainly lies inside a triangle, and whether all certainly lies
+  /// outside.
   struct Sides {
     bool inside = true, outside = false;
   };
   static Sides is_pixel_of(const Shape& shape, int column, int row);
-  /// The number at a point of the tile within a pixel, not counting open triangles; negative if it is
-  /// not certain.
+  /// The number at a point of the tile within a pixel, not counting open triangles; negative if it
+  /// is not certain.
   [[nodiscard]] int number_at(std::uint32_t pixel, const SquarePoint& point) const;
   [[nodiscard]] int number_of_shapes_at(std::uint32_t pixel, const SquarePoint& point) const;
   /// The triangles that may meet a pixel, by their numbers in the scene.

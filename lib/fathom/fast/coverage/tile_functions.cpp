@@ -37,8 +37,8 @@ struct RangeEnd {
 
 // Wherever exact_setup() knows a bound on q, all terms of q are below greatest_q, and so is |q|. An
 // end beyond that has all of them on the same side, wherever it is: 1/far is infinite where far is
-// below 2⁻¹⁰²⁴. Such an end moves to beyond_every_q, so that functions and bounds are finite numbers
-// and no sum or product of them overflows.
+// below 2⁻¹⁰²⁴. Such an end moves to beyond_every_q, so that functions and bounds are finite
+// numbers and no sum or product of them overflows.
 RangeEnd range_end(double inside, double outside) {
   constexpr double beyond_every_q = 0x1p100 * setup_bounds::greatest_q;
   const double q = std::clamp(inside, -beyond_every_q, beyond_every_q);
@@ -74,9 +74,9 @@ TileFunctions functions_over_tile(const TriangleSetup& s, const DepthRange& rang
 
 namespace {
 
-// A sum with factors that are not negative is negative only where one of the two is. With the pixel's
-// centre at (x, y), f = centre + a·(x' − x) + b·(y' − y). The sum's own roundings are below 16u of the
-// magnitudes of its terms.
+// A sum with factors that are not negative is negative only where one of the two is. With the
+// pixel's centre at (x, y), f = centre + a·(x' − x) + b·(y' − y). The sum's own roundings are below
+// 16u of the magnitudes of its terms.
 bool certainly_negative_sum(const UncertainHalfPlane& f, const UncertainHalfPlane& g, double column,
                             double row) {
   const auto centre = [&](const UncertainHalfPlane& h) {

@@ -33,9 +33,9 @@ inline ValuesInPixel values_in_pixel(const UncertainHalfPlane& f, double column,
   return {at_centre - half, at_centre + half};
 }
 
-/// Whether the functions are certainly not all positive anywhere in a pixel because of two of them: a
-/// sum of these that depends on the row alone, or on the column, is negative. That finds triangles
-/// beyond a side of the pixel that none of their own sides separates from it.
+/// Whether the functions are certainly not all positive anywhere in a pixel because of two of them:
+/// a sum of these that depends on the row alone, or on the column, is negative. That finds
+/// triangles beyond a side of the pixel that none of their own sides separates from it.
 bool certainly_misses_pixel(std::span<const UncertainHalfPlane> functions, double column,
                             double row);
 

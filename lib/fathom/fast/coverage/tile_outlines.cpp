@@ -12,9 +12,9 @@ namespace {
 
 using area_bounds::far, area_bounds::rounding_room, area_bounds::least_rise;
 
-/// Maps each vertex of an object to the first one asked for at the same place. Vertices at one place
-/// are in one place of the image, as far as they are taken there by the same instructions; otherwise
-/// they remain two.
+/// Maps each vertex of an object to the first one asked for at the same place. Vertices at one
+/// place are in one place of the image, as far as they are taken there by the same instructions;
+/// otherwise they remain two.
 class VertexAtPlace {
  public:
   VertexAtPlace(const ImageObject& object, std::size_t most, std::vector<std::uint32_t>& slots)
@@ -88,8 +88,8 @@ std::vector<EdgeBalance::Edge>& TileOutlines::left_of(const ImageObject& object)
   return place->edges;
 }
 
-// Most of what the sieve leaves are edges of triangles that reach beyond the tile, and do not meet it
-// themselves; nor do their opposites, then.
+// Most of what the sieve leaves are edges of triangles that reach beyond the tile, and do not meet
+// it themselves; nor do their opposites, then.
 void TileOutlines::add(const ImageObject& object, std::span<const std::uint32_t> numbers,
                        std::span<const CoverageTriangle> classes) {
   sieve_edges(object, numbers, classes);
@@ -212,11 +212,12 @@ void TileOutlines::list_edges(const TileRows& pixels) {
 }
 
 // An edge counts if it crosses the horizontal line between the two points. Let its ends go straight
-// from their computed to their exact places, by at most e in each coordinate. If they stay above and
-// below the line, it crosses the line all the time, and on the same side of the point as long as it
-// does not pass over it, which takes a distance of at most √2·e from the computed edge. With
+// from their computed to their exact places, by at most e in each coordinate. If they stay above
+// and below the line, it crosses the line all the time, and on the same side of the point as long
+// as it does not pass over it, which takes a distance of at most √2·e from the computed edge. With
 // d = (dx, dy) along the edge, the point's distance is |f|/|d|, and |d| ≤ |dx| + |dy|; up to `far`,
-// f errs by less than rounding_room·(|dx| + |dy|). The other point is half a pixel away from all edges.
+// f errs by less than rounding_room·(|dx| + |dy|). The other point is half a pixel away from all
+// edges.
 std::optional<int> TileOutlines::difference(std::uint32_t row, const SquarePoint& point,
                                             std::uint32_t column) const {
   const double other = column + 0.5;

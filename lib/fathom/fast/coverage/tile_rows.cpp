@@ -76,8 +76,8 @@ HWY_INLINE hn::Vec<DU> columns_in_lanes(V first, V last, M some) {
   return hn::IfThenElseZero(hn::RebindMask(du, some), bits);
 }
 
-/// Calls take(row, its bits) for each row of the box, bits_of_rows(middles of rows) being those of as
-/// many rows as there are lanes.
+/// Calls take(row, its bits) for each row of the box, bits_of_rows(middles of rows) being those of
+/// as many rows as there are lanes.
 template <class BitsOfRows, class Take>
 HWY_INLINE void for_rows(const TileBox& box, const BitsOfRows& bits_of_rows, const Take& take) {
   const DU du;

@@ -41,8 +41,8 @@ void to_coverage(std::uint64_t row, MapRow<float>& values);
 /// of all but one or two at the ends of those.
 void add_pixels_inside(std::span<const UncertainHalfPlane> sides, const TileBox& box,
                        TileRows& rows);
-/// The bits of the pixels in which all functions may have points that are not negative, and of one or
-/// two more at the ends of a row. Other rows are left as they are.
+/// The bits of the pixels in which all functions may have points that are not negative, and of one
+/// or two more at the ends of a row. Other rows are left as they are.
 void find_pixels_met(std::span<const UncertainHalfPlane> sides, const TileBox& box, TileRows& rows);
 
 }  // namespace fathom::fast

@@ -6,7 +6,8 @@
 
 namespace fathom::fast {
 
-/// The numbers of the bits that are 1, from the lowest on: for (const std::size_t k : EachBit(bits)).
+/// The numbers of the bits that are 1, from the lowest on: for (const std::size_t k :
+/// EachBit(bits)).
 class EachBit {
  public:
   class Iterator {

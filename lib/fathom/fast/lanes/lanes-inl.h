@@ -1,5 +1,5 @@
-// Vectors of binary64 numbers, and what all vector code needs. Included once for every kind of vector
-// instructions, by the files that foreach_target.h compiles for each.
+// Vectors of binary64 numbers, and what all vector code needs. Included once for every kind of
+// vector instructions, by the files that foreach_target.h compiles for each.
 #if defined(FATHOM_FAST_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FATHOM_FAST_LANES_INL_H
 #undef FATHOM_FAST_LANES_INL_H

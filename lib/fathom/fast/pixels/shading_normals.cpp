@@ -6,9 +6,9 @@
 #include "fathom/numeric/last_bit.h"
 #include "fathom/numeric/rounding.h"
 
-// Bounds are those of numeric/certified_value.h: sums and products carry them along, for operands of
-// any magnitude; what overflows has a bound of +∞ or NaN, which settles nothing. A component that
-// has lost more than half of its bits on the way, or may be 0, is computed from exact numbers
+// Bounds are those of numeric/certified_value.h: sums and products carry them along, for operands
+// of any magnitude; what overflows has a bound of +∞ or NaN, which settles nothing. A component
+// that has lost more than half of its bits on the way, or may be 0, is computed from exact numbers
 // and rounded once: at the samples, components are small only where those at the corners are, or
 // cancel. docs/error-analysis.md, "Channels".
 namespace fathom::fast {

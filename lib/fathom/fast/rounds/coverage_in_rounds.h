@@ -13,15 +13,15 @@
 
 namespace fathom::fast {
 
-/// Channel A where triangles are sorted into tiles in rounds and do not stay in memory. What meets a
-/// tile must be together when its pixels are settled, so this keeps the triangles that any tile needs:
-/// in memory as long as they fit, and from then on in a file without a name, in buckets for runs of
-/// tiles that come after each other. At the end each bucket is read and sorted into tiles again, and
-/// TileCoverage says the same of them as of a scene in memory.
+/// Channel A where triangles are sorted into tiles in rounds and do not stay in memory. What meets
+/// a tile must be together when its pixels are settled, so this keeps the triangles that any tile
+/// needs: in memory as long as they fit, and from then on in a file without a name, in buckets for
+/// runs of tiles that come after each other. At the end each bucket is read and sorted into tiles
+/// again, and TileCoverage says the same of them as of a scene in memory.
 ///
 /// Memory   about `most_bytes`, 8 bytes per tile, and 24 for each round and each bucket that it has
-///          triangles for. A bucket that needs more is cut into smaller ones first. All triangles that
-///          meet one tile are in memory together, whatever they take: about 1000 bytes each.
+///          triangles for. A bucket that needs more is cut into smaller ones first. All triangles
+///          that meet one tile are in memory together, whatever they take: about 1000 bytes each.
 /// Disk     about 28 bytes for each triangle and bucket; 88 where vertices are not shared.
 class CoverageInRounds {
  public:
@@ -34,8 +34,9 @@ class CoverageInRounds {
   /// `tiles`: the numbers of those whose values are wanted, in ascending order.
   CoverageInRounds(const Scene& scene, std::vector<std::uint32_t> tiles, std::uint64_t most_bytes);
 
-  /// Takes what meets the tiles out of a round: objects whose triangles are numbered as in the scene,
-  /// or have scene_numbers, and all bins that they were sorted into. No triangle comes twice.
+  /// Takes what meets the tiles out of a round: objects whose triangles are numbered as in the
+  /// scene, or have scene_numbers, and all bins that they were sorted into. No triangle comes
+  /// twice.
   /// Fails    OutputError: the folder for temporary files is full, or cannot be written to.
   void add(const ImageObjects& objects, const std::vector<Bins>& bins);
   /// Tiles of this number and above are not wanted any more.
@@ -43,8 +44,8 @@ class CoverageInRounds {
 
   /// Writes a tile's values by coverage.write(), for which it has been drawn.
   using WriteTile = std::function<void(std::uint32_t tile, TileCoverage& coverage)>;
-  /// Calls write(tile, coverage) for the tiles first ≤ tile < end that triangles meet, several at the
-  /// same time; in the others A is 0. After the last round, for each tile once.
+  /// Calls write(tile, coverage) for the tiles first ≤ tile < end that triangles meet, several at
+  /// the same time; in the others A is 0. After the last round, for each tile once.
   void write(std::uint32_t first, std::uint32_t end, const WriteTile& write);
 
  private:
@@ -66,7 +67,8 @@ class CoverageInRounds {
 
   void write_bucket(const SpilledTriangles& spilled, std::size_t bucket, Tiles tiles,
                     const WriteTile& write);
-  /// Cuts the tiles of a bucket into runs of which each is little enough for the memory, or one tile.
+  /// Cuts the tiles of a bucket into runs of which each is little enough for the memory, or one
+  /// tile.
   [[nodiscard]] std::vector<Tiles> runs_that_fit(Tiles tiles, const KeptSize& bucket) const;
   void sort_kept();
   void write_tiles(const GatheredTriangles& gathered, Tiles tiles, const WriteTile& write) const;

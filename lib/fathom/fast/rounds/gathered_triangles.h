@@ -21,8 +21,8 @@ class GatheredTriangles {
   void add(const KeptTriangles& kept);
   /// All of them, none of which is left there.
   void take(std::vector<KeptTriangles>& kept);
-  /// What has been added, no triangle twice, into bins for at most `parts` parts. Once, after the last
-  /// add().
+  /// What has been added, no triangle twice, into bins for at most `parts` parts. Once, after the
+  /// last add().
   void sort(std::uint32_t parts, const TriangleSource& triangles, const FastFrame& frame,
             FastWorkers& workers);
 

@@ -39,8 +39,8 @@ struct KeptSize {
 };
 KeptSize size_of(const KeptTriangles& kept);
 
-/// The triangles that bins have in any of the tiles, each once, object by object; `objects` are those
-/// that were sorted into these bins.
+/// The triangles that bins have in any of the tiles, each once, object by object; `objects` are
+/// those that were sorted into these bins.
 std::vector<KeptTriangles> triangles_in_tiles(const ImageObjects& objects,
                                               std::span<const Bins> bins,
                                               std::span<const std::uint32_t> tiles,

@@ -19,14 +19,15 @@ struct SavedState {
   std::uint32_t places, end_of_front, draws_back_faces;
 };
 
-/// Of a surface that one sample alone shows, q at that sample is all that will be asked for: a constant,
-/// with the same bound on its error.
+/// Of a surface that one sample alone shows, q at that sample is all that will be asked for: a
+/// constant, with the same bound on its error.
 struct SurfaceOfSample {
   double q;
   std::uint64_t tag;
 };
 
-/// For each place, the one sample that shows its surface; greater numbers where none does, or several.
+/// For each place, the one sample that shows its surface; greater numbers where none does, or
+/// several.
 std::vector<std::uint32_t> only_samples(const Tile& tile, std::uint32_t places) {
   std::vector<std::uint32_t> samples(places, no_sample);
   for (std::uint32_t i = 0; i < Tile::samples; ++i) {

@@ -10,7 +10,8 @@
 namespace fathom::fast {
 namespace {
 
-/// Where a tile waits: each has a place of its own, of which nothing is taken before it is written to.
+/// Where a tile waits: each has a place of its own, of which nothing is taken before it is written
+/// to.
 std::uint64_t place_of(std::uint32_t number) {
   return std::uint64_t{number} * Tile::most_packed_bytes;
 }
@@ -40,9 +41,9 @@ Tile& TileStore::take(std::uint32_t number) {
   return *slot.tile;
 }
 
-// Tiles that were not taken since the last room was made are done with, or wait for longer: they are
-// packed first. To pack the others takes less time than to write any, but in vain where writing cannot
-// be helped.
+// Tiles that were not taken since the last room was made are done with, or wait for longer: they
+// are packed first. To pack the others takes less time than to write any, but in vain where writing
+// cannot be helped.
 void TileStore::make_room() {
   std::erase_if(in_memory_, [&](std::uint32_t number) { return !slots_[number].tile; });
   const auto is_old = [&](std::uint32_t number) { return slots_[number].used < rooms_made_; };

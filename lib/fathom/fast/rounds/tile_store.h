@@ -55,7 +55,8 @@ class TileStore {
   const TileGrid& grid_;
   std::uint64_t most_bytes_;
   std::vector<Slot> slots_;
-  /// Numbers of the tiles in memory, and what they take; when a room is made, the oldest comes first.
+  /// Numbers of the tiles in memory, and what they take; when a room is made, the oldest comes
+  /// first.
   std::vector<std::uint32_t> in_memory_;
   std::uint64_t bytes_ = 0;
   std::mutex mutex_;

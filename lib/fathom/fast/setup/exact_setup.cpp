@@ -112,14 +112,14 @@ TriangleSetup exact_setup(const ProjectedTriangle& t, bool perspective, const Pi
   return setup;
 }
 
-// Sample (x, y) from the box's first is covered where the weights e_A/S, e_B/S and e_C/S are positive
-// and D = (n·t)/(n·d) is (certified_surface.h). S is n·d times a constant, so that is where the forms
-// of the weights, turned by the sign of n·t, are positive; these are the edge functions times one
-// positive number. q = (n·d)/(n·t).
+// Sample (x, y) from the box's first is covered where the weights e_A/S, e_B/S and e_C/S are
+// positive and D = (n·t)/(n·d) is (certified_surface.h). S is n·d times a constant, so that is
+// where the forms of the weights, turned by the sign of n·t, are positive; these are the edge
+// functions times one positive number. q = (n·d)/(n·t).
 //
 // Rounding errs as that of exact coefficients does; besides, the three coefficients of an edge
-// function, times what they are multiplied by, err by `error` each (wide_edges.gappa.in). Those of q
-// are quotients, whose bounds are added up (wide_q.gappa.in).
+// function, times what they are multiplied by, err by `error` each (wide_edges.gappa.in). Those of
+// q are quotients, whose bounds are added up (wide_q.gappa.in).
 std::optional<TriangleSetup> wide_setup(const WideForms& forms, std::uint32_t number,
                                         const PixelBox& box) {
   const Certified<Word> nt{forms.constant.value, forms.constant.error};

@@ -287,10 +287,10 @@ struct Depths {
 //   |q − F| ≤ e_q + (|β − β'| + |γ − γ'|)·dq,  dq = max(|q̂_B − q̂_A|, |q̂_C − q̂_A|),
 //   |β − β'| = |(E_B − E_B')/T' + β(T' − T)/T'| ≤ (η + 3ηβ)/T' (T is the sum of three edge
 // functions), together e_q + 5η·dq/T' ≤ e_q + 40.1δL·dq/T'.
-// Rounding, in units of uL²·dq/T̂: T̂ errs by 32.1uL², which scales F − q̂_A by 32.1(1 + 5η/T'). For
-// the real gradients over T̂: their computed numerators err by 16 each over |s − A| ≤ 2L, together
-// 64; 1/T̂ and the product by 2u·|gradient|·2L: 32; c: 20 and 2u|q_A|; the evaluation: 36 and
-// 2u|q_A|: 152.1, and 4.1u|q_A|.
+// Rounding, in units of uL²·dq/T̂: T̂ errs by 32.1uL², which scales F − q̂_A by 32.1(1 + 5η/T').
+// For the real gradients over T̂: their computed numerators err by 16 each over |s − A| ≤ 2L,
+// together 64; 1/T̂ and the product by 2u·|gradient|·2L: 32; c: 20 and 2u|q_A|; the evaluation: 36
+// and 2u|q_A|: 152.1, and 4.1u|q_A|.
 // The condition T̂ ≥ 16·(8.25δL + 24uL²) gives T' ≥ 0.93·T̂, so 1.07·40.1 and 152.1 + 34.3·1.05 are
 // enough; 72 and 230 are used.
 HWY_INLINE Depths certified_depths(const Corners& t, const LocalTriangles& l, const Edges& e) {

@@ -76,14 +76,15 @@ void certified_setups(const ImageVertex* vertices, const CornerIndices* triangle
                       std::size_t count, const PixelBox& area, const DepthRange& range,
                       SetupBatch& batch);
 
-/// The kind of vector instructions that the vector code of this room uses here, as Highway calls it.
+/// The kind of vector instructions that the vector code of this room uses here, as Highway calls
+/// it.
 const char* vector_target();
 
 /// From exact forms; works for every triangle with Δ ≠ 0, even if it reaches behind the camera.
 TriangleSetup exact_setup(const triangle::ProjectedTriangle& triangle, bool perspective,
                           const PixelBox& box);
-/// The same from double-words, under a perspective camera; nullopt where their bounds do not tell on
-/// which side of its plane the camera is, or are far from those of exact numbers.
+/// The same from double-words, under a perspective camera; nullopt where their bounds do not tell
+/// on which side of its plane the camera is, or are far from those of exact numbers.
 std::optional<TriangleSetup> wide_setup(const triangle::WideForms& forms, std::uint32_t number,
                                         const PixelBox& box);
 /// The same of a triangle, where there are such forms of it.

@@ -1,6 +1,7 @@
-// A triangle drawn into cells of a tile, as many samples at once as there are lanes of binary32: its
-// functions in binary32 decide about nearly every sample, Tile::settle() does about the rest. Included
-// once for every kind of vector instructions, by the files that foreach_target.h compiles for each.
+// A triangle drawn into cells of a tile, as many samples at once as there are lanes of binary32:
+// its functions in binary32 decide about nearly every sample, Tile::settle() does about the rest.
+// Included once for every kind of vector instructions, by the files that foreach_target.h compiles
+// for each.
 #if defined(FATHOM_FAST_CELL_DRAWING_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FATHOM_FAST_CELL_DRAWING_INL_H
 #undef FATHOM_FAST_CELL_DRAWING_INL_H
@@ -86,8 +87,8 @@ struct Cells {
   int first_column, last_column, first_row, last_row;
 };
 
-/// The ends of the range of depths in binary32: q between the first two is within, beyond one of the
-/// others not.
+/// The ends of the range of depths in binary32: q between the first two is within, beyond one of
+/// the others not.
 struct RangeEnds {
   VF least, greatest;
   VF outside_least, outside_greatest;
@@ -147,12 +148,12 @@ HWY_INLINE Pen<test_edges, test_range> pen(Tile& tile, const Drawn& t, const Dra
 // one too, and both errors leave out q_left of themselves: d > sum implies that the exact q of this
 // triangle is greater (validation/proofs/nearer_q.gappa.in). Where the triangle does not cover the
 // sample the bound on q does not hold, but then "loses" is right anyway. Ends of the range are
-// compared with q moved by twice its error: a bound on q is never below 2⁻²⁴·|q|, so the second half
-// covers the rounding of the end (moved_q.gappa.in).
+// compared with q moved by twice its error: a bound on q is never below 2⁻²⁴·|q|, so the second
+// half covers the rounding of the end (moved_q.gappa.in).
 // Samples of the cells beyond the box are not covered, unless the box ends where the area does: a
 // sample beyond the area counts for nothing.
-/// The samples of a vector, `part` the number of the first one in the cell that begins at this column
-/// and row, `at` its place in the tile. Returns how many of them are won.
+/// The samples of a vector, `part` the number of the first one in the cell that begins at this
+/// column and row, `at` its place in the tile. Returns how many of them are won.
 template <bool test_edges, bool test_range>
 HWY_INLINE std::size_t Pen<test_edges, test_range>::draw(VF x, VF y, const AtRow& at_x_0,
                                                          std::size_t at, int part, int column,

@@ -54,8 +54,8 @@ struct SpanLanes {
   VF first, minus_last;
 };
 
-/// For each edge function of the triangles of a batch: where rows of cells probably end, and how that
-/// is looked at.
+/// For each edge function of the triangles of a batch: where rows of cells probably end, and how
+/// that is looked at.
 struct SpanGuesses {
   using PerEdge = std::array<LaneBatch::Numbers, 3>;
   /// The first cell that may not be left out, a function of the number of the row of cells, and the
@@ -68,12 +68,12 @@ struct SpanGuesses {
 };
 
 // Products and sums are rounded monotonically: where an edge function that grows to the right is
-// certainly negative in the last column of a cell and in that row of the cell in which it is greatest,
-// it is so at all samples of the cell and of those to the left of it. Which cell that may be, a
-// quotient says, whose roundings do not matter: that the function is negative there is looked at.
-// Where a function grows to the left, the same is said of columns 3 − column, among which the cells
-// have their numbers with the other sign. It is done without branches: signs of coefficients are hard
-// to foretell.
+// certainly negative in the last column of a cell and in that row of the cell in which it is
+// greatest, it is so at all samples of the cell and of those to the left of it. Which cell that may
+// be, a quotient says, whose roundings do not matter: that the function is negative there is looked
+// at. Where a function grows to the left, the same is said of columns 3 − column, among which the
+// cells have their numbers with the other sign. It is done without branches: signs of coefficients
+// are hard to foretell.
 HWY_INLINE void make_span_guesses(const LaneBatch& batch, SpanGuesses& guesses) {
   // Scaled functions are below 2: nothing overflows, and a function of rows alone, with a slope of
   // 0, leaves out all cells of a row or none.
@@ -164,8 +164,8 @@ HWY_INLINE void make_cell_spans(const LaneBatch& f, const SpanGuesses& guesses, 
   cells.longest = static_cast<int>(hn::GetLane(hn::MaxOfLanes(d, longest)));
 }
 
-/// Those of them that lie in open blocks, of which rows have a bit each. First the first ones of all
-/// rows, then the second ones, …: there are hardly ever more than three in a row.
+/// Those of them that lie in open blocks, of which rows have a bit each. First the first ones of
+/// all rows, then the second ones, …: there are hardly ever more than three in a row.
 /// Needs    at most CellList::most of them.
 HWY_INLINE void list_cells(const CellSpans& spans, const OfRows& open_blocks, CellList& list) {
   static_assert(TileShape::block == 2 * TileShape::cell);

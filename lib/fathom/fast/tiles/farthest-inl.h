@@ -1,5 +1,5 @@
-// How far away the surfaces of a tile are, and which triangles are hidden by them. Included once for
-// every kind of vector instructions, by the files that foreach_target.h compiles for each.
+// How far away the surfaces of a tile are, and which triangles are hidden by them. Included once
+// for every kind of vector instructions, by the files that foreach_target.h compiles for each.
 #if defined(FATHOM_FAST_FARTHEST_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FATHOM_FAST_FARTHEST_INL_H
 #undef FATHOM_FAST_FARTHEST_INL_H
@@ -57,8 +57,8 @@ struct FarthestOfBlocks {
   alignas(64) std::array<float, Tile::blocks> four;
 };
 
-/// The least of what square blocks of `step` begin with: at each place, those that are `step` to the
-/// right and below.
+/// The least of what square blocks of `step` begin with: at each place, those that are `step` to
+/// the right and below.
 HWY_INLINE void least_of_squares(const std::array<float, Tile::blocks>& from, std::uint32_t step,
                                  std::array<float, Tile::blocks>& to) {
   for (std::uint32_t row = 0; row < blocks_of_row; ++row) {

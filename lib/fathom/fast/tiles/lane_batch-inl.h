@@ -1,5 +1,5 @@
-// The functions of triangles in binary32, for the samples of a tile. Included once for every kind of
-// vector instructions, by the files that foreach_target.h compiles for each.
+// The functions of triangles in binary32, for the samples of a tile. Included once for every kind
+// of vector instructions, by the files that foreach_target.h compiles for each.
 #if defined(FATHOM_FAST_LANE_BATCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FATHOM_FAST_LANE_BATCH_INL_H
 #undef FATHOM_FAST_LANE_BATCH_INL_H
@@ -98,9 +98,9 @@ HWY_INLINE V scale_of(V x) {
   return hn::BitCast(D(), hn::Sub(hn::Set(du, 0x7FE0000000000000), exponent));
 }
 
-// A function with terms a·x, b·y, c of magnitudes that add up to S: in binary32 the coefficients err
-// by 2⁻²⁴ of themselves, and products and sums as in exact_setup.cpp: by less than 5·2⁻²⁴·S in all,
-// beside the bound of binary64 (lane_value.gappa.in). What underflows is below lane_floor.
+// A function with terms a·x, b·y, c of magnitudes that add up to S: in binary32 the coefficients
+// err by 2⁻²⁴ of themselves, and products and sums as in exact_setup.cpp: by less than 5·2⁻²⁴·S in
+// all, beside the bound of binary64 (lane_value.gappa.in). What underflows is below lane_floor.
 HWY_INLINE V lane_error(V terms, V error) {
   const V in_lanes = hn::MulAdd(terms, constant(setup_bounds::lane_error), error);
   return hn::Mul(hn::Add(in_lanes, constant(setup_bounds::lane_floor)),

@@ -33,7 +33,8 @@ class Tile : public TileShape {
            area_.last_row - area_.first_row != size - 1;
   }
 
-  /// Draws triangles of one object (their numbers in the scene, one at least) at the samples of the area.
+  /// Draws triangles of one object (their numbers in the scene, one at least) at the samples of the
+  /// area.
   void draw(const ImageObject& object, std::span<const std::uint32_t> numbers,
             const DrawContext& context);
   /// Says that what is drawn from now on are back faces.
@@ -47,17 +48,18 @@ class Tile : public TileShape {
     return surfaces_[place_of(tags_[i])];
   }
   [[nodiscard]] bool shows_surface(std::size_t i) const { return place_of(tags_[i]) != 0; }
-  /// Samples whose surface has a place below this certainly show one that was drawn before the first
-  /// back face. None is known where front faces have been drawn since.
+  /// Samples whose surface has a place below this certainly show one that was drawn before the
+  /// first back face. None is known where front faces have been drawn since.
   [[nodiscard]] std::uint32_t end_of_front() const { return end_of_front_; }
   [[nodiscard]] bool draws_back_faces() const { return draws_back_faces_; }
 
-  /// Gives back the memory that is not needed to keep the tile: what remains is most_packed_bytes at
-  /// most.
+  /// Gives back the memory that is not needed to keep the tile: what remains is most_packed_bytes
+  /// at most.
   void pack();
   /// The memory that it takes.
   [[nodiscard]] std::size_t bytes() const;
-  /// Makes a tile of samples, whose q() and tags() have been written, and of their surfaces by place.
+  /// Makes a tile of samples, whose q() and tags() have been written, and of their surfaces by
+  /// place.
   void set_surfaces(std::vector<TileSurface> surfaces, std::uint32_t end_of_front,
                     bool draws_back_faces);
 
@@ -89,8 +91,8 @@ class Tile : public TileShape {
   /// Forgets the surfaces that are at no sample any more; the others keep their order.
   void forget_hidden();
 
-  /// Place 0 is no surface; others are numbered by 16 bits. At most a quarter of them are visible: with more
-  /// places than this, surfaces would be forgotten less often, but leave the caches.
+  /// Place 0 is no surface; others are numbered by 16 bits. At most a quarter of them are visible:
+  /// with more places than this, surfaces would be forgotten less often, but leave the caches.
   static constexpr std::uint32_t most_places = 4 * samples;
   static_assert(most_places <= 0x10000);
   PixelBox area_;

@@ -18,8 +18,8 @@
 #include "fathom/fast/tiles/lane_batch-inl.h"
 #include "fathom/fast/tiles/tile.h"
 
-// How to read this file: draw_triangles() draws triangles, less those that VisibleTriangles left out
-// as hidden. They are set up in binary64 (setup-inl.h) and turned into
+// How to read this file: draw_triangles() draws triangles, less those that VisibleTriangles left
+// out as hidden. They are set up in binary64 (setup-inl.h) and turned into
 // functions in binary32 (lane_batch-inl.h). Here it is decided which cells and blocks a triangle is
 // drawn into; cell_drawing-inl.h draws it.
 HWY_BEFORE_NAMESPACE();
@@ -230,8 +230,8 @@ HWY_INLINE unsigned large_lanes(const SetupBatch& batch) {
   return bits_of(hn::Ge(hn::Max(columns, rows), constant(3 * block)));
 }
 
-/// The lanes of a batch whose triangles are a few samples wide at most: their doubled areas, which are
-/// the sums of the edge functions, over the longest sides. Nothing depends on it but time.
+/// The lanes of a batch whose triangles are a few samples wide at most: their doubled areas, which
+/// are the sums of the edge functions, over the longest sides. Nothing depends on it but time.
 /// Needs    functions that are not scaled.
 HWY_INLINE unsigned thin_lanes(const SetupBatch& batch) {
   constexpr double greatest_width = 4;
@@ -323,7 +323,8 @@ HWY_INLINE void draw_batch(Tile& tile, const SetupBatch& setups, unsigned lanes,
   }
 }
 
-/// Triangles that are drawn from exact numbers, or double-words, as many together as there are lanes.
+/// Triangles that are drawn from exact numbers, or double-words, as many together as there are
+/// lanes.
 struct ExactBatch {
   SetupBatch setups{};
   std::size_t count = 0;

@@ -19,8 +19,8 @@ class VisibleTriangles {
   /// Room for the triangles of a tile, kept from one tile to the next.
   std::vector<TileEntry>& entries() { return entries_; }
   /// Calls draw(numbers) for the entries in parts, without those that are certainly hidden by what
-  /// was drawn before the part. Looking for them, if `reject`, pays where there are some: it is tried
-  /// with the first part and now and then, and goes on where one in eight was hidden.
+  /// was drawn before the part. Looking for them, if `reject`, pays where there are some: it is
+  /// tried with the first part and now and then, and goes on where one in eight was hidden.
   template <class Draw>
   void for_each_part(Tile& tile, bool reject, const Draw& draw) {
     constexpr std::size_t least = 16, pause = 8;

@@ -12,9 +12,9 @@ namespace fathom::fast {
 
 namespace {
 
-/// Throws scene::ElementFault if a number is not finite. That is looked at after the work, while the
-/// points are in the innermost cache: before it, a twentieth of a map's time would go into waiting
-/// for them.
+/// Throws scene::ElementFault if a number is not finite. That is looked at after the work, while
+/// the points are in the innermost cache: before it, a twentieth of a map's time would go into
+/// waiting for them.
 void transform_finite(const VertexTransform& transform, std::span<const MeshPoint> points,
                       ImageVertex* image) {
   constexpr std::size_t part = 512;

@@ -35,8 +35,8 @@ class VertexMemory {
 /// One object with its vertices in the image.
 struct ImageObject {
   /// For an object or a part of one; its first triangle is number `first_triangle` of the objects
-  /// that are drawn together. That is its number in the scene, too, or else `scene_numbers` has those
-  /// of all its triangles, and outlives it.
+  /// that are drawn together. That is its number in the scene, too, or else `scene_numbers` has
+  /// those of all its triangles, and outlives it.
   ImageObject(const Object& object, const Mesh& its_mesh, const Camera& camera,
               std::uint32_t first_triangle, VertexMemory* kept = nullptr,
               std::span<const std::uint32_t> scene_numbers = {});

@@ -8,8 +8,8 @@
 /// What EXR and GeoTIFF are compressed with. Only for .cpp files.
 namespace fathom::image {
 
-/// Of libdeflate: files are 0.7 to 1.2 % smaller than with zlib at OpenEXR's level 4, in half the time.
-/// Lower levels are hardly faster, higher ones hardly smaller (docs/performance.md).
+/// Of libdeflate: files are 0.7 to 1.2 % smaller than with zlib at OpenEXR's level 4, in half the
+/// time. Lower levels are hardly faster, higher ones hardly smaller (docs/performance.md).
 inline constexpr int compression_level = 6;
 
 struct FreeCompressor {

@@ -61,7 +61,8 @@ class ByteOutput : public Imf::OStream {
   void table_of_chunks_ends_here() { end_of_table_ = position_; }
   /// Makes sure that the file, which has been closed by now, has all its chunks.
   /// Fails    std::bad_alloc where chunks are missing: if a task of OpenEXR's pool cannot compress
-  ///          one, for want of memory, OpenEXR 3.1 takes it for incomplete, stops, and says nothing.
+  ///          one, for want of memory, OpenEXR 3.1 takes it for incomplete, stops, and says
+  ///          nothing.
   void require_chunks(std::size_t chunks) const {
     constexpr std::size_t entry = sizeof(std::uint64_t);
     for (std::size_t i = 0; i < chunks; ++i) {

@@ -20,15 +20,17 @@
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
 
-/// GeoTIFF ([GEO19], a TIFF [TIFF92] with a place in the world): a band of binary32 numbers for each
-/// channel, one after the other, in strips that are compressed by DEFLATE after the predictor for
-/// floating point ([TTN05]). Without the predictor, the depth of data/meshes/spot.obj at 1024×1024 takes
-/// 2.4 times as much; with bands that are interleaved, Z, A, P and Nc together take 1.15 times as much.
+/// GeoTIFF ([GEO19], a TIFF [TIFF92] with a place in the world): a band of binary32 numbers for
+/// each channel, one after the other, in strips that are compressed by DEFLATE after the predictor
+/// for floating point ([TTN05]). Without the predictor, the depth of data/meshes/spot.obj at
+/// 1024×1024 takes 2.4 times as much; with bands that are interleaved, Z, A, P and Nc together take
+/// 1.15 times as much.
 ///
-/// The image lies in the world as world_from_image has it: pixels are areas, (0, 0) is the corner of the
-/// first one. The world is not the earth's: its coordinates are of a kind of their own (user-defined).
-/// What no surface is has one value in all bands, as GDAL knows one for each file: the background that
-/// the map names, or NaN. Only quantities, as A, have 0 there, which is a value of theirs.
+/// The image lies in the world as world_from_image has it: pixels are areas, (0, 0) is the corner
+/// of the first one. The world is not the earth's: its coordinates are of a kind of their own
+/// (user-defined). What no surface is has one value in all bands, as GDAL knows one for each file:
+/// the background that the map names, or NaN. Only quantities, as A, have 0 there, which is a value
+/// of theirs.
 namespace fathom::image {
 using namespace files;
 using namespace text;
@@ -53,7 +55,8 @@ constexpr std::uint16_t image_width = 256, image_length = 257, bits_per_sample =
 constexpr std::uint16_t by_deflate = 8, black_is_zero = 1, separate_planes = 2, floating_point = 3,
                         floating_point_predictor = 3, unspecified = 0;
 
-// ------------------------------------------------------------------------------------- what bands hold
+// ------------------------------------------------------------------------------------- what bands
+// hold
 
 /// The value of all bands that says that no surface is there.
 float value_of_none(const DepthMap& map) {
@@ -97,7 +100,8 @@ std::vector<float> band_of(const DepthMap& map, const ImageChannel& channel, flo
   return band;
 }
 
-// ---------------------------------------------------------------------------------------------- strips
+// ----------------------------------------------------------------------------------------------
+// strips
 
 /// Before compression, about: as GDAL and libtiff take them into memory whole.
 constexpr std::size_t bytes_of_strip = std::size_t{1} << 18;
@@ -108,8 +112,8 @@ struct StripPlace {
   Bytes predicted;
 };
 
-/// Of a row of n numbers their first bytes, most significant, then their second ones, and so on; each of
-/// all these as its difference from the one before.
+/// Of a row of n numbers their first bytes, most significant, then their second ones, and so on;
+/// each of all these as its difference from the one before.
 /// Source   [TTN05]
 void predict_row(std::span<const float> row, std::byte* to) {
   constexpr std::size_t size = sizeof(float);
@@ -162,7 +166,8 @@ TiffStrips compressed_strips(const DepthMap& map, float none, int threads,
   return strips;
 }
 
-// ------------------------------------------------------------------------------- what is said of them
+// ------------------------------------------------------------------------------- what is said of
+// them
 
 WorldFromImage place_of(const std::optional<Camera>& camera, const std::string& name) {
   if (camera)

@@ -10,8 +10,9 @@
 #include "fathom/image/map_files.h"
 
 /// The formats as pure functions between maps and bytes, for map_files.cpp, tests and fuzzers.
-/// `name` is the file's name for messages. PFM, NPY and COLMAP's take as much as their files; the others may
-/// take many times that, within `memory`. Decoders throw InputError, encoders OutputError.
+/// `name` is the file's name for messages. PFM, NPY and COLMAP's take as much as their files; the
+/// others may take many times that, within `memory`. Decoders throw InputError, encoders
+/// OutputError.
 namespace fathom::image {
 
 files::Bytes encode_exr(const DepthMap& map, Compression compression, int threads,

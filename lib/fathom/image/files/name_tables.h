@@ -8,7 +8,8 @@
 #include "fathom/image/depth_map.h"
 
 /// What the numbers of a map stand for, as files of every format carry it: a text for each channel,
-/// `fathom.objects`, `fathom.materials`, `fathom.groups` and `fathom.parts`, the JSON list of names.
+/// `fathom.objects`, `fathom.materials`, `fathom.groups` and `fathom.parts`, the JSON list of
+/// names.
 namespace fathom::image {
 
 /// Whether a text of this name is such a list.

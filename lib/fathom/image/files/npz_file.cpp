@@ -13,9 +13,9 @@
 #include "fathom/text/printable.h"
 #include "fathom/text/version.h"
 
-/// NPZ ([Ker07]): a ZIP archive with a file NAME.npy for each channel or, where channels are the parts
-/// of one, for them together. The array `fathom` is a text, the JSON object of the map's texts:
-/// json.loads(numpy.load("map.npz")["fathom"].item()).
+/// NPZ ([Ker07]): a ZIP archive with a file NAME.npy for each channel or, where channels are the
+/// parts of one, for them together. The array `fathom` is a text, the JSON object of the map's
+/// texts: json.loads(numpy.load("map.npz")["fathom"].item()).
 namespace fathom::image {
 using namespace files;
 using namespace text;

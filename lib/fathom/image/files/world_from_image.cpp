@@ -35,7 +35,8 @@ std::optional<WorldFromImage> world_from_image(const Camera& camera) {
   // Points above each other have the same image.
   if (!z.u.is_zero() || !z.v.is_zero()) return std::nullopt;
 
-  // (u, v) = o + X·x + Y·y, solved by Cramer's rule; x and y are independent, as the camera is regular.
+  // (u, v) = o + X·x + Y·y, solved by Cramer's rule; x and y are independent, as the camera is
+  // regular.
   const Dyadic det = x.u * y.v - y.u * x.v;
   const auto over_det = [&](const Dyadic& numerator) {
     return round_to_binary64(Ratio(numerator, det));

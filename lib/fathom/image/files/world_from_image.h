@@ -10,9 +10,9 @@ namespace fathom::image {
 /// In the order of GDAL's geotransform.
 using WorldFromImage = std::array<double, 6>;
 
-/// What a GeoTIFF needs of a camera: where in the world a point of the image is, where that does not depend
-/// on the depth, because the camera is orthographic and looks straight along the world's z axis, up or
-/// down. Other cameras have none.
+/// What a GeoTIFF needs of a camera: where in the world a point of the image is, where that does
+/// not depend on the depth, because the camera is orthographic and looks straight along the world's
+/// z axis, up or down. Other cameras have none.
 ///
 /// Returns  g: the point (u, v), in pixels from the top left corner
 ///          of the image, v downwards, is x = g[0] + g[1]·u + g[2]·v, y = g[3] + g[4]·u + g[5]·v.

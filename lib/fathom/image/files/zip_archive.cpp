@@ -12,9 +12,9 @@
 #include "fathom/files/byte_order.h"
 #include "fathom/image/files/map_codecs.h"
 
-/// [ZIP]: for each file a local header, its name and its bytes; then the directory, which says all of
-/// it again with the places of the local headers; last, where the directory begins. All numbers are
-/// little endian.
+/// [ZIP]: for each file a local header, its name and its bytes; then the directory, which says all
+/// of it again with the places of the local headers; last, where the directory begins. All numbers
+/// are little endian.
 namespace fathom::image {
 using namespace files;
 

@@ -147,8 +147,8 @@ std::array<std::uint32_t, 2> stated_size(std::span<const std::byte> bytes) {
   return {png_get_uint_32(bytes_of(bytes) + 16), png_get_uint_32(bytes_of(bytes) + 20)};
 }
 
-/// What is wrong with the texels of a picture whose palette has so many colours: libpng would draw an index
-/// beyond them black.
+/// What is wrong with the texels of a picture whose palette has so many colours: libpng would draw
+/// an index beyond them black.
 std::optional<std::string> fault_of_palette(std::span<const std::byte> bytes,
                                             std::uint32_t colours) {
   png_image png{};
@@ -187,8 +187,8 @@ RgbImage decode_rgb_png(std::span<const std::byte> bytes, const std::string& nam
          " texels; a texture has 1x1 to 8192x8192");
   if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0)
     fail(std::string("broken PNG file: ") + png.message);
-  // Deflate makes at most 1032 bytes of one, and a byte holds at most eight texels: a small file does
-  // not make us take memory for a large picture that cannot be in it.
+  // Deflate makes at most 1032 bytes of one, and a byte holds at most eight texels: a small file
+  // does not make us take memory for a large picture that cannot be in it.
   if (std::uint64_t{png.width} * png.height / 8 > 1032 * std::uint64_t{bytes.size()})
     fail("broken PNG file: too short for " + std::to_string(png.width) + "x" +
          std::to_string(png.height) + " texels");

@@ -53,8 +53,8 @@ class Texture {
 /// transparent lies over black, mixed in linear light (gamma 2.2).
 ///
 /// Rounded  16 bits to the nearest of 8.
-/// Fails    InputError: missing, not a PNG, without texels, larger than 8192 × 8192, or with an index beyond
-///          its palette.
+/// Fails    InputError: missing, not a PNG, without texels, larger than 8192 × 8192, or with an
+///          index beyond its palette.
 RgbImage read_rgb_png(const std::filesystem::path& path);
 /// The same of the bytes of a file; `name` is for messages.
 RgbImage decode_rgb_png(std::span<const std::byte> bytes, const std::string& name);

@@ -92,7 +92,8 @@ class Painter {
     note({kind, P.traced, Q.traced, test});
   }
 
-  /// A trace is read by people. The steps of a mesh of thousands of triangles would fill the memory.
+  /// A trace is read by people. The steps of a mesh of thousands of triangles would fill the
+  /// memory.
   void note(const PainterStep& step) {
     constexpr std::size_t most_steps = 100'000;
     if (trace_ == nullptr) return;

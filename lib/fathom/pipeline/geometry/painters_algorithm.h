@@ -59,8 +59,8 @@ struct PainterTrace {
 /// Source   [NNS72]
 ///
 /// Returns  the triangles, pieces among them, in painting order.
-/// Fails    InputError if more than a million pieces do not suffice, or if `trace` would get more than
-///          100,000 steps.
+/// Fails    InputError if more than a million pieces do not suffice, or if `trace` would get more
+///          than 100,000 steps.
 template <class Real>
 std::vector<WindowTriangle<Real>> painters_order(std::vector<WindowTriangle<Real>> triangles,
                                                  bool greater_is_nearer,

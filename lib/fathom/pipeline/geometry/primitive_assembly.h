@@ -42,8 +42,9 @@ std::vector<std::array<std::uint32_t, corners>> assemble(
   return primitives;
 }
 
-/// The triangles of an object. Normals that are not those of the mesh are the sums of the area vectors
-/// of the triangles at a vertex or a place, scaled to unit length: on the side of the front.
+/// The triangles of an object. Normals that are not those of the mesh are the sums of the area
+/// vectors of the triangles at a vertex or a place, scaled to unit length: on the side of the
+/// front.
 std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t object,
                                               std::uint32_t first_number, FrontFace front_face,
                                               NormalSource normals = NormalSource::file);

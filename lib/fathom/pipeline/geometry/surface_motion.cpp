@@ -66,8 +66,8 @@ ImageTriangle ImageTriangles::operator[](std::uint32_t number) const {
   return triangle;
 }
 
-// (u, v, 1) is Σ βₖ·cornerₖ up to a factor; by Cramer's rule βₖ is (u, v, 1) · (the line through the
-// other two corners), up to the same factor.
+// (u, v, 1) is Σ βₖ·cornerₖ up to a factor; by Cramer's rule βₖ is (u, v, 1) · (the line through
+// the other two corners), up to the same factor.
 std::optional<std::array<double, 3>> weights_at(const ImageTriangle& triangle, double u, double v) {
   const Eigen::Vector3d a = as_vector(triangle[0]), b = as_vector(triangle[1]),
                         c = as_vector(triangle[2]), p(u, v, 1);

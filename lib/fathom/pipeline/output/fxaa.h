@@ -7,13 +7,13 @@ namespace fathom::pipeline {
 
 /// Fast approximate antialiasing: a pass over the finished picture.
 ///
-/// A pixel whose luma differs little from that of its four neighbours is left as it is. Otherwise an
-/// edge runs along one of its sides: horizontal or vertical, by second differences of luma over its
-/// eight neighbours, and on the side of the greater step. Both ways along this side, steps of
+/// A pixel whose luma differs little from that of its four neighbours is left as it is. Otherwise
+/// an edge runs along one of its sides: horizontal or vertical, by second differences of luma over
+/// its eight neighbours, and on the side of the greater step. Both ways along this side, steps of
 /// growing length look for where the edge ends: where the mean luma of the two pixels beside it
-/// has changed by a quarter of the step. How near the nearer end is, in the length of the edge, says
-/// how much of the pixel the smooth edge would leave to its neighbour; that share of the neighbour
-/// is mixed in, or more if the pixel sticks out of its surroundings (subpixel).
+/// has changed by a quarter of the step. How near the nearer end is, in the length of the edge,
+/// says how much of the pixel the smooth edge would leave to its neighbour; that share of the
+/// neighbour is mixed in, or more if the pixel sticks out of its surroundings (subpixel).
 ///
 /// It is given the picture alone, so it smooths edges of textures and strokes of letters like edges
 /// of surfaces. Beyond the border the picture goes on as its last pixels.

@@ -21,8 +21,8 @@ struct ColourImage {
   }
 };
 
-/// The picture between pixels, interpolated linearly, with its border repeated; (0, 0) is the centre
-/// of the first pixel.
+/// The picture between pixels, interpolated linearly, with its border repeated; (0, 0) is the
+/// centre of the first pixel.
 Colour between(const ColourImage& image, double x, double y);
 
 /// Rounded to 8 bits, to nearest.

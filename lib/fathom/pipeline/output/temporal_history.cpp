@@ -13,8 +13,9 @@ bool is_inside(const ColourImage& image, double x, double y) {
   return x >= -0.5 && y >= -0.5 && x <= image.width - 0.5 && y <= image.height - 0.5;
 }
 
-/// Catmull and Rom's cubic [CR74]: weights of the four samples around a place, of which it is `t` behind
-/// the second. It keeps edges where linear interpolation, picture after picture, would blur them.
+/// Catmull and Rom's cubic [CR74]: weights of the four samples around a place, of which it is `t`
+/// behind the second. It keeps edges where linear interpolation, picture after picture, would blur
+/// them.
 std::array<double, 4> cubic_weights(double t) {
   return {t * (-0.5 + t * (1 - 0.5 * t)), 1 + t * t * (-2.5 + 1.5 * t),
           t * (0.5 + t * (2 - 1.5 * t)), t * t * (-0.5 + 0.5 * t)};
