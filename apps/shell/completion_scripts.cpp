@@ -269,8 +269,8 @@ end
 
 # Words of a list: those that are not yet in it, behind those that are.
 function __fathom_list
-    set -l value (commandline -ct | string replace -r -- '^--[^=]*=' '')
-    set -l before (string replace -rf -- '(.*,)[^,]*$' '$1' $value)
+    set -l before (commandline -ct | string replace -r -- '^--[^=]*=' '' |
+        string replace -rf -- '(.*,)[^,]*$' '$1')
     for word in $argv
         string match -q -- "*,$word,*" ",$before"; or echo "$before$word"
     end
