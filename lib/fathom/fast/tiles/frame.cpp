@@ -6,7 +6,6 @@
 #include "fathom/threads/threads.h"
 
 namespace fathom::fast {
-using namespace rendering;
 using namespace triangle;
 
 FastFrame::FastFrame(const Camera& the_camera, const RenderOptions& the_options, bool keeps)
