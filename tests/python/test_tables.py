@@ -25,18 +25,28 @@ def between(text, first, last):
 
 
 def missing(names, text):
-    return [name for name in names if not re.search(rf"(?<![\w.-]){re.escape(name)}(?![\w-])", text)]
+    """The names that the text does not have as words; a suffix may be that of a file."""
+    before = {name: "" if name.startswith(".") else r"(?<![\w.-])" for name in names}
+    return [name for name in names if not re.search(rf"{before[name]}{re.escape(name)}(?![\w-])", text)]
+
+
+def first_cells(table):
+    return "\n".join(re.findall(r"^\| ([^|]*) \|", table, re.M))
+
+
+def without_remarks(text):
+    return re.sub(r"\([^)]*\)", "", text)
 
 
 channels = list(maps.rendered)
 c_header = read("lib/c/fathom.h")
 specification = between(read("docs/specification.md"), "\n## 6.", "\n## 7.")
 lists_of_channels = {
-    "docs/specification.md, section 6": specification,
-    "docs/reference/channels.md": read("docs/reference/channels.md"),
+    "docs/specification.md, section 6": first_cells(specification),
+    "docs/reference/channels.md": first_cells(read("docs/reference/channels.md")),
     "docs/python.md": between(read("docs/python.md"), "| `channels` |", "\n"),
     "lib/c/fathom.h": between(c_header, "*   channels ", "*   options "),
-    "fathom.render()": between(fathom.render.__doc__, "channels  ", "\n    near, far  "),
+    "fathom.render()": without_remarks(between(fathom.render.__doc__, "channels  ", "\n    near, far  ")),
 }
 
 
@@ -94,6 +104,13 @@ def test_formats_that_are_read_and_written_are_in_the_specification(tmp_path):
     assert missing([*names_of_readable_maps(tmp_path), "GeoTIFF"], specification) == []
 
 
+@pytest.mark.parametrize("place", ["docs/conventions.md", "lib/c/fathom.h"])
+def test_every_mesh_format_is_listed(place, run_program):
+    words = between(run_program("render", "--help=completion"), "option\t--mesh-format\t", "\n").split("\t")[2].split()
+    assert len(words) >= 6
+    assert missing([word for word in words if word != "glb"], read(place).lower()) == []
+
+
 def test_the_header_for_c_has_every_cull():
     assert {name.lower() for name in re.findall(r"FATHOM_CULL_(\w+) =", c_header)} == set(_core.culls)
 
@@ -106,7 +123,7 @@ def test_types_for_checkers_have_every_word(words, kind):
 @pytest.mark.parametrize("words, text", [
     ([word for word in _core.culls if word != "none"], between(fathom.render.__doc__, "cull  ", "dtype  ")),
     (_core.stored_types, between(fathom.render.__doc__, "dtype  ", "background  ")),
-    (_core.normal_sources, between(fathom.render.__doc__, "normals  ", "threads  ")),
+    (_core.normal_sources, without_remarks(between(fathom.render.__doc__, "normals  ", "threads  "))),
     (_core.normal_sources, between(read("docs/python.md"), "| `normals` |", "\n")),
     (_core.stored_types, between(read("docs/python.md"), "| `dtype` |", "\n")),
     (_core.engines, fathom.Scene.render.__doc__),
