@@ -11,7 +11,7 @@ folder = pathlib.Path(__file__).parent
 library = pathlib.Path(os.environ["FATHOM_SOURCE"]) / "lib/fathom"
 # Arithmetic itself, and bytes: each operation of the first is right in every mode (tests/numeric), or Needs the standard
 # one; the others have no floating-point numbers.
-basic_modules = {"numeric", "geometry", "text", "memory", "threads"}
+basic_modules = {"failures", "numeric", "geometry", "text", "files", "memory", "threads"}
 public_namespaces = {"fathom", "fathom::attribution", "fathom::clipping", "fathom::pipeline", "fathom::vtk"}
 guard = "const StandardArithmetic standard;"
 needs = re.compile(r"///\s+Needs\s.*StandardArithmetic")
