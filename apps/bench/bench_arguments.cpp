@@ -110,7 +110,7 @@ void BenchArguments::add_to(Command& command) {
                      "Compute these channels with Fathom's engines (default Z)");
   command.option("--repeat", "N", into(repeat, parse_repeat),
                  "Time this many frames, within 20 seconds (default 9)");
-  command.option("--json", "FILE", json, "Also write the figures as JSON; - prints the JSON alone");
+  command.option("--json", "FILE", json, "Also write the figures as JSON; - prints only JSON");
   command
       .flag("--parts", parts,
             "Measure each optimisation of the fast engine instead of comparing renderers")

@@ -151,18 +151,17 @@ void add_bench(Command& program) {
       "\nScenes: sphere-20k, sphere-200k, sphere-2m, mesh, soup, few-large, grid-aligned,\n"
       "grid-shifted, room, scan, city, tree, text and cad (default: these), room-outside,\n"
       "sphere-N for any N, mesh files.\n"
-      "Each renderer runs in a process of its own on as many processors as there are threads;\n"
-      "its first frame is not counted. fast begins each frame with nothing; fast-kept draws into\n"
-      "the map of the frame before and keeps the memory it works with, as for frames of a path,\n"
-      "and as vtk and embree keep their buffers. Times of vtk are without read-back, those of\n"
-      "embree without embree-build. masked-occlusion-culling, where it is built in, is timed with\n"
-      "one thread, from a cleared buffer; what it draws is bounds of depths, not depths.\n"
+      "Each renderer runs in a separate process, on as many processors as threads; its first\n"
+      "frame is not counted. fast keeps no memory between frames. fast-kept draws into the\n"
+      "previous map and keeps its memory, as vtk and embree keep their buffers. Times of vtk\n"
+      "exclude read-back, times of embree exclude embree-build. masked-occlusion-culling, if\n"
+      "built in, is timed with one thread, from a cleared buffer; it draws bounds of depths.\n"
       "\n--parts switches each idea that makes drawing fast on and off, in one process, in turn:\n"
       "lanes of binary32 and binary64, blocks before pixels, early rejection by the order of\n"
-      "drawing, tiles, threads, culling. It prints times, how many times as fast that is (by the\n"
-      "least time), what was counted, and the pixels of the textbooks' demo by closed and by\n"
-      "half-open edges. A variant that draws another picture ends it with an error. Scenes:\n"
-      "sphere-20k, soup, few-large; the first of --threads is what others are compared with.");
+      "drawing, tiles, threads, culling. It prints times, ratios of least times, counts, and the\n"
+      "pixels of the textbooks' demo with closed and half-open edges. It fails if a variant\n"
+      "draws another picture. Scenes: sphere-20k, soup, few-large. All numbers of threads are\n"
+      "compared with the first of --threads.");
   const auto arguments = std::make_shared<BenchArguments>();
   arguments->add_to(command);
   command.answers_on_standard_output();

@@ -54,15 +54,17 @@ void add_source(Command& parent, const ImportSource& source) {
 }  // namespace
 
 void add_import(Command& camera) {
-  Command& family = camera.command(
-      "import", "Import the cameras of other programs and of data sets",
-      "  fathom camera import colmap sparse/0 -o cameras.json\n"
-      "  fathom camera import nerf transforms.json --size 800x800 -o cameras.json\n"
-      "  fathom camera import tum groundtruth.txt --images depth.txt --K ros -o cameras.json\n"
-      "\nCameras with lens distortion are left out with a warning. Formulas and layouts: "
-      "conventions.md and\ndata-sets.md in the documentation.\nEach camera has the name of its "
-      "image: render -o "
-      "'maps/{stem}.exr' writes maps of the same names.");
+  Command& family =
+      camera.command("import", "Import the cameras of other programs and of data sets",
+                     "  fathom camera import colmap sparse/0 -o cameras.json\n"
+                     "  fathom camera import nerf transforms.json --size 800x800 -o cameras.json\n"
+                     "  fathom camera import tum groundtruth.txt --images depth.txt --K ros \\\n"
+                     "    -o cameras.json\n"
+                     "\nCameras with lens distortion are left out with a warning. Formulas and "
+                     "layouts: conventions.md and\n"
+                     "data-sets.md in the documentation.\n"
+                     "Each camera has the name of its image: render -o 'maps/{stem}.exr' writes "
+                     "maps of the same names.");
   family.requires_command();
   for (const ImportSource& source : program_sources()) add_source(family, source);
   for (const ImportSource& source : data_set_sources()) add_source(family, source);

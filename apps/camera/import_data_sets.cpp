@@ -161,13 +161,13 @@ std::vector<ImportSource> data_set_sources() {
   return {
       {"matrices", "Intrinsics and poses as text, .npy or .npz",
        "A file or folder of matrices: .txt, .npy, .npz or .npz:ARRAY",
-       "  fathom camera import matrices poses.npy --K K.txt --size 640x480 --poses "
-       "camera-to-world \\\n"
-       "    --axes opencv --pixel-centre 0 -o cameras.json\n"
+       "  fathom camera import matrices poses.npy --K K.txt --size 640x480 \\\n"
+       "    --poses camera-to-world --axes opencv --pixel-centre 0 -o cameras.json\n"
        "\nA text has one 3x4 or 4x4 matrix, or one on each line; a folder, a text for each image.",
        declare_matrices, read_matrices},
       {"tum", "TUM RGB-D: groundtruth.txt", "groundtruth.txt, or the folder with it",
-       "  fathom camera import tum groundtruth.txt --images depth.txt --K ros -o cameras.json",
+       "  fathom camera import tum groundtruth.txt --images depth.txt --K ros \\\n"
+       "    -o cameras.json",
        declare_tum, read_tum},
       {"7scenes", "7-Scenes: frame-XXXXXX.pose.txt", "The folder of a sequence",
        "  fathom camera import 7scenes chess/seq-01 -o cameras.json", add_lens_options,
@@ -183,9 +183,9 @@ std::vector<ImportSource> data_set_sources() {
        "  fathom camera import replica Replica/room0 -o cameras.json", add_lens_options,
        read_replica},
       {"kitti", "KITTI: calib.txt or calib_cam_to_cam.txt", "The calibration",
-       "  fathom camera import kitti sequences/00/calib.txt --poses poses/00.txt --camera 2 \\\n"
+       "  fathom camera import kitti calib.txt --poses poses/00.txt --camera 2 \\\n"
        "    --size 1241x376 -o cameras.json\n"
-       "  fathom camera import kitti calib_cam_to_cam.txt --image image_02 -o camera.json",
+       "  fathom camera import kitti calib_cam_to_cam.txt --image image_02 -o cam.json",
        declare_kitti, read_kitti}};
 }
 

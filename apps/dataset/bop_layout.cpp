@@ -87,12 +87,12 @@ int run_bop(BopArguments& arguments, const Console& console) {
 
 void add_bop_layout(Command& family) {
   const auto arguments = std::make_shared<BopArguments>();
-  Command& command = family.command(
-      "bop", "BOP: depth images, masks and scene_gt_info.json of a scene",
-      "  fathom dataset bop test/000001 --models models -o exact/000001\n"
-      "\nINPUT has scene_camera.json and scene_gt.json; the image size is that of the data set's "
-      "camera.json, unless --size says it. Visible is what is nearest at the centre of a pixel, "
-      "without a tolerance.");
+  Command& command =
+      family.command("bop", "BOP: depth images, masks and scene_gt_info.json of a scene",
+                     "  fathom dataset bop test/000001 --models models -o exact/000001\n"
+                     "\nINPUT contains scene_camera.json and scene_gt.json; the image size is read "
+                     "from the data set's camera.json, unless --size is given. Visible is the "
+                     "nearest surface at the centre of a pixel, without a tolerance.");
   arguments->add_to(command, "The folder of a scene");
   command.option("--models", "DIR", arguments->models, "The folder with obj_000001.ply and so on")
       .required();

@@ -38,10 +38,10 @@ void add_dataset(Command& program) {
   Command& family = program.command(
       "dataset", "Render all maps of a data set in its own layout; resume an interrupted run",
       "  fathom camera import colmap sparse/0 -o cameras.json\n"
-      "  fathom dataset maps cameras.json --mesh room.ply --name 'depth/{stem}.npy' -o room\n"
-      "\nEach map is in its place as soon as it is finished; DIR/fathom-manifest.jsonl says which "
-      "are. The same command, given again, makes those that are missing, damaged, or of other "
-      "inputs. Layouts: data-sets.md in the documentation.");
+      "  fathom dataset maps cameras.json --mesh room.ply --name '{stem}.npy' -o room\n"
+      "\nEach map appears as soon as it is finished; DIR/fathom-manifest.jsonl lists the finished "
+      "maps. If you repeat the command, it renders only maps that are missing, damaged or made "
+      "from other inputs. Layouts: data-sets.md in the documentation.");
   family.requires_command();
   add_maps_layout(family);
   add_colmap_layout(family);

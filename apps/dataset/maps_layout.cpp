@@ -62,9 +62,9 @@ void add_maps_layout(Command& family) {
   Command& command = family.command(
       "maps", "Maps of the cameras of a camera file, in any format",
       "  fathom dataset maps cameras.json --mesh room.ply -o maps\n"
-      "  fathom dataset maps cameras.json --mesh room.ply --name 'depth/{stem}.npy' -o room\n"
-      "  fathom dataset maps cameras.json --mesh room.ply --name '{index:05}.png' --png-scale "
-      "1000 -o room\n");
+      "  fathom dataset maps cameras.json --mesh room.ply --name '{stem}.npy' -o room\n"
+      "  fathom dataset maps cameras.json --mesh room.ply --name '{index:05}.png' \\\n"
+      "    --png-scale 1000 -o room\n");
   arguments->add_to(command, "Camera file (JSON), e.g. from 'fathom camera import'");
   arguments->add_scene_to(command);
   command.option("--name", "PATTERN", arguments->pattern,
@@ -75,8 +75,8 @@ void add_maps_layout(Command& family) {
                  "Channels, as for render (default Z,A in EXR and NPZ, Z in other formats)");
   arguments->render.storage.add_to(command);
   command.option("--background", "D", into(arguments->render.storage.background, parse_background),
-                 "Depth to store where there is no surface: inf (default), 0, nan or a number that "
-                 "no surface has (codes of a PNG: 0)");
+                 "Depth without a surface: inf (default), 0, nan or a number that no surface has "
+                 "(codes of a PNG: 0)");
   command.runs([arguments](const Console& console) { return run_maps(*arguments, console); });
 }
 

@@ -105,7 +105,7 @@ void add_question(Command& depth, const DepthCommand& question) {
 void add_depth(Command& program) {
   Command& family = program.command(
       "depth", "Encode, decode and count depth-buffer values exactly",
-      "  fathom depth encode --mapping reversed --storage unorm24 --near 0.1 --far 1000 5\n"
+      "  fathom depth encode --mapping reversed --storage unorm24 --near 1 --far 100 5\n"
       "  fathom depth resolution --storage unorm16 --near 0.1 --far 100 1 10 50\n"
       "\n'fathom depth encode --help' lists the mappings and storages.");
   family.requires_command();
@@ -119,13 +119,13 @@ void add_depth(Command& program) {
                 "Integer codes of unorm storages, values from 0 to 1 of float storages",
                 "  fathom depth decode --storage unorm16 --near 0.1 --far 100 0 65000 65535",
                 decode_answer});
-  add_question(family,
-               {"resolution",
-                "Compute the larger of the distances to the depths of the two neighbouring codes, "
-                "in scene units",
-                "Depths",
-                "  fathom depth resolution --storage unorm24 --near 0.1 --far 1000 1 10 100 --json",
-                resolution_answer});
+  add_question(
+      family,
+      {"resolution",
+       "Compute the larger of the distances to the depths of the two neighbouring codes, "
+       "in scene units",
+       "Depths", "  fathom depth resolution --storage unorm24 --near 0.1 --far 100 1 10 --json",
+       resolution_answer});
   add_question(family, {"codes", "Count the codes that represent a range of depths",
                         "Depths D, for the range from near to D, or ranges NEAREST,FARTHEST",
                         "  fathom depth codes --storage unorm16 --near 0.1 --far 100 1 10,100",

@@ -172,8 +172,7 @@ void ManifestContent::add(const std::string& text, const std::string& name, Warn
   for (auto& [task, record] : said) records[task].push_back(std::move(record));
   if (bad == 0) return;
   warnings.push_back(fmt::format(
-      "{}: line {} is no record of a finished task, {} of {} lines are none: what they were about "
-      "is made again",
+      "{}: line {} is damaged ({} of {} lines are); the maps of these lines are rendered again",
       name, first_bad, bad, number));
 }
 

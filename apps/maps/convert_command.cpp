@@ -220,14 +220,13 @@ void add_convert(Command& program) {
       "  fathom convert spot.exr --to distance -o distance.pfm\n"
       "  fathom convert spot.exr --to disparity --baseline 0.2 -o disparity.pfm\n"
       "  fathom convert spot.exr --background 0 --channel-name Z=Y -o for-opencv.exr\n"
-      "  fathom convert spot.exr -o spot.npz                     # every channel, for numpy\n"
+      "  fathom convert spot.exr -o spot.npz             # every channel, for NumPy\n"
       "  fathom convert spot.exr -o points.ply\n"
-      "  fathom convert plan.exr -o plan.tif                     # GeoTIFF, of a view straight "
-      "down\n"
-      "  fathom convert image.jpg.geometric.bin -o theirs.exr    # a dense map of COLMAP's\n"
+      "  fathom convert plan.exr -o plan.tif             # GeoTIFF, if seen from above\n"
+      "  fathom convert a.jpg.geometric.bin -o a.exr     # a dense map of COLMAP\n"
       "\nConversions start from the stored values, which are rounded already; 'fathom render "
-      "--channels\ndistance' gives the exact ray distance, and render to .png or .npy rounds "
-      "once.");
+      "--channels\n"
+      "distance' gives the exact ray distance, and render to .png or .npy rounds once.");
   command.argument("MAP", arguments->map, "Map to convert (" + names_of_readable_maps() + ")")
       .required();
   add_output_option(command, "FILE", arguments->output,
@@ -249,10 +248,9 @@ void add_convert(Command& program) {
   command.option("--frame", "NAME", into(arguments->frame, parse_frame),
                  "Frame of the point cloud: world (default) or camera");
   arguments->storage.add_to(command);
-  command.option(
-      "--background", "D", into(arguments->storage.background, parse_background),
-      "Depth to store where there is no surface: 0, nan, inf or a number that no surface has "
-      "(default: as in MAP; for disparities 0, because inf is Middlebury's 'unknown')");
+  command.option("--background", "D", into(arguments->storage.background, parse_background),
+                 "Depth without a surface: 0, nan, inf or a number that no surface has (default: "
+                 "as in MAP; for disparities 0, because inf is Middlebury's 'unknown')");
   command.runs([arguments](const Console& console) { return run_convert(*arguments, console); });
 }
 

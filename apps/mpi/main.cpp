@@ -29,7 +29,7 @@ void add_render_together(Command& program) {
       "render", "Render an exact depth map of a scene on the ranks of an MPI run",
       "  mpirun -n 8 fathom-mpi render city.stl --camera camera.json -o city.exr\n"
       "  mpirun -n 2 fathom-mpi render room.json --channels Z,A,id,N --partition rows -o room.exr\n"
-      "\nThe map is that of 'fathom render', byte for byte, whatever the number of ranks.");
+      "\nThe map has the same bytes as the map of 'fathom render', for any number of ranks.");
   arguments->add_to(command);
   command.runs([arguments](const Console& console) {
     const Ranks ranks;

@@ -36,7 +36,7 @@ DepthFormat DepthFormatOptions::format() const {
 void require_constant_of(Mapping mapping, const std::optional<double>& c) {
   if (!c || mapping == Mapping::log) return;
   throw UsageError("--c: mapping " + std::string(name_of(mapping)) +
-                   " has no constant C; log alone has one");
+                   " has no constant C; --c is only for --mapping log");
 }
 
 }  // namespace fathom::app

@@ -27,7 +27,7 @@ EngineName parse_engine(const std::string& text) {
 std::uint64_t parse_pixels(const std::string& text) {
   constexpr auto all = std::numeric_limits<std::uint64_t>::max();
   if (text.find_first_not_of("0123456789") == std::string::npos) return parse_positive(text);
-  return parse_word<std::uint64_t>(text, {{"all", all}}, "a number of pixels from 1 on");
+  return parse_word<std::uint64_t>(text, {{"all", all}}, "a number of pixels, at least 1");
 }
 
 /// "material" or "object,material"
@@ -162,9 +162,9 @@ void RenderArguments::add_background(Command& command) {
           pipeline.set_background(*picture_background_);
         }
       },
-      "Depth to store where there is no surface: inf (default), 0, nan or a number that no surface "
-      "has (codes of a PNG and COLMAP maps: 0). R,G,B, from 0 to 1, sets the background of --image "
-      "(default 0,0,0)");
+      "Depth without a surface: inf (default), 0, nan or a number that no surface has (codes of a "
+      "PNG and COLMAP maps: 0). R,G,B, from 0 to 1, sets the background of --image (default "
+      "0,0,0)");
 }
 
 void RenderArguments::refuse_pipeline_options() const {
@@ -195,19 +195,17 @@ void add_render(Command& program, const Render& by_exact_engine, const Render& b
       "render", "Render an exact depth map of a scene",
       "  fathom render spot.obj -o spot.exr\n"
       "  fathom render room.json --camera camera.json --channels Z,id,N -o room.exr\n"
-      "  fathom render spot.obj --view 90,0 --size 640x480 --save-camera side.json -o side.pfm\n"
-      "  fathom render spot.obj -o spot.png --png-scale 1000      # 16 bits: 1000 codes per scene "
-      "unit\n"
+      "  fathom render spot.obj --view 90,0 --save-camera side.json -o side.pfm\n"
+      "  fathom render spot.obj -o spot.png --png-scale 1000  # 1000 codes per unit\n"
       "  fathom render spot.obj --channels Z,id,N --background 0 -o maps/spot.npz\n"
       "  fathom render city.stl --stream --size 16384x16384 -o city.exr\n"
       "  fathom render scan.ply --engine fast --verify 1000 -o scan.exr\n"
       "  fathom render room.json --deep -o room.deep.exr\n"
       "  fathom render spot.obj --camera path.json -o 'view-{index:04}.exr'\n"
-      "  fathom render spot.obj --near 0.1 --far 100 --depth-format unorm16 --against-exact -o "
-      "stored.exr\n"
-      "  fathom render spot.obj --engine pipeline --shading phong --antialias msaa:4 --image "
-      "spot.png "
-      "-o spot.exr\n"
+      "  fathom render spot.obj --near 0.1 --far 100 --depth-format unorm16 \\\n"
+      "    --against-exact -o stored.exr\n"
+      "  fathom render spot.obj --engine pipeline --shading phong --antialias msaa:4 \\\n"
+      "    --image spot.png -o spot.exr\n"
       "\nKeys of camera and scene files, and warnings: camera-files.md and scene-files.md in the "
       "documentation.");
   arguments->add_to(command);

@@ -10,7 +10,8 @@ namespace fathom::app {
 namespace {
 
 int refuse_exact_engines(const RenderArguments&, const Console&) {
-  throw UsageError("fathom-textbook renders with --engine pipeline alone; fathom has the others");
+  throw UsageError(
+      "fathom-textbook only renders with --engine pipeline; use fathom for other engines");
 }
 
 std::vector<AddCommand> commands(const std::vector<std::string>&) {

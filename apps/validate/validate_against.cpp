@@ -41,7 +41,7 @@ std::vector<Peer> peers_of(const ValidateArguments& arguments) {
 /// With --model matching, those that a named model is of.
 std::vector<Peer> with_models(std::vector<Peer> peers) {
   std::erase_if(peers, [](const Peer& peer) { return !validation::matching_model(peer); });
-  if (peers.empty()) throw UsageError("--model matching: none of the models is of these variants");
+  if (peers.empty()) throw UsageError("--model matching: no model fits these variants");
   return peers;
 }
 

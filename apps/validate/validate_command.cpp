@@ -27,7 +27,7 @@ int run_validate(const ValidateArguments& arguments, const Console& console) {
     throw UsageError("--faults goes with --against RENDERERS");
   }
   if (arguments.faults && !arguments.model.empty()) {
-    throw UsageError("--faults has models of its own: --model goes without it");
+    throw UsageError("--faults uses its own models: leave out --model");
   }
   if (arguments.for_ctest && arguments.map.empty()) throw UsageError("--ctest goes with --map");
   if (!arguments.junit.empty() && arguments.map.empty() && arguments.against.empty()) {
@@ -45,12 +45,12 @@ void add_validate(Command& program) {
   Command& command = program.command(
       "validate", "Check another renderer's maps against the truth and explain every difference",
       "  fathom validate --against vtk,opengl,embree,blender -o report\n"
-      "  fathom validate --against opengl --scene sheets,room --variants unorm16,float32\n"
+      "  fathom validate --against opengl --scene room --variants unorm16,float32\n"
       "  fathom validate --against vtk spot.obj --camera camera.json\n"
       "  fathom validate --against vtk,opengl,embree --model matching\n"
       "  fathom validate --map other.exr --camera camera.json spot.obj\n"
-      "  fathom validate --map other.exr --camera camera.json --model gl-unorm24 spot.obj\n"
-      "  fathom validate --against opengl -o new --junit new.xml --baseline old/report.json\n"
+      "  fathom validate --map a.exr --camera camera.json --model gl-unorm24 spot.obj\n"
+      "  fathom validate --against opengl -o new --baseline old/report.json\n"
       "  fathom validate --faults --against vtk --scene spot -o faults\n"
       "  fathom validate --colour --scene spot\n"
       "  fathom validate --render vtk spot.obj --camera camera.json -o vtk.exr\n"

@@ -45,7 +45,7 @@ Camera read_camera(const std::string& file, const Console& console) {
 
 Scene read_files(const std::vector<std::string>& files, const ReadLimits& limits,
                  const Console& console) {
-  if (files.empty()) throw UsageError("SCENE is missing: what the map shows");
+  if (files.empty()) throw UsageError("SCENE is missing: the scene that the map shows");
   for (const std::string& file : files) note_input(file);
   Warnings warnings;
   ReadOptions options = limits.read_options();

@@ -35,7 +35,7 @@ int validate_render(const ValidateArguments& arguments, const Console& console) 
   const auto format = map_format_of(arguments.output);
   if (!format)
     throw UsageError("-o: '" + arguments.output + "' does not end in " + suffixes_of_float_maps());
-  if (arguments.scenes.empty()) throw UsageError("SCENE is missing: what is rendered");
+  if (arguments.scenes.empty()) throw UsageError("SCENE is missing: the scene to render");
   const SceneToMake scene = scenes_of(arguments, console).front();
   const Peer peer = peer_to_render(arguments);
   OutputFile output(arguments.output);

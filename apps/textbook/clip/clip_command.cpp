@@ -168,15 +168,15 @@ void add_clip(Command& program) {
   const auto arguments = std::make_shared<ClipArguments>();
   Command& command = program.command(
       "clip", "Clip polygons and segments given as JSON lines",
-      "  echo '{\"subject\": [[[0,0],[4,0],[4,4],[0,4]]], \"clip\": [[[2,1],[6,1],[2,3]]]}' |\n"
+      "  echo '{\"subject\":[[[0,0],[4,0],[4,4],[0,4]]],\"clip\":[[[2,1],[6,1],[2,3]]]}' |\n"
       "    fathom clip --algorithm weiler-atherton --exact\n"
       "  echo '{\"segment\": [[0,0],[9,6]], \"window\": [1,1,6,3]}' |\n"
       "    fathom clip --algorithm cohen-sutherland --trace\n"
       "  echo '{\"triangle\": [[1,0,0],[0,1,0],[0,0,1]], \"eye\": [2,2,2]}' |\n"
       "    fathom clip --algorithm plane\n"
       "  fathom clip --algorithm weiler-atherton --against cgal pairs.jsonl\n"
-      "\nCases of weiler-atherton and cgal take \"op\": \"union\" or \"difference\"; the "
-      "default is\n"
+      "\nCases of weiler-atherton and cgal take \"op\": \"union\" or \"difference\"; the default "
+      "is\n"
       "\"intersection\".");
   command
       .option("--algorithm", "NAME", into(arguments->algorithm, parse_named),

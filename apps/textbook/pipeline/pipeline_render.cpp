@@ -83,7 +83,8 @@ std::optional<pipeline::Shutter> shutter_of(const RenderArguments& a,
   if (!a.shutter) return std::nullopt;
   if (!a.motion.is_given()) throw UsageError("--shutter needs --motion: nothing moves without it");
   if (a.motion.time) {
-    throw UsageError("--shutter OPEN,CLOSE says the times; --time is for pictures without it");
+    throw UsageError(
+        "--shutter OPEN,CLOSE sets the times; --time is for pictures without --shutter");
   }
   if (!averaged && method != AntialiasMethod::taa) {
     throw UsageError("--shutter is for --antialias temporal:N, temporal-area:N and taa:N");
@@ -112,7 +113,7 @@ PipelinePlan plan_pipeline(const RenderArguments& a) {
   plan.with_depth_buffer = a.depth_buffer.storage && holds_all_channels(plan.format);
   if (plan.with_depth_buffer && plan.stages.depth_range[0] == plan.stages.depth_range[1]) {
     throw UsageError(
-        "--depth-range: near and far have the same window depth, of which --depth-format cannot "
+        "--depth-range: near and far have the same window depth, from which --depth-format cannot "
         "decode one");
   }
   plan.shutter = shutter_of(a, plan.stages);

@@ -30,7 +30,7 @@ pipeline::LineEnds pixel_ends_of(const Json& object, const Form& form) {
   for (const double x : ends)
     if (x != std::floor(x))
       throw InputError(fmt::format(
-          "line: {} is not a whole number; ends of lines are pixels, but for diamond-exit", x));
+          "line: {} is not a whole number; ends of lines are pixels, except for diamond-exit", x));
   const auto whole = [&](std::size_t i) { return static_cast<std::int64_t>(ends[i]); };
   return {whole(0), whole(1), whole(2), whole(3), form.ties.value_or(pipeline::TieRule::greater)};
 }
