@@ -19,8 +19,7 @@ namespace {
 
 Compression parse_compression(const std::string& text) {
   if (text == "pxr24" || text == "b44" || text == "b44a" || text == "dwaa" || text == "dwab") {
-    throw UsageError("'" + text + "' loses bits of the depth; there are " +
-                     joined(names_of(all_compressions)));
+    throw UsageError("'" + text + "' is lossy; lossless are " + joined(names_of(all_compressions)));
   }
   return parse_enumerator(text, all_compressions);
 }

@@ -140,8 +140,7 @@ typedef struct {
 FATHOM_API fathom_status fathom_render(const fathom_scene* scene, const fathom_camera* camera,
                                        const char* channels, const fathom_options* options,
                                        fathom_map** map);
-/* Reads EXR, NPZ, PFM, PNG, NPY or a dense map of COLMAP. The format is detected from the content.
- * */
+/* Reads EXR, NPZ, PFM, PNG, NPY or a dense map of COLMAP, by content, not by suffix. */
 FATHOM_API fathom_status fathom_map_read(const char* file, fathom_map** map);
 /* Writes a map; the suffix selects the format. .exr, .npz and .tif contain all channels. .pfm,
  * .png, .npy and .bin (COLMAP) contain `channel` or, if it is NULL, the map's only channel. A .tif
