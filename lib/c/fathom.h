@@ -126,8 +126,7 @@ typedef struct {
 
 /* The value of id, face, object, material, group, part and label without a surface. */
 #define FATHOM_NO_SURFACE UINT32_C(0xFFFFFFFF)
-/* The value of material, group, part and label if the visible triangle has no such name or label.
- * */
+/* The value of material, group, part and label if the visible triangle has no name or label. */
 #define FATHOM_NO_SEGMENT UINT32_C(0xFFFFFFFE)
 
 /* Renders the exact map: every value is the exact number, rounded once.
