@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <set>
-#include <type_traits>
 
 namespace fathom::text {
 namespace {
@@ -53,7 +52,7 @@ class Builder {
                       " stands twice in one object");
   }
 
-  bool parse_error(std::size_t byte, const std::string&, const nlohmann::detail::exception& e) {
+  bool parse_error(std::size_t byte, const std::string&, const json::exception& e) {
     constexpr int number_overflow = 406;
     return refuse(e.id == number_overflow ? JsonFault::Kind::not_finite : JsonFault::Kind::syntax,
                   in_words(e.what()), byte);
@@ -149,12 +148,7 @@ void parse_json(std::string_view text, Json& root) {
   const std::string_view before = text.substr(0, nul);
   std::vector<JsonStep> path;
   try {
-    // Json::sax_parse() does the same, but compiles all binary formats with it.
-    build(root, [&](auto& builder) {
-      const auto input = nlohmann::detail::input_adapter(before.begin(), before.end());
-      using Input = std::remove_const_t<decltype(input)>;
-      nlohmann::detail::parser<Json, Input>(Input(input)).sax_parse(&builder);
-    });
+    build(root, [&](auto& builder) { Json::sax_parse(before.begin(), before.end(), &builder); });
   } catch (const JsonFault& fault) {
     const bool is_at_end = fault.kind() == JsonFault::Kind::syntax && fault.byte() > before.size();
     if (nul == text.npos || !is_at_end) throw;
