@@ -42,11 +42,6 @@ struct Box {
     return !x.is_below(other.x) && !other.x.is_below(x) && !y.is_below(other.y) &&
            !other.y.is_below(y);
   }
-  /// Whether `other` may lie in what this box was made around: false is certain.
-  [[nodiscard]] bool may_contain(const Box& other) const {
-    return x.least <= other.x.least && other.x.greatest <= x.greatest && y.least <= other.y.least &&
-           other.y.greatest <= y.greatest;
-  }
 };
 
 template <class Number>
