@@ -2,7 +2,6 @@
 #include <bit>
 #include <limits>
 
-#include "fathom/fast/coverage/certain_sign.h"
 #include "fathom/fast/coverage/tile_coverage.h"
 #include "fathom/fast/coverage/tile_functions.h"
 

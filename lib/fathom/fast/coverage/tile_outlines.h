@@ -9,7 +9,6 @@
 #include "fathom/fast/bins/bins.h"
 #include "fathom/fast/coverage/coverage_classes.h"
 #include "fathom/fast/coverage/edge_balance.h"
-#include "fathom/fast/coverage/edge_sieve.h"
 #include "fathom/fast/coverage/pixel_meetings.h"
 #include "fathom/fast/coverage/square_edges.h"
 #include "fathom/fast/coverage/tile_rows.h"

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "fathom/fast/bins/bins.h"
-#include "fathom/fast/setup/exact_setups.h"
 #include "fathom/fast/tiles/draw_context.h"
 #include "fathom/fast/tiles/tile.h"
 #include "fathom/fast/tiles/visible_triangles.h"
