@@ -63,7 +63,7 @@ TEST(MapBackground, IsThatOfAWholeMapInAnyParts) {
     expect_same_bytes(unfilled.map, expected);
     DepthMap used = expected;
     used.values<std::uint32_t>("id")->begin()[100] = 7;
-    UnfilledMap again = make_unfilled_map(camera, options, std::move(used));
+    UnfilledMap again = make_unfilled_map(camera, options, {}, std::move(used));
     MapBackground others = again.background;
     others.leave_out("id");
     others.fill(0, 210);
