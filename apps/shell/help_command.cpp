@@ -3,11 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "apps/shell/command.h"
 #include "apps/shell/command_text.h"
-#include "apps/shell/completion_scripts.h"
+#include "apps/shell/completion.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/help_pages.h"
 #include "apps/shell/misspelling.h"
@@ -23,10 +24,8 @@ namespace {
 constexpr const char* version_of_pages = "Fathom " FATHOM_VERSION;
 const std::string form_option = "--help=";
 
-using Script = std::string (*)(const CompletionTable&);
-
-Script parse_shell(const std::string& text) {
-  return parse_word<Script>(
+const char* parse_shell(const std::string& text) {
+  return parse_word<const char*>(
       text, {{"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}});
 }
 
@@ -46,12 +45,17 @@ const CLI::App& command_of(const CLI::App& program, const std::vector<std::strin
   return *command;
 }
 
-/// All commands of the program and, as far as they are built, of its companions.
-CompletionTable whole_table(const Command& program, const std::vector<Companion>& companions) {
+/// All commands of the program and, as far as they are built, of those companions that `is_asked`
+/// chooses; of the others the names.
+CompletionTable whole_table(const Command& program, const std::vector<Companion>& companions,
+                            const std::function<bool(const Companion&)>& is_asked) {
   CompletionTable table = program.completion_table();
   for (const Companion& companion : companions) {
-    const auto lines = answer_of(companion, {form_option + "completion"});
-    CompletionTable more = lines ? table_from_lines(*lines) : CompletionTable();
+    CompletionTable more;
+    if (is_asked(companion)) {
+      const auto lines = answer_of(companion, {form_option + "completion"});
+      if (lines) more = table_from_lines(*lines);
+    }
     if (more.empty()) more = {{{"fathom", companion.command}, companion.description, {}}};
     table.insert(table.end(), more.begin(), more.end());
   }
@@ -124,6 +128,18 @@ std::optional<std::string> asked_help(const CLI::App& program, const Command& co
   return to_lines(table);
 }
 
+std::optional<std::string> asked_completion(const Command& program,
+                                            const std::vector<Companion>& companions,
+                                            const std::vector<std::string>& arguments) {
+  if (arguments.size() < 2 || arguments[0] != "complete" || arguments[1] != "--")
+    return std::nullopt;
+  const std::vector<std::string> words(arguments.begin() + 2, arguments.end());
+  const auto is_named = [&](const Companion& companion) {
+    return std::ranges::count(words, companion.command) > 0;
+  };
+  return offers_for(whole_table(program, companions, is_named), words);
+}
+
 void add_help(Command& program, const CLI::App& app, const std::vector<Companion>& companions) {
   struct HelpArguments {
     std::vector<std::string> names;
@@ -145,11 +161,12 @@ void add_help(Command& program, const CLI::App& app, const std::vector<Companion
     if (!help->man || !help->names.empty())
       throw UsageError("--output goes with --man, and without a COMMAND");
     const std::string folder = help->folder;  // which the table overwrites
-    write_pages(folder, whole_table(program, companions), app, companions);
+    const auto all = [](const Companion&) { return true; };
+    write_pages(folder, whole_table(program, companions, all), app, companions);
     return done;
   });
 
-  const auto script = std::make_shared<Script>(nullptr);
+  const auto script = std::make_shared<const char*>(nullptr);
   Command& completion =
       program.command("completion", "Print a shell completion script",
                       "  source <(fathom completion bash)      # in ~/.bashrc\n"
@@ -157,8 +174,8 @@ void add_help(Command& program, const CLI::App& app, const std::vector<Companion
                       "  fathom completion fish | source       # in ~/.config/fish/config.fish");
   completion.argument("SHELL", into(*script, parse_shell), "bash, zsh or fish").required();
   completion.answers_on_standard_output();
-  completion.runs([script, &program, companions](const Console&) {
-    print((*script)(whole_table(program, companions)));
+  completion.runs([script](const Console&) {
+    print(*script);
     return done;
   });
 }

@@ -181,6 +181,10 @@ int run_arguments(const std::vector<std::string>& given, const std::vector<AddCo
     print(help_page(text_of(app), help_width()));
     return done;
   }
+  if (const auto offers = asked_completion(program, companions, given)) {
+    print(*offers);
+    return done;
+  }
   const std::vector<std::string> asked = with_help_as_option(given);
   start_other_program(app, asked, companions);
   if (const auto help = asked_help(app, program, asked)) {

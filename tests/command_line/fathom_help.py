@@ -9,6 +9,11 @@ from dataclasses import dataclass, field
 PROGRAM = os.environ["FATHOM_PROGRAM"]
 
 
+def path_with_program() -> str:
+    """PATH such that a shell finds the program."""
+    return os.path.dirname(PROGRAM) + os.pathsep + os.environ["PATH"]
+
+
 def run(*arguments: str, **options) -> subprocess.CompletedProcess:
     return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=60, **options)
 

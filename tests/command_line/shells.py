@@ -7,7 +7,7 @@ import select
 import subprocess
 import time
 
-from fathom_help import answer
+from fathom_help import answer, path_with_program
 
 
 class Terminal:
@@ -15,7 +15,7 @@ class Terminal:
 
     def __init__(self, command: list[str], setup: list[str], folder: str):
         master, slave = pty.openpty()
-        environment = {"PATH": os.environ["PATH"], "TERM": "dumb", "HOME": folder, "LC_ALL": "C.UTF-8",
+        environment = {"PATH": path_with_program(), "TERM": "dumb", "HOME": folder, "LC_ALL": "C.UTF-8",
                        "HISTFILE": "/dev/null"}
         self.process = subprocess.Popen(command, stdin=slave, stdout=slave, stderr=slave, cwd=folder, env=environment,
                                         start_new_session=True)

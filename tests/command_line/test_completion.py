@@ -4,7 +4,7 @@ import os
 import subprocess
 
 import pytest
-from fathom_help import all_commands, answer
+from fathom_help import all_commands, answer, path_with_program
 from shells import terminal
 
 FILES = ("mesh.obj", "my file.obj")
@@ -28,7 +28,8 @@ def in_bash(lines: list[list[str]], folder) -> list[list[str]]:
     for words in lines:
         quoted = " ".join("'" + word + "'" for word in words)
         script.append(f"COMP_WORDS=({quoted}) COMP_CWORD={len(words) - 1}; _fathom; printf '%s\\t' \"${{COMPREPLY[@]}}\"; echo")
-    outcome = subprocess.run(["bash", "--norc"], input="\n".join(script), capture_output=True, text=True, cwd=folder)
+    outcome = subprocess.run(["bash", "--norc"], input="\n".join(script), capture_output=True, text=True, cwd=folder,
+                             env=os.environ | {"PATH": path_with_program()})
     assert outcome.stderr == ""
     return [[word for word in line.split("\t") if word] for line in outcome.stdout.split("\n")[:-1]]
 
@@ -37,7 +38,7 @@ def in_fish(lines: list[str], folder) -> list[list[str]]:
     script = ["source script.fish"]
     for line in lines:
         script += [f"complete -C '{line}'", "echo END"]
-    environment = os.environ | {"HOME": str(folder), "XDG_CONFIG_HOME": str(folder / "config"), "LC_ALL": "C.UTF-8"}
+    environment = os.environ | {"PATH": path_with_program(), "HOME": str(folder), "XDG_CONFIG_HOME": str(folder / "config"), "LC_ALL": "C.UTF-8"}
     outcome = subprocess.run(["fish", "--no-config"], input="\n".join(script), capture_output=True, text=True, cwd=folder,
                              env=environment)
     assert outcome.stderr == ""
@@ -106,6 +107,12 @@ def test_fish_offers_values(folder):
     for (line, expected), each in zip(LAST_WORDS, offered):
         option = line.split()[-1].partition("=")[0] + "=" if "=" in line else ""
         assert sorted(each) == sorted(option + word for word in expected), line
+
+
+def test_options_are_offered_where_nothing_else_can_follow(folder):
+    words = ["fathom", "camera", "look-at", ""]
+    assert {"--eye", "-o", "--output"} <= set(in_bash([words], folder)[0])
+    assert {"--eye", "--output"} <= set(in_fish([" ".join(words)], folder)[0])
 
 
 def test_files_are_offered_where_files_are_taken(folder):
