@@ -32,23 +32,14 @@ void drop_helpers(DepthMap& map, const DepthBufferPlan& plan) {
   if (plan.drops_id) std::erase_if(map.channels, [](const auto& c) { return c.name == "id"; });
 }
 
-/// What a map was rendered from, and how many random pixels to compute again.
-struct VerificationRequest {
-  TriangleSource triangles;
-  const Camera& camera;
-  const RenderOptions& options;
-  std::uint64_t pixels;
-  /// Renders the same map with other options.
-  std::function<Rendered(const RenderOptions&)> render;
-};
-
-/// Adds them to the choice; how many of them there are.
-std::uint64_t choose_nearly_unsettled(const VerificationRequest& request, PixelChoice& chosen) {
-  if (request.options.engine != Engine::fast) return 0;
-  RenderOptions options = request.options;
+/// Adds to the choice all pixels at which a bound nearly failed to settle a decision. Returns their
+/// number.
+std::uint64_t choose_nearly_unsettled(const RenderedFrom& from, PixelChoice& chosen) {
+  if (from.options.engine != Engine::fast) return 0;
+  RenderOptions options = from.options;
   options.fast.widening = 16;
   options.fast.find_doubtful = true;
-  const std::vector<std::uint64_t> doubtful = request.render(options).doubtful;
+  const std::vector<std::uint64_t> doubtful = from.render(options).doubtful;
   PixelChoice near(chosen.size(), false);
   std::uint64_t count = 0;
   for (const std::uint64_t pixel : doubtful) {
@@ -74,18 +65,17 @@ std::string disagreement(const MapVerification& v, const Disagreement& first) {
                      v.differing == 1 ? "differs" : "differ");
 }
 
-/// `render --verify`: computes pixels of the map again by exact arithmetic, chosen at random and,
-/// of the fast engine's map, all at which one of its bounds nearly failed to settle a decision: it
-/// would have, had it been 16 times as wide. Says how the map, called `name`, fares.
-MapVerification verify_map(const DepthMap& map, const std::string& name,
-                           const VerificationRequest& request, const Console& console) {
-  const Camera& camera = request.camera;
-  PixelChoice chosen = choose_pixels(camera.width, camera.height, request.pixels);
+/// `render --verify`: recomputes by exact arithmetic so many random pixels of the map, called `name`,
+/// and, of the fast engine's map, every pixel at which one of its bounds nearly failed to settle a
+/// decision: it would have failed if it had been 16 times as wide. Reports the result on the console.
+MapVerification verify_map(const DepthMap& map, const std::string& name, const RenderedFrom& from,
+                           std::uint64_t pixels, const Console& console) {
+  PixelChoice chosen = choose_pixels(from.camera.width, from.camera.height, pixels);
   MapVerification result;
-  result.nearly_unsettled = choose_nearly_unsettled(request, chosen);
+  result.nearly_unsettled = choose_nearly_unsettled(from, chosen);
   Progress progress(console, "verifying");
   const Verification seen =
-      verify(map, request.triangles, camera, request.options, chosen, progress.reporter());
+      verify(map, from.triangles, from.camera, from.options, chosen, progress.reporter());
   result.verified = seen.verified;
   result.differing = seen.differing;
   if (seen.first) {
@@ -117,9 +107,7 @@ void add_planned(DepthMap& map, const MapPlan& plan, const std::string& name,
   }
   report.seconds.depth_format = stopwatch.lap();
   if (plan.verified_pixels) {
-    report.verification = verify_map(
-        map, name, {from.triangles, from.camera, from.options, *plan.verified_pixels, from.render},
-        console);
+    report.verification = verify_map(map, name, from, *plan.verified_pixels, console);
   }
   report.seconds.verify = stopwatch.lap();
   if (plan.depth_buffer) drop_helpers(map, *plan.depth_buffer);
