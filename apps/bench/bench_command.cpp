@@ -11,10 +11,10 @@
 #include "apps/bench/parts_command.h"
 #include "apps/bench/renderers.h"
 #include "apps/bench/report.h"
+#include "apps/shell/console.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/program.h"
-#include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/failures/errors.h"
 

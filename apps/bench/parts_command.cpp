@@ -9,9 +9,9 @@
 #include "apps/bench/machine.h"
 #include "apps/bench/parts/ideas.h"
 #include "apps/bench/parts/parts_report.h"
+#include "apps/shell/console.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
-#include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/fast/render_fast.h"
 

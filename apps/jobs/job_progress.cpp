@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "apps/shell/signals.h"
+#include "apps/shell/last_resort.h"
 
 namespace fathom::app {
 

@@ -14,7 +14,6 @@
 #include "apps/shell/failures.h"
 #include "apps/shell/last_resort.h"
 #include "apps/shell/program.h"
-#include "apps/shell/signals.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::app {

@@ -6,7 +6,7 @@
 
 #include "apps/mpi/together.h"
 #include "apps/mpi/triangle_messages.h"
-#include "apps/shell/progress.h"
+#include "apps/shell/console.h"
 
 // How to read this file: draw() is the whole story. Each rank has a part of the triangles and takes
 // it in rounds. It finds the tiles of the image that they may touch, draws its own tiles, and sends

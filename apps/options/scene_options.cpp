@@ -92,7 +92,7 @@ ReadOptions ReadLimits::read_options() const {
   options.confine = confine;
   options.max_expansion = max_expansion;
   options.formats_program = formats_program;
-  options.map_large_files = true;  // shell/signals.h handles SIGBUS
+  options.map_large_files = true;  // shell/last_resort.h handles SIGBUS
   return options;
 }
 

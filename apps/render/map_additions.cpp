@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/render/render_outputs.h"
-#include "apps/shell/progress.h"
+#include "apps/shell/console.h"
 #include "fathom/area/sampled_coverage.h"
 #include "fathom/image/map_texts.h"
 #include "fathom/reference/verify.h"

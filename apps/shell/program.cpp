@@ -16,7 +16,6 @@
 #include "apps/shell/max_memory.h"
 #include "apps/shell/misspelling.h"
 #include "apps/shell/output_file.h"
-#include "apps/shell/signals.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"

@@ -6,8 +6,8 @@
 
 #include "apps/options/camera_options.h"
 #include "apps/options/scene_options.h"
+#include "apps/shell/console.h"
 #include "apps/shell/failures.h"
-#include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
 #include "apps/surfaces/probe_report.h"

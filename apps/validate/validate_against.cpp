@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "apps/shell/console.h"
 #include "apps/shell/failures.h"
-#include "apps/shell/progress.h"
 #include "apps/validate/faults/fault_study.h"
 #include "apps/validate/report/predicted_fights.h"
 #include "apps/validate/validate_input.h"

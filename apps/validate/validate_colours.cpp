@@ -2,7 +2,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/shell/progress.h"
+#include "apps/shell/console.h"
 #include "apps/validate/colour_report.h"
 #include "apps/validate/validate_input.h"
 #include "apps/validate/validate_modes.h"

@@ -7,10 +7,10 @@
 #include <variant>
 #include <vector>
 
+#include "apps/shell/console.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/output_place.h"
-#include "apps/shell/progress.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/validate/faults/fault_report.h"
 #include "apps/validate/validate_input.h"

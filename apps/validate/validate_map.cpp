@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/options/map_arguments.h"
-#include "apps/shell/progress.h"
+#include "apps/shell/console.h"
 #include "apps/validate/validate_input.h"
 #include "apps/validate/validate_modes.h"
 #include "apps/validate/validate_report.h"

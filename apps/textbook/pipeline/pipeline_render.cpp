@@ -11,9 +11,9 @@
 
 #include "apps/options/map_arguments.h"
 #include "apps/render/render_outputs.h"
+#include "apps/shell/console.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
-#include "apps/shell/progress.h"
 #include "apps/textbook/pipeline/pipeline_report.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/failures/errors.h"
