@@ -65,9 +65,10 @@ std::string disagreement(const MapVerification& v, const Disagreement& first) {
                      v.differing == 1 ? "differs" : "differ");
 }
 
-/// `render --verify`: recomputes by exact arithmetic so many random pixels of the map, called `name`,
-/// and, of the fast engine's map, every pixel at which one of its bounds nearly failed to settle a
-/// decision: it would have failed if it had been 16 times as wide. Reports the result on the console.
+/// `render --verify`: recomputes by exact arithmetic so many random pixels of the map, called
+/// `name`, and, of the fast engine's map, every pixel at which one of its bounds nearly failed to
+/// settle a decision: it would have failed if it had been 16 times as wide. Reports the result on
+/// the console.
 MapVerification verify_map(const DepthMap& map, const std::string& name, const RenderedFrom& from,
                            std::uint64_t pixels, const Console& console) {
   PixelChoice chosen = choose_pixels(from.camera.width, from.camera.height, pixels);

@@ -25,8 +25,8 @@ std::vector<std::string> with_help_as_option(std::vector<std::string> arguments)
 std::optional<std::string> asked_help(const CLI::App& program, const Command& commands,
                                       const std::vector<std::string>& arguments);
 
-/// What is printed for `fathom complete -- WORDS`, which the scripts of `completion` call: offers_for()
-/// these words. Nothing for other arguments.
+/// What is printed for `fathom complete -- WORDS`, which the scripts of `completion` call:
+/// offers_for() these words. Nothing for other arguments.
 std::optional<std::string> asked_completion(const Command& program,
                                             const std::vector<Companion>& companions,
                                             const std::vector<std::string>& arguments);

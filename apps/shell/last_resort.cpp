@@ -93,8 +93,8 @@ constexpr std::array crashes{SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGBUS, SIGSYS, S
 /// What a crash did before: what dies of a sanitizer's check is reported by that.
 std::array<struct sigaction, NSIG> action_before{};
 
-/// Of handlers that do not return. Before such a call the address sanitizer asks for the bounds of the
-/// stack, which takes a lock: a signal within that very question would wait for ever.
+/// Of handlers that do not return. Before such a call the address sanitizer asks for the bounds of
+/// the stack, which takes a lock: a signal within that very question would wait for ever.
 #define FATHOM_NOT_ADDRESS_SANITIZED __attribute__((no_sanitize("address")))
 
 /// Two, so that one is whole at any time. The second of them is written while the first is said.

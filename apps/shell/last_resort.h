@@ -46,18 +46,17 @@ int outcome_is(int status) noexcept;
 void prepare_last_resort();
 
 /// From now on
-///   SIGINT, SIGTERM and SIGHUP      end the program with 130, and nothing of its outputs is left;
-///   every other signal that ends a  does so, and nothing of its outputs is left, be it one that was
-///   program                         sent or a crash;
-///   SIGBUS of a mapped file that    is an error of reading: one line that names the file, and 3;
-///   has been cut short meanwhile
-///   a closed pipe and a file that   are errors of writing, not signals.
+///   SIGINT, SIGTERM and SIGHUP   end the program with 130 and remove its partial outputs
+///   every other ending signal    ends it, sent or a crash, and its partial outputs are removed
+///   SIGBUS of a mapped file      that was truncated: an error of reading, exit status 3, one line
+///                                that names the file
+///   a closed pipe, a file that   are errors of writing, not signals
 ///   grows beyond the limit
 /// A second call does nothing.
 void handle_signals();
 
-/// What the program says on standard error when it is interrupted, from now on: a text that ends with a
-/// line feed, or nothing ("").
+/// What the program prints on standard error when it is interrupted, from now on: a text that ends
+/// with a line feed, or nothing ("").
 void say_when_interrupted(const std::string& text);
 
 }  // namespace fathom::app
