@@ -102,13 +102,13 @@ int parse_thread_count(const std::string& text) {
   return static_cast<int>(count);
 }
 
-MeshFormat parse_mesh_format(const std::string& text) {
-  return parse_word<MeshFormat>(text, {{"obj", MeshFormat::obj},
-                                       {"ply", MeshFormat::ply},
-                                       {"stl", MeshFormat::stl},
-                                       {"off", MeshFormat::off},
-                                       {"gltf", MeshFormat::gltf},
-                                       {"glb", MeshFormat::gltf}});
+FileFormat parse_mesh_format(const std::string& text) {
+  return parse_word<FileFormat>(text, {{"obj", FileFormat::obj},
+                                       {"ply", FileFormat::ply},
+                                       {"stl", FileFormat::stl},
+                                       {"off", FileFormat::off},
+                                       {"gltf", FileFormat::gltf},
+                                       {"glb", FileFormat::gltf}});
 }
 
 void SceneOptions::add_to(Command& command) {

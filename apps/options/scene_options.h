@@ -28,14 +28,14 @@ struct ReadLimits {
 };
 
 /// "obj", "ply", … ; fails with UsageError.
-MeshFormat parse_mesh_format(const std::string& text);
+FileFormat parse_mesh_format(const std::string& text);
 /// A number of threads, at most 1024; 0: all.
 int parse_thread_count(const std::string& text);
 
 /// `SCENE… --mesh-format --threads …`: what every command that reads a scene takes.
 struct SceneOptions {
   std::vector<std::string> files;
-  std::optional<MeshFormat> mesh_format;
+  std::optional<FileFormat> mesh_format;
   int threads = 0;
   ReadLimits limits;
 

@@ -6,7 +6,7 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/failures/warnings.h"
-#include "fathom/mesh_files/read_gltf.h"
+#include "fathom/mesh_files/read_mesh.h"
 #include "fathom/scene/bounds.h"
 #include "fathom/scene/framing.h"
 #include "tests/fuzz/fuzz_mesh.h"

@@ -1,4 +1,4 @@
-#include "fathom/mesh_files/ply_header.h"
+#include "fathom/mesh_files/ply/ply_header.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,10 @@
-#include "fathom/mesh_files/read_gltf.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <random>
 
+#include "fathom/mesh_files/read_mesh.h"
 #include "fathom/numeric/rounding.h"
 #include "tests/effort.h"
 #include "tests/mesh_files/gltf_asset.h"

@@ -1,4 +1,4 @@
-#include "fathom/mesh_files/stl_binary.h"
+#include "fathom/mesh_files/stl/stl_binary.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -73,7 +73,7 @@ TEST_F(ReadScene, FormatOptionTakesThePlaceOfRecognition) {
   const auto file = folder.write("a.txt", "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   EXPECT_THAT(failure(file), HasSubstr("a.txt: its format is not recognised, expected OBJ, PLY"));
   ReadOptions options;
-  options.format = MeshFormat::off;
+  options.format = FileFormat::off;
   EXPECT_EQ(triangle_count(read({file}, options)), 1U);
 }
 
@@ -155,9 +155,9 @@ TEST_F(ReadScene, RefusesWhatIsNoFile) {
   EXPECT_THAT(failure(folder.path() / "none.obj"), HasSubstr("cannot be opened: No such file"));
   EXPECT_THAT(failure(folder.write("empty.obj", "")), HasSubstr("empty.obj: is empty"));
   ReadOptions options;
-  options.format = MeshFormat::obj;
+  options.format = FileFormat::obj;
   EXPECT_THAT(failure(folder.path() / "empty.obj", options), HasSubstr("is empty"));
-  options.format = MeshFormat::gltf;
+  options.format = FileFormat::gltf;
   EXPECT_THAT(failure(folder.path() / "empty.obj", options), HasSubstr("empty.obj"));
 }
 

@@ -9,12 +9,14 @@
 
 namespace fathom {
 
-enum class MeshFormat { obj, ply, stl, off, gltf };
+/// What a file is. `foreign` is any format that assimp reads (mesh_files/foreign_formats.h).
+enum class FileFormat { obj, ply, stl, off, gltf, foreign, scene_json };
 
 /// What a reader is asked for.
 struct ReadOptions {
-  /// Takes precedence over recognition by content and suffix; tells what its content does not.
-  std::optional<MeshFormat> format;
+  /// The format of every mesh file: obj, ply, stl, off or gltf. Without one, each file's format is
+  /// recognised by its content or suffix.
+  std::optional<FileFormat> format;
   /// Threads to use; 0: all.
   int threads = 0;
   /// Keep texture coordinates, normals and colours; depth maps do not need them.

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "fathom/mesh_files/foreign_formats.h"
-#include "fathom/mesh_files/off_keyword.h"
-#include "fathom/mesh_files/stl_binary.h"
+#include "fathom/mesh_files/off/off_keyword.h"
+#include "fathom/mesh_files/stl/stl_binary.h"
 #include "fathom/text/text_cursor.h"
 
 namespace fathom::mesh_files {

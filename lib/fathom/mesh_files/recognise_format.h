@@ -6,9 +6,9 @@
 #include <optional>
 #include <span>
 
-namespace fathom::mesh_files {
+#include "fathom/mesh_files/read_options.h"
 
-enum class FileFormat { obj, ply, stl, off, gltf, foreign, scene_json };
+namespace fathom::mesh_files {
 
 /// What a file is: by its content or, if that does not tell (an OBJ or OFF without a word that
 /// gives it away, an STL whose header is arbitrary), by the suffix of its path, in any case.

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "fathom/files/random_access_file.h"
-#include "fathom/mesh_files/ply_header.h"
+#include "fathom/mesh_files/ply/ply_header.h"
 #include "fathom/mesh_files/triangle_stream.h"
 
 /// The streams of the two formats; open_triangle_stream() chooses between them.

@@ -6,7 +6,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/sha256.h"
 #include "fathom/mesh_files/recognise_format.h"
-#include "fathom/mesh_files/stl_binary.h"
+#include "fathom/mesh_files/stl/stl_binary.h"
 #include "fathom/mesh_files/streams.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/threads/interruption.h"
@@ -31,10 +31,8 @@ std::vector<std::byte> beginning_of(const RandomAccessFile& file, std::size_t si
 FileFormat kind_of(const RandomAccessFile& file, const std::filesystem::path& path,
                    const ReadOptions& options) {
   if (file.size() == 0) throw InputError(file.name() + ": is empty, expected a mesh");
-  if (options.format == MeshFormat::stl) return FileFormat::stl;
-  if (options.format == MeshFormat::ply) return FileFormat::ply;
-  if (options.format) fail_format(file.name());
-  const auto kind = recognise_format(beginning_of(file, 512), file.size(), path);
+  const auto kind = options.format ? options.format
+                                   : recognise_format(beginning_of(file, 512), file.size(), path);
   if (kind != FileFormat::stl && kind != FileFormat::ply) fail_format(file.name());
   return *kind;
 }

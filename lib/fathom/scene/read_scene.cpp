@@ -14,7 +14,6 @@
 #include "fathom/mesh_files/foreign_formats.h"
 #include "fathom/mesh_files/named_files.h"
 #include "fathom/mesh_files/odd_attributes.h"
-#include "fathom/mesh_files/read_gltf.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/mesh_files/recognise_format.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -31,21 +30,6 @@ using namespace files;
 using namespace text;
 
 namespace {
-
-FileFormat kind_of(MeshFormat format) {
-  switch (format) {
-    case MeshFormat::obj:
-      return FileFormat::obj;
-    case MeshFormat::ply:
-      return FileFormat::ply;
-    case MeshFormat::stl:
-      return FileFormat::stl;
-    case MeshFormat::off:
-      return FileFormat::off;
-    default:
-      return FileFormat::gltf;
-  }
-}
 
 Mesh read_mesh(FileFormat kind, const InputFile& input, const std::string& file,
                const ReadOptions& options, Warnings& warnings) {
@@ -75,7 +59,7 @@ class SceneReader {
 
   void add_input(const InputFile& input, const std::filesystem::path& path) {
     const std::string file = path.string();
-    const FileFormat kind = options_.format ? kind_of(*options_.format) : recognise(input, path);
+    const FileFormat kind = options_.format ? *options_.format : recognise(input, path);
     if (kind != FileFormat::scene_json) {
       const std::size_t first = scene_.objects.size();
       add_mesh_file(kind, input, path);

@@ -2,16 +2,19 @@
 
 #include <sys/types.h>
 
+#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "fathom/mesh_files/expansion_budget.h"
 #include "fathom/mesh_files/formats_program/messages.h"
 #include "fathom/mesh_files/read_options.h"
+#include "fathom/text/printable.h"
 
 /// The program fathom-formats, which reads what others' libraries read. They run in a process of
 /// their own, with limits on its memory and its time, because a file can make them crash, loop or
@@ -57,5 +60,14 @@ class Process {
   int socket_ = -1;
   pid_t process_ = -1;
 };
+
+/// What a library says of a file, as the end of a one-line message: it can be long, and of several
+/// lines.
+inline std::string as_reason(std::string text) {
+  constexpr std::size_t longest = 300;
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
+  if (text.size() > longest) text = text.substr(0, longest) + "…";
+  return text::printable(std::move(text));
+}
 
 }  // namespace fathom::mesh_files::formats_program

@@ -8,7 +8,6 @@
 #include "fathom/mesh_files/foreign_formats.h"
 #include "fathom/mesh_files/formats_program/foreign_mesh.h"
 #include "fathom/mesh_files/formats_program/process.h"
-#include "fathom/mesh_files/formats_program/reasons.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/text/printable.h"
 

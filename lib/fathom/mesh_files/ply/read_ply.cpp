@@ -1,0 +1,127 @@
+#include "fathom/mesh_files/ply/ply_body.h"
+#include "fathom/mesh_files/ply/ply_text.h"
+#include "fathom/mesh_files/read_mesh.h"
+#include "fathom/mesh_files/reserve_large.h"
+#include "fathom/text/text_ends.h"
+
+namespace fathom::mesh_files {
+using namespace mesh;
+using namespace text;
+
+namespace {
+
+/// Collects vertices and faces in a mesh.
+class MeshSink {
+ public:
+  MeshSink(const std::string& file, bool primitives)
+      : faces_(mesh_, file), primitives_(primitives) {}
+
+  template <class Has, class Rows>
+  void begin_vertices(const PlyElement& element, const Has& has, const Rows&) {
+    normals_ = has(slot_normal) && has(slot_normal + 1) && has(slot_normal + 2);
+    textures_ = has(slot_texture) && has(slot_texture + 1);
+    colours_ = has(slot_colour) && has(slot_colour + 1) && has(slot_colour + 2);
+    reserve_large(mesh_.vertices, element.count);
+    if (normals_) reserve_large(mesh_.normals, element.count);
+    if (textures_) reserve_large(mesh_.texture_coordinates, element.count);
+    if (colours_) reserve_large(mesh_.colours, element.count);
+    vertices_have_labels_ = has(slot_label);
+    if (vertices_have_labels_) vertex_labels_.reserve(element.count);
+  }
+
+  void vertex(const PlyVertex& row) {
+    mesh_.vertices.push_back({row[0], row[1], row[2]});
+    if (normals_) mesh_.normals.push_back({row[3], row[4], row[5]});
+    if (textures_) mesh_.texture_coordinates.push_back({row[6], row[7]});
+    if (colours_) push_colour(row);
+    if (vertices_have_labels_)
+      vertex_labels_.push_back(static_cast<std::uint32_t>(row[slot_label]));
+  }
+
+  template <class Rows>
+  void begin_faces(const PlyElement&, const PlyFaceColumns& columns, std::uint64_t most,
+                   const Rows&) {
+    reserve_large(mesh_.triangles, most);
+    faces_have_labels_ = columns.label.has_value();
+    if (faces_have_labels_) labels_.reserve(most);
+  }
+
+  template <class Rows>
+  void face(const PlyFace& face, const Rows&) {
+    // Strips before the faces have none.
+    if (faces_have_labels_) labels_.resize(mesh_.triangles.size(), unsegmented);
+    faces_.add(face.ring);
+    if (faces_have_labels_) labels_.resize(mesh_.triangles.size(), face.label);
+  }
+
+  void triangle(const CornerIndices& corners) { faces_.add(corners); }
+
+  void begin_strips(const PlyElement&, std::size_t) {}
+  template <class Rows>
+  void strip_corner(const PlyStrip&, std::uint64_t, const Rows&) {}
+  void strip_triangle(const CornerIndices& corners) { faces_.add(corners); }
+
+  [[nodiscard]] bool wants_edges() const { return primitives_; }
+  void edge(const std::array<std::uint32_t, 2>& ends) { mesh_.lines.push_back(ends); }
+
+  Mesh finish(const std::string& file, Warnings& warnings) {
+    cut_polygons(mesh_, faces_.skipped(), file, warnings);
+    if (faces_have_labels_) labels_.resize(mesh_.triangles.size(), unsegmented);
+    // Of the triangles into which a face is cut, each has its own corners.
+    if (vertices_have_labels_) take_labels_of_corners();
+    if (!labels_.empty())
+      mesh_.segments.push_back({Segmentation::label, compact_segments(std::move(labels_)), {}});
+    return std::move(mesh_);
+  }
+
+ private:
+  void take_labels_of_corners() {
+    labels_.reserve(mesh_.triangles.size());
+    for (const auto& [a, b, c] : std::as_const(mesh_.triangles))
+      labels_.push_back(common_label(vertex_labels_[a], vertex_labels_[b], vertex_labels_[c]));
+  }
+
+  void push_colour(const PlyVertex& row) {
+    std::array<float, 4> colour{};
+    for (std::size_t i = 0; i < 4; ++i) colour[i] = static_cast<float>(row[slot_colour + i]);
+    mesh_.colours.push_back(colour);
+  }
+
+  Mesh mesh_;
+  FaceCollector faces_;
+  bool primitives_;
+  bool normals_ = false, textures_ = false, colours_ = false;
+  bool faces_have_labels_ = false, vertices_have_labels_ = false;
+  /// Of the vertices, and of the triangles, where they have any.
+  std::vector<std::uint32_t> vertex_labels_, labels_;
+};
+
+template <class Rows>
+Mesh read_body(std::string_view text, const PlyHeader& header, const std::string& file,
+               const ReadOptions& options, Warnings& warnings) {
+  MeshSink sink(file, options.primitives);
+  const PlyLabels labels = options.segments ? find_ply_labels(header, file, warnings) : PlyLabels();
+  Rows rows(text.substr(header.size), file, header);
+  PlyBody<Rows, MeshSink>(std::move(rows), header, file, options.attributes, labels, sink)
+      .read(warnings);
+  return sink.finish(file, warnings);
+}
+
+}  // namespace
+
+Mesh read_ply(std::span<const std::byte> bytes, const std::string& file, const ReadOptions& options,
+              Warnings& warnings) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  expect_no_utf16(text, file);
+  const PlyHeader header = read_ply_header(text, file, warnings);
+  switch (header.encoding) {
+    case PlyHeader::Encoding::ascii:
+      return read_body<PlyTextRows>(without_padding(text), header, file, options, warnings);
+    case PlyHeader::Encoding::little_endian:
+      return read_body<BinaryRows<false>>(text, header, file, options, warnings);
+    default:
+      return read_body<BinaryRows<true>>(text, header, file, options, warnings);
+  }
+}
+
+}  // namespace fathom::mesh_files
