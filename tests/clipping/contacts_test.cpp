@@ -1,4 +1,4 @@
-#include "fathom/clipping/contacts.h"
+#include "fathom/clipping/weiler_atherton/contacts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

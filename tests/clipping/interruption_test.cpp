@@ -7,16 +7,15 @@
 #include <functional>
 #include <utility>
 
-#include "fathom/clipping/contacts.h"
 #include "fathom/clipping/exact_kernel.h"
-#include "fathom/clipping/nesting.h"
-#include "fathom/clipping/pieces.h"
-#include "fathom/clipping/ring_crossings.h"
 #include "fathom/clipping/rings.h"
-#include "fathom/clipping/touches.h"
-#include "fathom/clipping/wedges.h"
 #include "fathom/clipping/weiler_atherton.h"
-#include "fathom/clipping/weiler_atherton_lists.h"
+#include "fathom/clipping/weiler_atherton/contacts.h"
+#include "fathom/clipping/weiler_atherton/nesting.h"
+#include "fathom/clipping/weiler_atherton/ring_crossings.h"
+#include "fathom/clipping/weiler_atherton/touches.h"
+#include "fathom/clipping/weiler_atherton/wedges.h"
+#include "fathom/clipping/weiler_atherton/weiler_atherton_lists.h"
 
 namespace fathom::clipping {
 namespace {

@@ -1,4 +1,4 @@
-#include "fathom/clipping/nesting.h"
+#include "fathom/clipping/weiler_atherton/nesting.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Whether rings that touch cross, against what lies on either side of a ring.
-#include "fathom/clipping/ring_crossings.h"
+#include "fathom/clipping/weiler_atherton/ring_crossings.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "fathom/clipping/exact_kernel.h"
-#include "fathom/clipping/touches.h"
+#include "fathom/clipping/weiler_atherton/touches.h"
 #include "tests/clipping/print.h"
 #include "tests/clipping/random_polygons.h"
 #include "tests/effort.h"

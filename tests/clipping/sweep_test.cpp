@@ -1,5 +1,5 @@
 // What lies below an edge, against a search through all edges.
-#include "fathom/clipping/sweep.h"
+#include "fathom/clipping/weiler_atherton/sweep.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <set>
 
 #include "fathom/clipping/exact_kernel.h"
-#include "fathom/clipping/touches.h"
+#include "fathom/clipping/weiler_atherton/touches.h"
 #include "tests/clipping/print.h"
 #include "tests/clipping/random_polygons.h"
 #include "tests/effort.h"

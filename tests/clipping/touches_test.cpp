@@ -1,13 +1,13 @@
 // Where rings of one side touch or cross, against a look at all pairs of edges.
-#include "fathom/clipping/touches.h"
+#include "fathom/clipping/weiler_atherton/touches.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "fathom/clipping/contacts.h"
 #include "fathom/clipping/exact_kernel.h"
+#include "fathom/clipping/weiler_atherton/contacts.h"
 #include "fathom/failures/errors.h"
 #include "tests/clipping/print.h"
 #include "tests/clipping/random_polygons.h"

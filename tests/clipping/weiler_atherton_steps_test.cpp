@@ -3,12 +3,12 @@
 
 #include <sstream>
 
-#include "fathom/clipping/contacts.h"
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/rings.h"
-#include "fathom/clipping/wedges.h"
 #include "fathom/clipping/weiler_atherton.h"
-#include "fathom/clipping/weiler_atherton_sides.h"
+#include "fathom/clipping/weiler_atherton/contacts.h"
+#include "fathom/clipping/weiler_atherton/wedges.h"
+#include "fathom/clipping/weiler_atherton/weiler_atherton_sides.h"
 
 namespace fathom::clipping {
 namespace {

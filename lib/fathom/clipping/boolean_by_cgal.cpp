@@ -10,9 +10,9 @@
 #include <set>
 #include <utility>
 
-#include "fathom/clipping/numbered_points.h"
-#include "fathom/clipping/pieces.h"
 #include "fathom/clipping/rings.h"
+#include "fathom/clipping/weiler_atherton/nesting.h"
+#include "fathom/clipping/weiler_atherton/numbered_points.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::clipping {

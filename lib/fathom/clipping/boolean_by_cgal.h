@@ -10,7 +10,8 @@
 /// CGAL's Boolean set operations ([CGAL], 2D Regularized Boolean Set-Operations): another way to
 /// the answers of weiler_atherton(), and the judge of answers. What a region is, which points it
 /// has and where its border runs, is CGAL's own; ours is how rings are checked on their way in
-/// (rings.h), and the form of the answer (pieces.h), so that equal regions are equal lists.
+/// (rings.h), and the form of the answer (weiler_atherton/nesting.h), so that equal regions are
+/// equal lists.
 namespace fathom::clipping {
 
 /// Subject ∩ clip, subject − clip or subject ∪ clip, as weiler_atherton() gives them. A side is the

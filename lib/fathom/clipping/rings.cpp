@@ -5,9 +5,9 @@
 #include <numeric>
 #include <type_traits>
 
-#include "fathom/clipping/contacts.h"
 #include "fathom/clipping/exact_kernel.h"
-#include "fathom/clipping/nesting.h"
+#include "fathom/clipping/weiler_atherton/contacts.h"
+#include "fathom/clipping/weiler_atherton/nesting.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/threads/interruption.h"

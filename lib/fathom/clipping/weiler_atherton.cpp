@@ -2,14 +2,14 @@
 
 #include <utility>
 
-#include "fathom/clipping/contacts.h"
 #include "fathom/clipping/exact_kernel.h"
-#include "fathom/clipping/numbered_points.h"
-#include "fathom/clipping/pieces.h"
 #include "fathom/clipping/rings.h"
-#include "fathom/clipping/weiler_atherton_lists.h"
-#include "fathom/clipping/weiler_atherton_sides.h"
-#include "fathom/clipping/weiler_atherton_walk.h"
+#include "fathom/clipping/weiler_atherton/contacts.h"
+#include "fathom/clipping/weiler_atherton/nesting.h"
+#include "fathom/clipping/weiler_atherton/numbered_points.h"
+#include "fathom/clipping/weiler_atherton/weiler_atherton_lists.h"
+#include "fathom/clipping/weiler_atherton/weiler_atherton_sides.h"
+#include "fathom/clipping/weiler_atherton/weiler_atherton_walk.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::clipping {

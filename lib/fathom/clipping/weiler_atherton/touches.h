@@ -3,8 +3,8 @@
 #include <optional>
 #include <variant>
 
-#include "fathom/clipping/numbered_points.h"
-#include "fathom/clipping/sweep.h"
+#include "fathom/clipping/weiler_atherton/numbered_points.h"
+#include "fathom/clipping/weiler_atherton/sweep.h"
 
 /// Where rings of one side touch.
 namespace fathom::clipping {

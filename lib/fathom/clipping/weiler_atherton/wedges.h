@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fathom/clipping/numbered_points.h"
+#include "fathom/clipping/weiler_atherton/numbered_points.h"
 
 /// Where closed lists pass through one point more than once: which way each goes on.
 namespace fathom::clipping {

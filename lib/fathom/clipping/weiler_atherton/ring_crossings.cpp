@@ -1,4 +1,4 @@
-#include "fathom/clipping/ring_crossings.h"
+#include "fathom/clipping/weiler_atherton/ring_crossings.h"
 
 #include <algorithm>
 #include <map>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "fathom/clipping/sweep.h"
+#include "fathom/clipping/weiler_atherton/sweep.h"
 #include "fathom/threads/interruption.h"
 
 namespace fathom::clipping {

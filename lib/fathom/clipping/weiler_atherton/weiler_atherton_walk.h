@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fathom/clipping/weiler_atherton_lists.h"
+#include "fathom/clipping/weiler_atherton/weiler_atherton_lists.h"
 
 /// Weiler–Atherton, step 3: the walk.
 namespace fathom::clipping {

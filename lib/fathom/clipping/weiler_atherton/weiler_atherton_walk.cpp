@@ -1,12 +1,12 @@
-#include "fathom/clipping/weiler_atherton_walk.h"
+#include "fathom/clipping/weiler_atherton/weiler_atherton_walk.h"
 
 #include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
 
-#include "fathom/clipping/sweep.h"
-#include "fathom/clipping/wedges.h"
+#include "fathom/clipping/weiler_atherton/sweep.h"
+#include "fathom/clipping/weiler_atherton/wedges.h"
 
 namespace fathom::clipping {
 namespace {

@@ -1,12 +1,12 @@
-#include "fathom/clipping/weiler_atherton_lists.h"
+#include "fathom/clipping/weiler_atherton/weiler_atherton_lists.h"
 
 #include <algorithm>
 #include <array>
 #include <span>
 #include <utility>
 
-#include "fathom/clipping/sweep.h"
-#include "fathom/clipping/wedges.h"
+#include "fathom/clipping/weiler_atherton/sweep.h"
+#include "fathom/clipping/weiler_atherton/wedges.h"
 #include "fathom/threads/interruption.h"
 
 namespace fathom::clipping {

@@ -1,4 +1,4 @@
-#include "fathom/clipping/weiler_atherton_sides.h"
+#include "fathom/clipping/weiler_atherton/weiler_atherton_sides.h"
 
 #include <map>
 #include <type_traits>
@@ -6,9 +6,9 @@
 
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/rings.h"
-#include "fathom/clipping/sweep.h"
-#include "fathom/clipping/touches.h"
-#include "fathom/clipping/wedges.h"
+#include "fathom/clipping/weiler_atherton/sweep.h"
+#include "fathom/clipping/weiler_atherton/touches.h"
+#include "fathom/clipping/weiler_atherton/wedges.h"
 
 namespace fathom::clipping {
 namespace {

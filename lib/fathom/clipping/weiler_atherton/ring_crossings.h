@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "fathom/clipping/numbered_points.h"
+#include "fathom/clipping/weiler_atherton/numbered_points.h"
 
 /// Whether rings that touch cross each other.
 namespace fathom::clipping {

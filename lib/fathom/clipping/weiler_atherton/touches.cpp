@@ -1,4 +1,4 @@
-#include "fathom/clipping/touches.h"
+#include "fathom/clipping/weiler_atherton/touches.h"
 
 #include <algorithm>
 #include <map>
@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "fathom/clipping/contacts.h"
-#include "fathom/clipping/sweep_order.h"
+#include "fathom/clipping/weiler_atherton/contacts.h"
+#include "fathom/clipping/weiler_atherton/sweep.h"
 #include "fathom/failures/errors.h"
 #include "fathom/threads/interruption.h"
 

@@ -1,10 +1,9 @@
-#include "fathom/clipping/sweep.h"
+#include "fathom/clipping/weiler_atherton/sweep.h"
 
 #include <algorithm>
 #include <numeric>
 #include <set>
 
-#include "fathom/clipping/sweep_order.h"
 #include "fathom/threads/interruption.h"
 
 namespace fathom::clipping {

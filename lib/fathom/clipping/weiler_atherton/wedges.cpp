@@ -1,4 +1,4 @@
-#include "fathom/clipping/wedges.h"
+#include "fathom/clipping/weiler_atherton/wedges.h"
 
 #include <algorithm>
 #include <limits>

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "fathom/clipping/numbered_points.h"
 #include "fathom/clipping/weiler_atherton.h"
+#include "fathom/clipping/weiler_atherton/numbered_points.h"
 
 /// Weiler–Atherton, step 2: the lists of subject and clip, with their entering and leaving
 /// contacts.

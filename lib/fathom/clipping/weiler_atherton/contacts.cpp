@@ -1,4 +1,4 @@
-#include "fathom/clipping/contacts.h"
+#include "fathom/clipping/weiler_atherton/contacts.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_2_algorithms.h>

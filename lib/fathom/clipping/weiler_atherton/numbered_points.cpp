@@ -1,4 +1,4 @@
-#include "fathom/clipping/numbered_points.h"
+#include "fathom/clipping/weiler_atherton/numbered_points.h"
 
 #include <algorithm>
 
