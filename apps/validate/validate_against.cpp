@@ -11,7 +11,7 @@
 #include "apps/validate/validate_input.h"
 #include "apps/validate/validate_modes.h"
 #include "apps/validate/validate_report.h"
-#include "fathom/attribution/attribute_and_name.h"
+#include "fathom/attribution/attribution.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/attribution/other_scene.h"
 #include "fathom/failures/errors.h"

@@ -23,7 +23,7 @@
 #include "apps/validate/report/report_json.h"
 #include "apps/validate/report/reported_result.h"
 #include "apps/validate/report/z_fighting.h"
-#include "fathom/attribution/worst_pixels.h"
+#include "fathom/attribution/cause.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/rgb_image.h"
 
@@ -62,9 +62,9 @@ std::string line_of(const ValidationCase& c, bool after_verdict) {
     }
     if (!clause.empty()) counts += (counts.empty() ? "" : ", ") + clause;
   }
-  std::string text =
-      fmt::format("{}: {}; median bound {:.2g} of the depth, {:.2f} % of the pixels undecided\n",
-                  title_of(c), counts, a.median_relative_width, 100 * a.may_share);
+  std::string text = fmt::format(
+      "{}: {}; median bound {:.2g} of the depth, {:.2f} % of the pixels undecided\n", title_of(c),
+      counts, a.sharpness.median_relative_width, 100 * a.sharpness.may_share);
   for (const attribution::Finding& f : a.findings) {
     text += line_of(f, after_verdict && &f == &a.findings.front());
   }

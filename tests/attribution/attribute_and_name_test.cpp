@@ -1,12 +1,11 @@
-#include "fathom/attribution/attribute_and_name.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "fathom/attribution/model/clip_from_held.h"
+#include "fathom/attribution/attribution.h"
 #include "fathom/attribution/model/named_models.h"
+#include "fathom/attribution/model/renderer_camera.h"
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/camera/camera_making.h"
 #include "tests/attribution/float_rasterizer.h"
@@ -79,8 +78,8 @@ TEST_P(Faults, NoneLeavesNothingUnexplained) {
   EXPECT_EQ(found.count(PixelClass::unexplained), 0U);
   EXPECT_TRUE(found.findings.empty());
   EXPECT_GT(found.count(PixelClass::equal), 9000U);  // the background alone has as many
-  EXPECT_LT(found.may_share, 0.05);
-  RecordProperty("steps", std::to_string(found.median_steps_width));
+  EXPECT_LT(found.sharpness.may_share, 0.05);
+  RecordProperty("steps", std::to_string(found.sharpness.median_steps_width));
 }
 
 TEST_P(Faults, HalfAPixel) {
@@ -158,12 +157,12 @@ TEST_P(Bias, OfOneCode) {
     const Attribution found = attribute_and_name(
         truth, draw_in_binary32(truth.mesh, truth.camera, model, {.bias_codes = codes}), model);
     ASSERT_EQ(found.findings.size(), 1U)
-        << found.bias_steps << " ± " << found.bias_deviation << " in " << found.bias_triangles;
+        << found.bias.steps << " ± " << found.bias.deviation << " in " << found.bias.triangles;
     EXPECT_EQ(found.findings[0].kind, "bias") << found.findings[0].text;
-    EXPECT_EQ(std::signbit(found.bias_steps), codes < 0);
+    EXPECT_EQ(std::signbit(found.bias.steps), codes < 0);
     // Roundings that do not cancel are worth a fifth of a code here; three quarters are named.
     if (GetParam().codes == 1) {
-      EXPECT_NEAR(found.bias_steps, codes, 0.25);
+      EXPECT_NEAR(found.bias.steps, codes, 0.25);
     }
   }
 }
@@ -260,7 +259,7 @@ TEST(RayModel, ExplainsMoellerTrumboreAndCatchesFaults) {
   };
   const Attribution none = judged({});
   EXPECT_EQ(none.count(PixelClass::unexplained), 0U);
-  EXPECT_LT(none.may_share, 0.01);
+  EXPECT_LT(none.sharpness.may_share, 0.01);
   expect_named(judged({.shift_x = 0.5, .shift_y = 0.5}), "shift");
   expect_named(judged({.shift_x = 1.0 / 64}), "shift");
   const std::uint32_t visible = truth.triangles[30 * 80 + 40];

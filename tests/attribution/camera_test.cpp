@@ -3,8 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "fathom/attribution/model/opengl_matrices.h"
-#include "fathom/attribution/ray/camera_rays.h"
+#include "fathom/attribution/model/renderer_camera.h"
 
 /// Our camera as rays and as OpenGL's matrices: both say what the specification says.
 namespace fathom::attribution {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/attribution/model/renderer_camera.h"
 #include "fathom/attribution/model/window_depth.h"
-#include "fathom/attribution/ray/camera_rays.h"
 
 namespace fathom::test {
 namespace {

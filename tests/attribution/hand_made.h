@@ -40,7 +40,7 @@ inline attribution::OtherMap same_as(const attribution::Truth& truth) {
 inline attribution::Attribution all_equal(const attribution::Truth& truth) {
   attribution::Attribution found;
   found.classes.assign(truth.depths.size(), attribution::PixelClass::equal);
-  found.absent.assign(truth.depths.size(), no_surface);
+  found.clues.absent.assign(truth.depths.size(), no_surface);
   found.counts[0] = truth.depths.size();
   return found;
 }

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "fathom/attribution/attribute_and_name.h"
-#include "fathom/attribution/model/clip_from_held.h"
+#include "fathom/attribution/attribution.h"
 #include "fathom/attribution/model/named_models.h"
+#include "fathom/attribution/model/renderer_camera.h"
 #include "fathom/camera/camera_making.h"
 #include "tests/attribution/float_rasterizer.h"
 #include "tests/attribution/halfs.h"

@@ -10,8 +10,8 @@
 
 #include "fathom/attribution/cause.h"
 #include "fathom/attribution/model/named_models.h"
+#include "fathom/attribution/model_survey.h"
 #include "fathom/attribution/other_scene.h"
-#include "fathom/attribution/pixels/foreign_values.h"
 #include "tests/attribution/sphere_maps.h"
 
 /// What is said of maps whose renderer was called by a wrong name.

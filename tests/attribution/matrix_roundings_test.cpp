@@ -8,7 +8,7 @@
 #include <random>
 
 #include "fathom/attribution/attribution.h"
-#include "fathom/attribution/model/clip_from_held.h"
+#include "fathom/attribution/model/renderer_camera.h"
 #include "fathom/camera/camera_making.h"
 #include "fathom/numeric/unit_roundoff.h"
 
@@ -103,14 +103,14 @@ TEST(MatrixRoundings, OfTwoMatricesAreMore) {
 
 TEST(Bias, IsMoreThanTheMatrixCanBe) {
   Attribution found;
-  found.bias_triangles = 100;
-  found.bias_deviation = 0.02;
+  found.bias.triangles = 100;
+  found.bias.deviation = 0.02;
   for (const double sign : {-1, 1}) {
-    found.bias_steps = sign;
-    found.bias_shared = 0.9;
-    EXPECT_TRUE(found.is_biased());
-    found.bias_shared = 0.95;
-    EXPECT_FALSE(found.is_biased());
+    found.bias.steps = sign;
+    found.bias.shared = 0.9;
+    EXPECT_TRUE(found.bias.is_significant());
+    found.bias.shared = 0.95;
+    EXPECT_FALSE(found.bias.is_significant());
   }
 }
 

@@ -36,11 +36,11 @@ TEST(ModelChoice, SixteenBits) {
 TEST(ModelChoice, TheNarrowest) {
   const Truth truth = sphere(0.5, 20);
   const ModelChoice choice = chosen_model(truth, in_codes(truth, 52));
-  const double width = choice.chosen.attribution.median_relative_width;
+  const double width = choice.chosen.attribution.sharpness.median_relative_width;
   for (const RendererModel& model : named_models()) {
     const Attribution other = attribute(truth, in_codes(truth, 52), model);
     EXPECT_EQ(other.count(PixelClass::unexplained), 0U);
-    EXPECT_LE(width, other.median_relative_width) << model.name;
+    EXPECT_LE(width, other.sharpness.median_relative_width) << model.name;
   }
 }
 

@@ -1,6 +1,6 @@
-#include "fathom/attribution/model/opengl_drivers.h"
-
 #include <gtest/gtest.h>
+
+#include "fathom/attribution/model/named_models.h"
 
 namespace fathom::attribution {
 namespace {

@@ -1,9 +1,9 @@
-#include "fathom/attribution/faults/pixel_groups.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string_view>
+
+#include "fathom/attribution/faults/pixels_at_fault.h"
 
 namespace fathom::attribution {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "fathom/attribution/pixels/corner_numbers.h"
+#include "fathom/attribution/truth.h"
 
 /// What fragments allow together: a square of two triangles, the sample near their diagonal.
 namespace fathom::attribution {

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "fathom/attribution/pixels/corner_numbers.h"
 #include "fathom/attribution/raster/clip_vertex.h"
+#include "fathom/attribution/truth.h"
 #include "fathom/numeric/rounding.h"
 
 /// Meshes that a renderer holds in parts: where their corners are, however it computed.

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/attribution/attribute_and_name.h"
+#include "fathom/attribution/attribution.h"
 #include "fathom/attribution/model/named_models.h"
 #include "tests/attribution/float_rasterizer.h"
 #include "tests/effort.h"

@@ -1,6 +1,6 @@
-#include "fathom/attribution/pixels/storage_step.h"
-
 #include <gtest/gtest.h>
+
+#include "fathom/attribution/pixels/stored_values.h"
 
 namespace fathom::attribution {
 namespace {

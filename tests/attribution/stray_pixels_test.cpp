@@ -52,8 +52,8 @@ std::vector<std::size_t> sure_pixels(const Truth& truth, const RightMap& right, 
   const Attribution found = attribute(truth, right.map, model_named(right.model));
   const std::size_t width = truth.camera.width;
   std::vector<std::size_t> sure;
-  for (std::size_t i = 0; i < found.alone.size(); ++i) {
-    if (found.alone[i] != 0 && i / width % 3 == 0 && i % width % 3 == 0) sure.push_back(i);
+  for (std::size_t i = 0; i < found.clues.alone.size(); ++i) {
+    if (found.clues.alone[i] != 0 && i / width % 3 == 0 && i % width % 3 == 0) sure.push_back(i);
   }
   std::vector<std::size_t> chosen;
   for (std::size_t k = 0; k < count; ++k)

@@ -41,7 +41,7 @@ struct Wall {
   void remove(std::uint32_t triangle, std::size_t pixels = 9) {
     for (std::size_t i = 0; i < truth.triangles.size() && pixels > 0; ++i) {
       if (truth.triangles[i] != triangle) continue;
-      found.absent[i] = triangle;
+      found.clues.absent[i] = triangle;
       test::set_unexplained(found, i);
       --pixels;
     }
@@ -89,7 +89,7 @@ TEST(MissingTriangle, NeighboursOfFewPixelsCountTogether) {
   }
   // In the first row of either: the last two pixels of one, the first of the other.
   for (const std::size_t pixel : {9U * 30 + 13, 9U * 30 + 14, 9U * 30 + 15}) {
-    wall.found.absent[pixel] = wall.truth.triangles[pixel];
+    wall.found.clues.absent[pixel] = wall.truth.triangles[pixel];
     test::set_unexplained(wall.found, pixel);
   }
   EXPECT_EQ(triangles_at_fault(wall.truth, wall.other, wall.found).size(), 2U);
@@ -146,7 +146,7 @@ TEST(CullingOfSome, ShowsWhatIsBehind) {
 
 TEST(Ties, AreCounted) {
   Wall wall;
-  wall.found.wrong_ties = 7;
+  wall.found.clues.wrong_ties = 7;
   const auto findings = triangles_at_fault(wall.truth, wall.other, wall.found);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].kind, "ties");

@@ -1,9 +1,8 @@
-#include "fathom/attribution/model/written_depth.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "fathom/attribution/model/window_depth.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/unit_roundoff.h"
 

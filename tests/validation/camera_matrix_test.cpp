@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "fathom/attribution/model/clip_from_held.h"
+#include "fathom/attribution/model/renderer_camera.h"
 
 namespace fathom::validation {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "fathom/attribution/model/written_depth.h"
+#include "fathom/attribution/model/window_depth.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/opengl/gl_functions.h"
 #include "validation/opengl/shader_program.h"

@@ -1,5 +1,3 @@
-#include "fathom/attribution/raster/vtk_shift.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -7,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/attribution/raster/clip_vertex.h"
 #include "fathom/camera/camera_making.h"
 #include "validation/vtk/vtk_renderer.h"
 

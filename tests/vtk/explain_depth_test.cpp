@@ -29,8 +29,8 @@ void expect_explained(const DepthVerdict& verdict, std::size_t least_pixels = 10
   EXPECT_TRUE(verdict.is_good()) << verdict;
   EXPECT_TRUE(verdict.left_out.empty()) << verdict;
   EXPECT_GE(covered_pixels(verdict), least_pixels);
-  EXPECT_LT(verdict.attribution.median_relative_width, 2e-5);
-  EXPECT_LT(verdict.attribution.may_share, 0.25);
+  EXPECT_LT(verdict.attribution.sharpness.median_relative_width, 2e-5);
+  EXPECT_LT(verdict.attribution.sharpness.may_share, 0.25);
 }
 
 TEST(ExplainDepth, OfOneActor) {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "fathom/attribution/model/opengl_matrices.h"
-#include "fathom/attribution/model/written_depth.h"
+#include "fathom/attribution/model/renderer_camera.h"
+#include "fathom/attribution/model/window_depth.h"
 #include "fathom/geometry/eigen_arrays.h"
 
 namespace fathom::validation {

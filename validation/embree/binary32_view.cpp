@@ -1,6 +1,6 @@
 #include "validation/embree/binary32_view.h"
 
-#include "fathom/attribution/ray/camera_rays.h"
+#include "fathom/attribution/model/renderer_camera.h"
 
 namespace fathom::validation {
 namespace {

@@ -6,10 +6,9 @@
 #include <array>
 #include <limits>
 
-#include "fathom/attribution/model/clip_from_held.h"
-#include "fathom/attribution/model/opengl_drivers.h"
+#include "fathom/attribution/model/named_models.h"
+#include "fathom/attribution/model/renderer_camera.h"
 #include "fathom/attribution/model/window_depth.h"
-#include "fathom/attribution/ray/camera_rays.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/unit_roundoff.h"
 #include "validation/opengl/drawn_mesh.h"

@@ -9,7 +9,7 @@
 
 #include <array>
 
-#include "fathom/attribution/ray/camera_rays.h"
+#include "fathom/attribution/model/renderer_camera.h"
 
 namespace fathom::validation {
 namespace {

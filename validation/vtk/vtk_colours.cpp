@@ -24,7 +24,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/attribution/model/opengl_matrices.h"
+#include "fathom/attribution/model/renderer_camera.h"
 #include "fathom/failures/errors.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/vtk/surfaceless_window.h"

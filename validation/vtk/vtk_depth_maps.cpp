@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "fathom/attribution/model/opengl_drivers.h"
+#include "fathom/attribution/model/named_models.h"
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/depth_map.h"

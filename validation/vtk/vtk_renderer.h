@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "fathom/attribution/model/opengl_matrices.h"
-#include "fathom/attribution/model/written_depth.h"
+#include "fathom/attribution/model/renderer_camera.h"
+#include "fathom/attribution/model/window_depth.h"
 #include "fathom/attribution/world_mesh.h"
 #include "fathom/depth_format/depth_format.h"
 #include "validation/variants/vtk_variant.h"

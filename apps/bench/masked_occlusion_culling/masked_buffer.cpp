@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "fathom/attribution/model/opengl_matrices.h"
+#include "fathom/attribution/model/renderer_camera.h"
 
 namespace fathom::bench {
 namespace {

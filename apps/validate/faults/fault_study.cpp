@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/attribution/attribute_and_name.h"
+#include "fathom/attribution/attribution.h"
 
 namespace fathom::validation {
 namespace {

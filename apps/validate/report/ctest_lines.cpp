@@ -29,7 +29,7 @@ std::string to_ctest_lines(const ValidationCase& c, const std::string& cause,
     text += number(attribution::name_of(static_cast<attribution::PixelClass>(k)) + " pixels",
                    std::to_string(a.counts[k]));
   }
-  text += number("median relative bound", fmt::format("{:.6g}", a.median_relative_width));
+  text += number("median relative bound", fmt::format("{:.6g}", a.sharpness.median_relative_width));
   text += number("greatest relative error", fmt::format("{:.6g}", a.errors.greatest_relative));
   text += number("greatest error", fmt::format("{:.6g}", a.errors.greatest));
   return text + picture("Classes of pixels", pictures.classes) +

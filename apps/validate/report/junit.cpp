@@ -8,7 +8,7 @@
 #include "apps/validate/report/cause.h"
 #include "apps/validate/report/xml.h"
 #include "apps/validate/report/z_fighting.h"
-#include "fathom/attribution/worst_pixels.h"
+#include "fathom/attribution/cause.h"
 
 namespace fathom::validation {
 namespace {
@@ -69,7 +69,7 @@ XmlElement properties_of(const ValidationCase& c) {
   if (c.predicted_fights) {
     add("z-fight pixels by the format alone", std::to_string(*c.predicted_fights));
   }
-  add("median relative bound", fmt::format("{:.3g}", a.median_relative_width));
+  add("median relative bound", fmt::format("{:.3g}", a.sharpness.median_relative_width));
   add("greatest relative error", fmt::format("{:.3g}", a.errors.greatest_relative));
   return properties;
 }

@@ -5,7 +5,7 @@
 
 #include "apps/validate/report/cause.h"
 #include "apps/validate/report/reported_result.h"
-#include "fathom/attribution/worst_pixels.h"
+#include "fathom/attribution/cause.h"
 #include "fathom/text/version.h"
 
 namespace fathom::validation {
@@ -91,15 +91,15 @@ Json result(const ValidationCase& c) {
       {"pixels", has_numbers ? Json(fighting) : Json(nullptr)},
       {"at_least", fighting},
       {"by_format_alone", c.predicted_fights ? Json(*c.predicted_fights) : Json(nullptr)}};
-  json["bounds"] = {{"median_relative_width", number(a.median_relative_width)},
-                    {"median_width_in_steps", number(a.median_steps_width)},
-                    {"may_share", a.may_share}};
+  json["bounds"] = {{"median_relative_width", number(a.sharpness.median_relative_width)},
+                    {"median_width_in_steps", number(a.sharpness.median_steps_width)},
+                    {"may_share", a.sharpness.may_share}};
   json["errors"] = {{"pixels", a.errors.pixels},
                     {"greatest", a.errors.greatest},
                     {"mean", a.errors.mean},
                     {"greatest_relative", a.errors.greatest_relative},
                     {"median_relative", a.errors.median_relative}};
-  json["bias_in_steps"] = a.bias_steps;
+  json["bias_in_steps"] = a.bias.steps;
   json["findings"] = list_of(a.findings);
   json["notes"] = list_of(a.notes);
   json["worst"] = Json::array();

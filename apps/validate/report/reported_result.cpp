@@ -24,7 +24,7 @@ Report reported(const std::vector<ValidationCase>& cases) {
       result.counts = c.attribution.counts;
       result.median_error = c.attribution.errors.median_relative;
       result.greatest_error = c.attribution.errors.greatest_relative;
-      result.median_bound = c.attribution.median_relative_width;
+      result.median_bound = c.attribution.sharpness.median_relative_width;
       result.findings = c.attribution.findings;
     }
     report.results.push_back(std::move(result));

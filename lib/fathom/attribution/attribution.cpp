@@ -1,17 +1,147 @@
 #include "fathom/attribution/attribution.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
 #include <numeric>
+#include <utility>
 
-#include "fathom/attribution/attribute_bands.h"
-#include "fathom/attribution/fragment_source.h"
+#include "fathom/attribution/fragment.h"
 #include "fathom/attribution/pixels/pixel_judge.h"
-#include "fathom/attribution/pixels/statistics.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::attribution {
+
+std::string name_of(PixelClass pixel_class) {
+  constexpr const char* names[] = {
+      "equal",   "within quantization", "within arithmetic", "edge",
+      "z-fight", "missed surface",      "convention",        "unexplained"};
+  return names[static_cast<std::size_t>(pixel_class)];
+}
+
 namespace {
+
+double median(std::vector<double>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void set_images(const std::vector<PixelResult>& pixels, Attribution& result) {
+  const std::size_t count = pixels.size();
+  result.classes.resize(count);
+  result.least.assign(count, std::numeric_limits<float>::quiet_NaN());
+  result.greatest = result.least;
+  result.clues.absent.resize(count);
+  result.clues.alone.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const PixelResult& p = pixels[i];
+    result.classes[i] = p.pixel_class;
+    result.clues.absent[i] = p.absent;
+    result.clues.alone[i] = p.alone ? 1 : 0;
+    ++result.counts[static_cast<std::size_t>(p.pixel_class)];
+    result.clues.wrong_ties += p.wrong_tie ? 1 : 0;
+    if (!p.visible) continue;
+    result.least[i] = static_cast<float>(p.visible->depths.lower);
+    result.greatest[i] = static_cast<float>(p.visible->depths.upper);
+  }
+}
+
+Sharpness sharpness_of(const std::vector<PixelResult>& pixels) {
+  std::vector<double> widths, steps;
+  std::uint64_t may = 0, touched = 0;
+  for (const PixelResult& p : pixels) {
+    may += p.may ? 1 : 0;
+    touched += p.touched ? 1 : 0;
+    if (!p.visible || !(p.visible->relative_width >= 0)) continue;  // none between two infinities
+    widths.push_back(p.visible->relative_width);
+    steps.push_back(p.visible->steps_width);
+  }
+  return {.median_relative_width = median(widths),
+          .median_steps_width = median(steps),
+          .may_share = touched == 0 ? 0 : static_cast<double>(may) / static_cast<double>(touched)};
+}
+
+DepthErrors errors_of(const std::vector<PixelResult>& pixels) {
+  DepthErrors errors;
+  std::vector<double> relative;
+  double sum = 0;
+  for (const PixelResult& p : pixels) {
+    if (!p.error) continue;
+    ++errors.pixels;
+    sum += p.error->absolute;
+    errors.greatest = std::max(errors.greatest, p.error->absolute);
+    errors.greatest_relative = std::max(errors.greatest_relative, p.error->relative);
+    relative.push_back(p.error->relative);
+  }
+  errors.mean = relative.empty() ? 0 : sum / static_cast<double>(relative.size());
+  errors.median_relative = median(relative);
+  return errors;
+}
+
+/// Of the pixels of a triangle: stored minus expected, how much of that roundings may be that all
+/// triangles share, and the widths of the intervals, in steps.
+struct TriangleBias {
+  double sum = 0, shared = 0, widths = 0;
+  std::uint32_t pixels = 0;
+};
+
+/// Roundings are those of a triangle's corners and plane: its pixels share them, so triangles are
+/// what is averaged, each with the inverse square of how uncertain its depth is.
+Bias mean_bias(const std::vector<TriangleBias>& triangles) {
+  Bias bias;
+  std::vector<std::pair<double, double>> means;  // and weights
+  double weights = 0, sum = 0, shared = 0;
+  for (const TriangleBias& t : triangles) {
+    if (t.pixels == 0 || !(t.widths > 0) || std::isinf(t.widths)) continue;
+    const double weight = std::pow(t.pixels / t.widths, 2);
+    means.emplace_back(t.sum / t.pixels, weight);
+    weights += weight;
+    sum += weight * means.back().first;
+    shared += weight * t.shared / t.pixels;
+  }
+  bias.triangles = means.size();
+  if (means.size() < 2) return bias;
+  bias.steps = sum / weights;
+  bias.shared = shared / weights;
+  double squares = 0;
+  for (const auto& [mean, weight] : means) {
+    squares += std::pow(weight * (mean - bias.steps), 2);
+  }
+  bias.deviation = std::sqrt(squares) / weights;
+  return bias;
+}
+
+Bias bias_of(const std::vector<PixelResult>& pixels, const Truth& truth) {
+  std::uint64_t count = 0;
+  std::vector<TriangleBias> triangles(truth.mesh.triangles.size());
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const PixelResult& p = pixels[i];
+    if (!p.bias) continue;
+    ++count;
+    TriangleBias& bias = triangles[truth.triangles[i]];
+    bias.sum += p.bias->off;
+    bias.shared += p.bias->shared;
+    bias.widths += p.visible->steps_width;
+    ++bias.pixels;
+  }
+  Bias bias = mean_bias(triangles);
+  bias.pixels = count;
+  return bias;
+}
+
+/// Numbers of all pixels, in the order of the pixels whatever threads judged them.
+Attribution summary_of(const std::vector<PixelResult>& pixels, const Truth& truth) {
+  Attribution result;
+  set_images(pixels, result);
+  result.sharpness = sharpness_of(pixels);
+  result.errors = errors_of(pixels);
+  result.bias = bias_of(pixels, truth);
+  return result;
+}
 
 /// The fragments of all triangles at the pixels of some rows, pixel by pixel.
 std::vector<std::vector<Fragment>> fragments_in(const FragmentSource& source,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -8,11 +9,26 @@
 #include "fathom/attribution/finding.h"
 #include "fathom/attribution/model/renderer_model.h"
 #include "fathom/attribution/other_map.h"
-#include "fathom/attribution/pixel_class.h"
 #include "fathom/attribution/truth.h"
 
 /// Every pixel of another renderer's map, attributed to a cause (docs/validation.md).
 namespace fathom::attribution {
+
+/// Why a pixel differs from the truth (docs/validation.md, "Classes"): the first that applies.
+enum class PixelClass : std::uint8_t {
+  equal,         ///< the exact depth rounded once to the storage, or background in both
+  quantization,  ///< next to the exact depth in the storage
+  arithmetic,    ///< the surface is the visible one, its depth within the model's bound
+  edge,          ///< another surface or none: closer to an edge than the model can resolve
+  z_fight,       ///< another surface, which the model cannot tell from the visible one by depth
+  missed,        ///< a ray slipped through between triangles that share an edge or a corner
+  convention,    ///< explained by a fault of the whole image that was found and named
+  unexplained
+};
+inline constexpr std::size_t pixel_class_count = 8;
+
+/// "within quantization", "missed surface", …, as reports show it.
+std::string name_of(PixelClass pixel_class);
 
 /// Errors of depth over the pixels where both see the same surface: in scene units, and relative to
 /// the exact depth.
@@ -21,36 +37,57 @@ struct DepthErrors {
   double greatest = 0, mean = 0, greatest_relative = 0, median_relative = 0;
 };
 
+/// How sharp the bounds are.
+struct Sharpness {
+  /// Median width of the depth intervals, relative to the depth and in steps of the storage.
+  double median_relative_width = 0, median_steps_width = 0;
+  /// Of the pixels that triangles touch, the share where one of them may be seen or not.
+  double may_share = 0;
+};
+
+/// Mean of stored minus expected window depths, of pixels where nothing else is near. Raster models
+/// only.
+struct Bias {
+  /// The mean over triangles, weighted by the inverse squares of the widths of their intervals, and
+  /// its standard deviation, in steps of the storage.
+  double steps = 0, deviation = 0;
+  /// How much of the mean may be roundings of an unknown matrix, which all triangles share.
+  double shared = 0;
+  std::uint64_t pixels = 0, triangles = 0;
+
+  /// A constant seems to be added to all window depths: the mean is at least three quarters of a
+  /// step, and its part that the matrix cannot cause is at least four times its deviation.
+  [[nodiscard]] bool is_significant() const {
+    const double mean = steps < 0 ? -steps : steps;
+    return triangles >= 64 && mean >= 0.75 && mean - shared >= 4 * deviation;
+  }
+};
+
+/// What the search for findings starts from.
+struct Clues {
+  /// For each pixel, 1 if the visible triangle is certain to be drawn and no other is near it in
+  /// depth.
+  std::vector<std::uint8_t> alone;
+  /// For each pixel, the visible triangle if the pixel is unexplained and the absence of that
+  /// triangle explains it; otherwise no_surface.
+  std::vector<std::uint32_t> absent;
+  /// Unexplained pixels where, of equal triangles, another is shown than the model's rule lets win.
+  std::uint64_t wrong_ties = 0;
+};
+
 /// Images are rows from the top, as the maps.
 struct Attribution {
   std::vector<PixelClass> classes;
-  /// The values that the model allows for the visible triangle, as depths in scene units; NaN where
-  /// none is seen.
+  /// The values that the model allows for the visible triangle, as depths in scene units; NaN in the
+  /// background.
   std::vector<float> least, greatest;
   /// Pixels of each class.
   std::array<std::uint64_t, pixel_class_count> counts{};
 
-  /// How sharp the bounds are: median width of the depth intervals, relative to the depth and in
-  /// steps of the storage; share of the pixels that triangles touch where one of them may be seen
-  /// or not.
-  double median_relative_width = 0, median_steps_width = 0, may_share = 0;
+  Sharpness sharpness;
   DepthErrors errors;
-  /// Mean over triangles of stored minus expected, in steps of the storage, weighted by the inverse
-  /// squares of the widths of their intervals, the standard deviation of that mean, and how much of
-  /// it roundings of a matrix that is not known may be, which all triangles share; of pixels where
-  /// nothing else is near. Raster models only.
-  double bias_steps = 0, bias_deviation = 0, bias_shared = 0;
-  std::uint64_t bias_pixels = 0, bias_triangles = 0;
-
-  /// 1 where the visible triangle is certain to be drawn and no other is near it in depth.
-  std::vector<std::uint8_t> alone;
-  /// For each pixel, if it is unexplained and the absence of the visible triangle explains it: that
-  /// triangle, else no_surface.
-  std::vector<std::uint32_t> absent;
-  /// For each triangle, the pixels where it is certain to be visible.
-  std::vector<std::uint32_t> certain_pixels;
-  /// Unexplained pixels that show another of equal triangles than the model's rule lets win.
-  std::uint64_t wrong_ties = 0;
+  Bias bias;
+  Clues clues;
   /// What is wrong.
   std::vector<Finding> findings;
   /// Conventions that were recognised (`background`, `model`), and a possible cause: `clip-planes`.
@@ -59,12 +96,6 @@ struct Attribution {
   [[nodiscard]] std::uint64_t count(PixelClass c) const {
     return counts[static_cast<std::size_t>(c)];
   }
-  /// A constant seems to be added to all window depths: the mean is three quarters of a step or
-  /// more, and what of it the matrix cannot be is four times its deviation.
-  [[nodiscard]] bool is_biased() const {
-    const double mean = bias_steps < 0 ? -bias_steps : bias_steps;
-    return bias_triangles >= 64 && mean >= 0.75 && mean - bias_shared >= 4 * bias_deviation;
-  }
 };
 
 /// Compares `other` with the truth, pixel by pixel, as `model` allows. Looks for no findings.
@@ -72,5 +103,20 @@ struct Attribution {
 ///          prove it. Means and errors are sums in binary64.
 /// Needs    maps of the same size; near and far of the truth's camera as the model's mapping does.
 Attribution attribute(const Truth& truth, const OtherMap& other, const RendererModel& model);
+
+/// Rows that are judged together.
+inline constexpr std::uint32_t rows_per_band = 8;
+
+/// attribute() of some bands, numbered from the top. All other pixels count as equal, and in no
+/// further figure.
+Attribution attribute_bands(const Truth& truth, const OtherMap& other, const RendererModel& model,
+                            const std::vector<std::uint32_t>& bands);
+
+/// attribute(), and where pixels stay unexplained or depths are off on the whole, a search for what
+/// would explain them all (docs/validation.md, "Findings"). Each hypothesis is a model or a map
+/// with one thing put right, and holds where at most a tenth of the unexplained pixels is left.
+/// Findings are named; the pixels that the one of the whole image explains become `convention`.
+Attribution attribute_and_name(const Truth& truth, const OtherMap& other,
+                               const RendererModel& model);
 
 }  // namespace fathom::attribution

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "fathom/attribution/attribution.h"
 
@@ -26,5 +27,10 @@ std::string verdict_text(const Truth& truth, const OtherMap& other, const Attrib
 /// in scene units, to 9 digits.
 std::string pixel_text(const Truth& truth, const OtherMap& other, const Attribution& found,
                        std::size_t pixel);
+
+/// The pixels to look at first, at most `count`: unexplained ones, then those of a convention, then
+/// missed ones, then those with the greatest relative errors of depth. Equal ones are left out.
+std::vector<std::size_t> worst_pixels(const Truth& truth, const OtherMap& other,
+                                      const Attribution& found, std::size_t count);
 
 }  // namespace fathom::attribution

@@ -1,7 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
 
+#include "fathom/attribution/model/renderer_model.h"
+#include "fathom/attribution/world_mesh.h"
+#include "fathom/camera/camera.h"
+#include "fathom/geometry/pixel_box.h"
 #include "fathom/numeric/interval.h"
 
 namespace fathom::attribution {
@@ -27,5 +34,50 @@ struct Fragment {
   /// What is stored without any rounding.
   double exact = 0;
 };
+
+/// A box of the image plane that grows with what it is to hold, in pixels from the top left.
+struct ImageBox {
+  double least_x = std::numeric_limits<double>::infinity(), least_y = least_x;
+  double greatest_x = -least_x, greatest_y = -least_x;
+
+  /// Takes in a point and what is up to `margin_x`, `margin_y` from it.
+  void add(double x, double y, double margin_x, double margin_y);
+};
+
+/// All pixels of an image.
+PixelBox whole_image(const Camera& camera);
+
+/// The pixels that a box meets, `more` pixels wider on each side; none where it misses the image.
+PixelBox pixels_of(const ImageBox& box, const Camera& camera, double more);
+
+/// Column and row of a pixel, from the top left, and a fragment there.
+using TakeFragment =
+    std::function<void(std::uint32_t column, std::uint32_t row, const Fragment& fragment)>;
+
+/// The triangles of a mesh as a renderer of a model sees them. Calls may come from several threads.
+class FragmentSource {
+ public:
+  FragmentSource() = default;
+  virtual ~FragmentSource() = default;
+  FragmentSource(const FragmentSource&) = delete;
+  FragmentSource& operator=(const FragmentSource&) = delete;
+
+  /// Pixels outside which the triangle is never covered.
+  [[nodiscard]] virtual PixelBox box(std::uint32_t triangle) const = 0;
+  /// Calls `take(column, row, fragment)` for the pixels of `box` whose sample the triangle covers
+  /// or may cover.
+  virtual void each(std::uint32_t triangle, const PixelBox& box,
+                    const TakeFragment& take) const = 0;
+};
+
+/// `camera` has finite near and far where a raster model has such a mapping; the mesh outlives the
+/// source.
+std::unique_ptr<FragmentSource> fragments(const WorldMesh& mesh, const Camera& camera,
+                                          const RendererModel& model);
+std::unique_ptr<FragmentSource> raster_fragments(const WorldMesh& mesh, const Camera& camera,
+                                                 const SamplePosition& sample,
+                                                 const RasterModel& model);
+std::unique_ptr<FragmentSource> ray_fragments(const WorldMesh& mesh, const Camera& camera,
+                                              const SamplePosition& sample, const RayModel& model);
 
 }  // namespace fathom::attribution

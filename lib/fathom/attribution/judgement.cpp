@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "fathom/attribution/attribute_and_name.h"
+#include "fathom/attribution/attribution.h"
 #include "fathom/attribution/background.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/attribution/model_choice.h"

@@ -33,19 +33,21 @@ bool explains_all(const Attribution& found) {
 /// Whether the map shows surfaces and the depth of none could be compared: each of their pixels may
 /// be an edge, as where a huge triangle passes the eye, so that nearly any map would be explained.
 bool is_vacuous(const Attribution& found, const OtherMap& other) {
-  return found.median_relative_width == 0 &&
+  return found.sharpness.median_relative_width == 0 &&
          std::any_of(other.depths.begin(), other.depths.end(),
                      [](double depth) { return std::isfinite(depth); });
 }
 
 /// The less, the better.
 auto rank(const Attribution& found) {
-  return std::tuple(unexplained(found), found.findings.size(), found.median_relative_width);
+  return std::tuple(unexplained(found), found.findings.size(),
+                    found.sharpness.median_relative_width);
 }
 
 std::string text_of(const ModelTrial& trial) {
   const Attribution& found = trial.attribution;
-  const std::string bounds = fmt::format("bounds {:.2g} of the depth", found.median_relative_width);
+  const std::string bounds =
+      fmt::format("bounds {:.2g} of the depth", found.sharpness.median_relative_width);
   if (explains_all(found)) return trial.model.name + ": every pixel is explained, " + bounds;
   return fmt::format("{}: {} unexplained, {}, {}", trial.model.name,
                      text::counted(unexplained(found), "pixel"),
@@ -239,7 +241,8 @@ double widest_for(const Attribution& mine, const OtherMap& other) {
 
 /// Whether what the named model finds wrong comes before another model, which explains everything.
 bool comes_before(const Attribution& mine, const Attribution& right, const OtherMap& other) {
-  return right.median_relative_width > widest_for(mine, other) * mine.median_relative_width;
+  return right.sharpness.median_relative_width >
+         widest_for(mine, other) * mine.sharpness.median_relative_width;
 }
 
 bool has_storage(const Attribution& found) {

@@ -7,6 +7,7 @@
 #include "fathom/attribution/model/renderer_model.h"
 #include "fathom/attribution/other_map.h"
 #include "fathom/attribution/truth.h"
+#include "fathom/camera/camera.h"
 
 namespace fathom::attribution {
 
@@ -14,7 +15,7 @@ namespace fathom::attribution {
 struct ModelSurvey {
   RendererModel model;
   /// Pixels of the sample that are unexplained; those of the whole map that hold what the model's
-  /// storage cannot (foreign_values.h).
+  /// storage cannot.
   std::uint64_t unexplained = 0, foreign = 0;
   /// Part of the bands with surfaces that the sample is.
   double share = 1;
@@ -35,5 +36,16 @@ ModelSurvey surveyed(const Truth& truth, const OtherMap& other, const RendererMo
 
 /// "gl-unorm24: 12 pixels of a sample unexplained".
 std::string text_of(const ModelSurvey& survey);
+
+/// Pixels that hold a depth which a model's storage cannot have held, whatever was drawn: at least
+/// so many. A coarse storage allows every surface a wide interval, but only few depths in it.
+///
+/// Exact    a depth is foreign where no code lies within what decoding and rounding to binary32 may
+///          lose of it. Where that is more than a quarter of a code, codes are counted: n codes
+///          decode to at most n depths, so of more depths in their range the rest is foreign.
+///          0 for models of rays, for reversed and written window depths, and for depths that were
+///          recorded in another way; binary32 counts from a window depth of 1/2 on.
+std::uint64_t foreign_values(const Camera& camera, const OtherMap& other,
+                             const RendererModel& model);
 
 }  // namespace fathom::attribution

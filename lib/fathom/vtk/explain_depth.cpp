@@ -12,11 +12,11 @@
 #include <ostream>
 #include <utility>
 
-#include "fathom/attribution/attribute_and_name.h"
+#include "fathom/attribution/attribution.h"
 #include "fathom/attribution/cause.h"
-#include "fathom/attribution/model/opengl_drivers.h"
+#include "fathom/attribution/model/named_models.h"
 #include "fathom/attribution/model/window_depth.h"
-#include "fathom/attribution/pixels/corner_numbers.h"
+#include "fathom/attribution/truth.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/vtk/camera_description.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <variant>
 
-#include "fathom/attribution/pixels/storage_step.h"
+#include "fathom/attribution/pixels/stored_values.h"
 #include "fathom/camera/clip_planes.h"
 #include "fathom/geometry/eigen_arrays.h"
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fathom/attribution/faults/deviation.h"
+#include "fathom/attribution/faults/hypotheses.h"
 
 namespace fathom::attribution {
 
@@ -27,5 +28,10 @@ bool is_as_good(double cost, double least);
 /// that is more than chance. Of several that cannot be told apart, the first in the order of
 /// deviation_sets(); the others are its alternatives.
 std::optional<FittedDeviation> simplest_of(const std::vector<FittedDeviation>& fits, double least);
+
+/// What was fitted as a hypothesis: the truth that the deviating camera sees, the map with the
+/// depths put right, a sentence and the estimates.
+Hypothesis deviation_hypothesis(const Truth& truth, const OtherMap& other,
+                                const RendererModel& model, const FittedDeviation& fit);
 
 }  // namespace fathom::attribution

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "fathom/attribution/faults/deviation_choice.h"
-#include "fathom/attribution/faults/normal_equations.h"
 #include "fathom/attribution/faults/residuals.h"
 #include "fathom/attribution/faults/standard_deviations.h"
 #include "fathom/failures/errors.h"

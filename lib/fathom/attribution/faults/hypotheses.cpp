@@ -156,7 +156,8 @@ std::vector<MakeHypothesis> hypotheses(const Truth& truth, const OtherMap& other
     }
   }
   list.emplace_back([&] { return ray_distance(truth.camera, other, model); });
-  list.emplace_back([&] { return shifted(truth, other, model, found.median_relative_width); });
+  list.emplace_back(
+      [&] { return shifted(truth, other, model, found.sharpness.median_relative_width); });
   return list;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,11 @@
 #include "fathom/attribution/truth.h"
 
 namespace fathom::attribution {
+
+/// Pixels that touch, corners counting, as indices row by row from the top left; in the order of
+/// their first pixels.
+std::vector<std::vector<std::size_t>> pixel_groups(std::uint32_t width, std::uint32_t height,
+                                                   const std::function<bool(std::size_t)>& is_one);
 
 /// A finding about some pixels, and which of the unexplained ones it explains: 1 for each that it
 /// does.

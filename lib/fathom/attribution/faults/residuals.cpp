@@ -185,7 +185,7 @@ ResidualSource::ResidualSource(const Truth& truth, const OtherMap& other,
     if (!(truth.depths[i] < infinity)) continue;
     ++surfaces;
     const double width = (double{found.greatest[i]} - found.least[i]) / 2 / truth.depths[i];
-    if (found.alone[i] != 0 && width < infinity) widths.push_back(width);
+    if (found.clues.alone[i] != 0 && width < infinity) widths.push_back(width);
   }
   typical_width_ = widths.empty() ? infinity : median_of(widths);
   stride_ = surfaces / most_pixels + 1;
@@ -200,7 +200,7 @@ bool ResidualSource::has_enough(const Residuals& residuals) const {
 double ResidualSource::relative_width(std::size_t pixel) const {
   const double least = found_.least[pixel], greatest = found_.greatest[pixel];
   const double width = (greatest - least) / (greatest + least);
-  const bool is_known = found_.alone[pixel] != 0 && width < infinity && width > 0;
+  const bool is_known = found_.clues.alone[pixel] != 0 && width < infinity && width > 0;
   const double allowed = is_known ? std::max(width, typical_width_ / 8) : typical_width_;
   if (!model_.recorded) return allowed;
   return allowed + half_step(*model_.recorded, other_.depths[pixel]);

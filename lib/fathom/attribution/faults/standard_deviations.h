@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "fathom/attribution/faults/residuals.h"
@@ -24,5 +25,24 @@ struct StandardDeviations {
 StandardDeviations standard_deviations(const Truth& truth, const Residuals& residuals,
                                        const Eigen::MatrixXd& columns,
                                        const Eigen::VectorXd& weights);
+
+/// The weighted normal equations of columns that are scaled to length 1.
+struct Normal {
+  Eigen::VectorXd scale;
+  Eigen::LLT<Eigen::MatrixXd> products;
+  Eigen::VectorXd right;
+  bool is_regular = false;
+
+  [[nodiscard]] Eigen::VectorXd solution() const {
+    return products.solve(right).cwiseProduct(scale);
+  }
+  /// (AᵀWA)⁻¹
+  [[nodiscard]] Eigen::MatrixXd inverse() const {
+    return scale.asDiagonal() * products.solve(Eigen::MatrixXd(scale.asDiagonal()));
+  }
+};
+
+Normal normal_of(const Eigen::MatrixXd& columns, const Eigen::VectorXd& r,
+                 const Eigen::VectorXd& weights);
 
 }  // namespace fathom::attribution

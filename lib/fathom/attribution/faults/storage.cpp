@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "fathom/attribution/model/window_depth.h"
-#include "fathom/attribution/pixels/storage_step.h"
+#include "fathom/attribution/pixels/stored_values.h"
 #include "fathom/camera/clip_planes.h"
 #include "fathom/numeric/unit_roundoff.h"
 

@@ -10,7 +10,7 @@
 #include <map>
 #include <set>
 
-#include "fathom/attribution/faults/pixel_groups.h"
+#include "fathom/attribution/faults/pixels_at_fault.h"
 #include "fathom/geometry/eigen_arrays.h"
 
 namespace fathom::attribution {
@@ -31,10 +31,10 @@ struct Sightings {
 
 std::map<std::uint32_t, Sightings> sightings(const Truth& truth, const Attribution& found) {
   std::map<std::uint32_t, Sightings> all;
-  for (std::size_t i = 0; i < found.absent.size(); ++i) {
+  for (std::size_t i = 0; i < found.clues.absent.size(); ++i) {
     const std::uint32_t visible = truth.triangles[i];
     if (visible == no_surface) continue;
-    if (found.absent[i] != no_surface) {
+    if (found.clues.absent[i] != no_surface) {
       ++all[visible].absent;
     } else if (found.classes[i] <= PixelClass::arithmetic) {
       ++all[visible].present;
@@ -47,12 +47,12 @@ std::map<std::uint32_t, Sightings> sightings(const Truth& truth, const Attributi
 std::set<std::uint32_t> missing(const Truth& truth, const Attribution& found,
                                 const std::map<std::uint32_t, Sightings>& seen) {
   const auto shows_it = [&](std::size_t i) {
-    return found.absent[i] != no_surface && seen.at(found.absent[i]).is_missing();
+    return found.clues.absent[i] != no_surface && seen.at(found.clues.absent[i]).is_missing();
   };
   std::set<std::uint32_t> triangles;
   for (const auto& group : pixel_groups(truth.camera.width, truth.camera.height, shows_it)) {
     if (group.size() < least_pixels) continue;
-    for (const std::size_t i : group) triangles.insert(found.absent[i]);
+    for (const std::size_t i : group) triangles.insert(found.clues.absent[i]);
   }
   return triangles;
 }
@@ -71,8 +71,8 @@ bool is_turned_away(const Truth& truth, std::uint32_t triangle) {
 /// Whether surfaces are shown where triangles are missing: what is behind them.
 bool shows_what_is_behind(const OtherMap& other, const Attribution& found) {
   std::uint64_t all = 0, surfaces = 0;
-  for (std::size_t i = 0; i < found.absent.size(); ++i) {
-    if (found.absent[i] == no_surface) continue;
+  for (std::size_t i = 0; i < found.clues.absent.size(); ++i) {
+    if (found.clues.absent[i] == no_surface) continue;
     ++all;
     surfaces += std::isfinite(other.depths[i]) ? 1 : 0;
   }
@@ -106,12 +106,12 @@ std::optional<Finding> culling(const Truth& truth, const std::map<std::uint32_t,
 std::vector<Finding> triangles_at_fault(const Truth& truth, const OtherMap& other,
                                         const Attribution& found) {
   std::vector<Finding> findings;
-  if (found.wrong_ties > 0) {
+  if (found.clues.wrong_ties > 0) {
     findings.push_back(
         {"ties",
          "of triangles with the same corners another one is seen than the depth test "
          "lets win",
-         found.wrong_ties});
+         found.clues.wrong_ties});
   }
   const std::map<std::uint32_t, Sightings> seen = sightings(truth, found);
   const std::set<std::uint32_t> gone = missing(truth, found, seen);

@@ -8,12 +8,17 @@
 #include <vector>
 
 #include "fathom/attribution/model/recorded_depth.h"
-#include "fathom/attribution/model/written_depth.h"
+#include "fathom/attribution/model/window_depth.h"
 #include "fathom/depth_format/depth_format.h"
 
 /// What is assumed of a renderer whose map is compared with the truth. docs/validation.md derives
 /// the bounds that follow from it.
 namespace fathom::attribution {
+
+/// The factor by which bounds are enlarged for the binary64 roundings of their own evaluation: each
+/// bound is a sum of at least 2⁻²⁴ times magnitudes whose evaluation here, and that of the values
+/// that they bound, errs by less than 2⁻⁴⁶ of the same magnitudes.
+inline constexpr double own_roundings = 1 + 0x1p-20;
 
 /// Corners that a renderer holds in a frame of their own, in binary32 as position − shift, and
 /// takes to clip coordinates by one matrix, which it has multiplied in binary64 and rounded once.
@@ -31,7 +36,7 @@ struct RasterModel {
   ///
   /// Frame    world, scene units.
   std::array<double, 3> shift{0, 0, 0}, scale{1, 1, 1};
-  /// Whether the shift is the one that VTK's mappers choose for the mesh (raster/vtk_shift.h),
+  /// Whether the shift is the one that VTK's mappers choose for the mesh (raster/clip_vertex.h),
   /// where the matrix is not known; `shift` then says nothing.
   bool shift_as_vtk = false;
   /// The matrix that takes held positions to clip coordinates, row by row, where it is known; its

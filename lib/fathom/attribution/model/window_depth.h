@@ -2,6 +2,7 @@
 
 #include "fathom/camera/camera.h"
 #include "fathom/depth_format/depth_format.h"
+#include "fathom/numeric/interval.h"
 
 namespace fathom::attribution {
 
@@ -28,5 +29,29 @@ struct WindowDepth {
 /// `mapping` is standard, opengl, log_ulrich or one of the reversed and infinite ones; `near` and
 /// `far` are depths.
 WindowDepth window_depth(Projection projection, Mapping mapping, double near, double far);
+
+/// A window depth z that a fragment shader computes in binary32 from q, which is 1/w as it is
+/// interpolated (perspective), or the interpolated window depth (orthographic):
+///   t = term + factor·q;  reversed: z = t;  log_ulrich: z = scale·log2(t).
+struct WrittenDepth {
+  Mapping mapping = Mapping::reversed;
+  bool of_w = true;  ///< q is 1/w
+  float term = 0, factor = 0, scale = 1;
+
+  /// Without the roundings of the shader.
+  [[nodiscard]] double value(double q) const;
+  /// All values that the shader may compute if its q is at most `q_error` from `q`, with log2 as
+  /// exact as the shading language demands ([GLSL46] 4.7.1).
+  [[nodiscard]] Interval values(double q, double q_error) const;
+};
+
+/// The constants for a mapping, `reversed` or `log_ulrich`, from OpenGL's window depths. `near` and
+/// `far` are depths in scene units.
+/// Fails    InputError for a logarithmic depth whose near plane is not in front of the eye.
+WrittenDepth written_depth(Projection projection, Mapping mapping, double near, double far);
+
+/// The greatest error that a shader's log2 may have in binary32 where its exact value is `log2_x`:
+/// 3 ulp, but 2⁻²¹ for x from ½ to 2 ([GLSL46] 4.7.1).
+double log2_error(double log2_x);
 
 }  // namespace fathom::attribution

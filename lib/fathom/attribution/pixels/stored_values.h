@@ -65,4 +65,11 @@ std::unique_ptr<StoredValues> recorded_values(std::unique_ptr<StoredValues> made
 /// Depths as they may be once they are decoded and rounded to binary32.
 Interval rounded_to_binary32(const Interval& depths);
 
+/// The distance of neighbouring binary32 numbers about x.
+double binary32_spacing(double x);
+
+/// A step of the model's storage at a window depth, as a window depth: one code, but not less than
+/// binary32 resolves there, nor than a shader's log2 may err.
+double storage_step(const RasterModel& model, double window);
+
 }  // namespace fathom::attribution

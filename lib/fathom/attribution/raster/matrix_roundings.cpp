@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fathom/attribution/raster/vtk_shift.h"
+#include "fathom/attribution/raster/clip_vertex.h"
 #include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom::attribution {

@@ -3,10 +3,10 @@
 #include <array>
 #include <optional>
 
+#include "fathom/attribution/model/renderer_camera.h"
 #include "fathom/attribution/model/renderer_model.h"
 #include "fathom/attribution/model/window_depth.h"
-#include "fathom/attribution/raster/clip_rows.h"
-#include "fathom/attribution/ray/camera_rays.h"
+#include "fathom/attribution/raster/clip_vertex.h"
 #include "fathom/attribution/world_mesh.h"
 #include "fathom/camera/camera.h"
 

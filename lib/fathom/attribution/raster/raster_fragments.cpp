@@ -5,9 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "fathom/attribution/fragment_source.h"
-#include "fathom/attribution/image_box.h"
-#include "fathom/attribution/model/own_roundings.h"
+#include "fathom/attribution/fragment.h"
+#include "fathom/attribution/model/renderer_model.h"
 #include "fathom/attribution/model/sample_grid.h"
 #include "fathom/attribution/raster/raster_depth.h"
 #include "fathom/attribution/raster/raster_polygon.h"

@@ -8,7 +8,6 @@
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/attribution/raster/clip_vertex.h"
 #include "fathom/attribution/raster/depth_plane.h"
-#include "fathom/attribution/raster/window_vertex.h"
 #include "fathom/camera/camera.h"
 
 namespace fathom::attribution {

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "fathom/attribution/model/window_depth.h"
-#include "fathom/attribution/pixels/storage_step.h"
 #include "fathom/attribution/pixels/stored_values.h"
 #include "fathom/attribution/raster/matrix_roundings.h"
 #include "fathom/numeric/unit_roundoff.h"

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "fathom/attribution/model/renderer_camera.h"
 #include "fathom/attribution/model/renderer_model.h"
-#include "fathom/attribution/ray/camera_rays.h"
 #include "fathom/attribution/ray/vector3.h"
 #include "fathom/camera/camera.h"
 

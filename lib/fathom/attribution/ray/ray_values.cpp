@@ -1,7 +1,6 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/attribution/pixels/storage_step.h"
 #include "fathom/attribution/pixels/stored_values.h"
 
 namespace fathom::attribution {

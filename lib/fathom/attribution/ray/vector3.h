@@ -6,7 +6,7 @@
 #include "fathom/geometry/eigen_arrays.h"
 
 /// Vectors of three binary64 numbers. Bounds here hold for sums in any order, which is Eigen's
-/// business (docs/validation.md, own_roundings.h).
+/// business (docs/validation.md, own_roundings).
 namespace fathom::attribution {
 
 using Vector3 = Eigen::Vector3d;

@@ -1,4 +1,4 @@
-#include <fathom/attribution/attribute_and_name.h>
+#include <fathom/attribution/attribution.h>
 #include <fathom/attribution/model/named_models.h>
 #include <fathom/render.h>
 

@@ -1,7 +1,8 @@
-#include "fathom/attribution/image_box.h"
+#include "fathom/attribution/fragment.h"
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace fathom::attribution {
 
@@ -26,6 +27,28 @@ PixelBox pixels_of(const ImageBox& box, const Camera& camera, double more) {
   };
   return {clamped(box.least_x - more, last_x), clamped(box.greatest_x + more, last_x),
           clamped(box.least_y - more, last_y), clamped(box.greatest_y + more, last_y)};
+}
+
+namespace {
+
+struct Sources {
+  const WorldMesh& mesh;
+  const Camera& camera;
+  const SamplePosition& sample;
+
+  std::unique_ptr<FragmentSource> operator()(const RasterModel& model) const {
+    return raster_fragments(mesh, camera, sample, model);
+  }
+  std::unique_ptr<FragmentSource> operator()(const RayModel& model) const {
+    return ray_fragments(mesh, camera, sample, model);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<FragmentSource> fragments(const WorldMesh& mesh, const Camera& camera,
+                                          const RendererModel& model) {
+  return std::visit(Sources{mesh, camera, model.sample}, model.kind);
 }
 
 }  // namespace fathom::attribution

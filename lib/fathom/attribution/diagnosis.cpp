@@ -1,4 +1,4 @@
-#include "fathom/attribution/attribute_and_name.h"
+#include "fathom/attribution/diagnosis.h"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,11 @@
 #include <string_view>
 #include <utility>
 
+#include "fathom/attribution/attribution.h"
 #include "fathom/attribution/background.h"
-#include "fathom/attribution/diagnosis.h"
 #include "fathom/attribution/faults/depth_relation.h"
+#include "fathom/attribution/faults/deviation_choice.h"
 #include "fathom/attribution/faults/deviation_fit.h"
-#include "fathom/attribution/faults/deviation_hypothesis.h"
 #include "fathom/attribution/faults/hypotheses.h"
 #include "fathom/attribution/faults/pixels_at_fault.h"
 #include "fathom/attribution/faults/storage.h"
@@ -138,8 +138,8 @@ void Search::name_bias() {
   found_.findings.push_back(
       {"bias",
        fmt::format("window depths are biased by {:+.3g} steps of the storage on average",
-                   found_.bias_steps),
-       found_.bias_pixels});
+                   found_.bias.steps),
+       found_.bias.pixels});
 }
 
 void Search::name_storage() {
@@ -258,14 +258,14 @@ bool Search::by_pixels() {
 
 /// What is off within what roundings allow: on the whole it shows.
 void Search::name_what_is_within_bounds() {
-  if (!found_.is_biased()) return;
+  if (!found_.bias.is_significant()) return;
   const std::optional<FittedDeviation> fit = fitted_deviation(truth_, other_, model_, searched_);
   if (!fit || std::string_view(fit->set->kind) == "bias") {
     name_bias();
     return;
   }
   const Hypothesis h = deviation_hypothesis(truth_, other_, model_, *fit);
-  found_.findings.push_back({h.kind, h.text, found_.bias_pixels, h.estimates, h.alternatives});
+  found_.findings.push_back({h.kind, h.text, found_.bias.pixels, h.estimates, h.alternatives});
 }
 
 void Search::run() {

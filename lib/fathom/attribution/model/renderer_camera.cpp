@@ -1,8 +1,11 @@
-#include "fathom/attribution/model/opengl_matrices.h"
+#include "fathom/attribution/model/renderer_camera.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 
+#include "fathom/attribution/raster/clip_vertex.h"
+#include "fathom/attribution/ray/vector3.h"
 #include "fathom/camera/clip_planes.h"
 
 namespace fathom::attribution {
@@ -53,6 +56,42 @@ Matrix4 clip_from_eye(const Camera& camera, const ClipRange& range, ClipDepth de
           0,  0,  z_perspective,  one_perspective,
           0,  0,  -1,             0};
   // clang-format on
+}
+
+CameraRays camera_rays(const Camera& camera) {
+  const auto camera_from_world = as_matrix(camera.world_to_camera);
+  const Eigen::Matrix3d rotation = camera_from_world.leftCols<3>();
+  const Eigen::Matrix3d world_from_camera = rotation.inverse();
+  const auto [cx, cy] = principal_point(camera);
+
+  // y = (v − cy)/fy, x = (u − cx − skew·y)/fx on the plane z = 1 (orthographic: on every plane).
+  const double skew = camera.skew / (camera.fx * camera.fy);
+  const Vector3 corner(-cx / camera.fx + skew * cy, -cy / camera.fy, 0);
+  const Vector3 per_u(1 / camera.fx, 0, 0), per_v(-skew, 1 / camera.fy, 0);
+  const bool perspective = camera.projection == Projection::perspective;
+  const Vector3 forward(0, 0, 1), origin = -camera_from_world.col(3);
+
+  CameraRays rays;
+  rays.origin.at_corner =
+      as_array(world_from_camera * (perspective ? origin : Vector3(origin + corner)));
+  rays.direction.at_corner =
+      as_array(world_from_camera * (perspective ? Vector3(forward + corner) : forward));
+  CameraRays::Affine& moving = perspective ? rays.direction : rays.origin;
+  moving.per_u = as_array(world_from_camera * per_u);
+  moving.per_v = as_array(world_from_camera * per_v);
+  return rays;
+}
+
+std::array<float, 16> clip_from_held(const Camera& camera, const RasterModel& model) {
+  const std::array<ClipRow, 4> rows = rows_of_camera(camera, model);
+  std::array<float, 16> matrix{};
+  for (std::size_t r = 0; r < 4; ++r) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      matrix[4 * r + k] =
+          static_cast<float>(k < 3 ? rows[r].row[k] / model.scale[k] : rows[r].row[3]);
+    }
+  }
+  return matrix;
 }
 
 }  // namespace fathom::attribution
