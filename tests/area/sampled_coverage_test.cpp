@@ -22,7 +22,7 @@ using testing::Kind;
 Samples<float> shares(const Scene& scene, const Camera& camera, const std::string& pattern,
                       Engine engine, Cull cull = Cull::none) {
   const RenderOptions options{.engine = engine, .cull = cull};
-  DepthMap map = make_background(camera, options);
+  DepthMap map = rendering::make_background(camera, options);
   add_sampled_coverage(map, scene, camera, sample_pattern(pattern), options);
   return *map.values<float>("Asampled");
 }

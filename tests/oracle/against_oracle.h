@@ -5,6 +5,7 @@
 
 #include "fathom/camera/camera.h"
 #include "fathom/image/depth_map.h"
+#include "fathom/numeric/ratio.h"
 #include "fathom/rendering/options.h"
 #include "fathom/scene/scene.h"
 #include "tests/oracle/areas.h"
