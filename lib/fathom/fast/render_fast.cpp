@@ -87,13 +87,10 @@ Rendered render_fast(const Scene& scene, const Camera& camera, const RenderOptio
   RenderMemory for_once;
   RenderMemory::Parts& memory = (context.kept ? *context.kept : for_once).parts();
   return with_threads(options.threads, [&] {
-    scene::require_renderable_but_elements(scene, camera);
-    try {
+    require_renderable(scene, camera, LookAtElements::later);
+    return scene::explaining_faults(scene, [&] {
       return render_in_arena(scene, camera, options, context, memory, std::move(before));
-    } catch (const scene::ElementFault&) {
-      require_valid(scene);
-      throw;
-    }
+    });
   });
 }
 

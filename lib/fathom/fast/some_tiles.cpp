@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "fathom/failures/errors.h"
 #include "fathom/fast/channels/fast_output.h"
 #include "fathom/fast/rounds/coverage_in_rounds.h"
 #include "fathom/fast/rounds/tile_store.h"
@@ -135,7 +134,9 @@ SortedTriangles TilesInRounds::State::sort(std::vector<SomeTriangles> lists,
                                 list.numbers);
     next += static_cast<std::uint32_t>(count);
   }
-  sorted.bins = sort_into_tiles(sorted.objects, 0, next, parts_of_round(options), frame, by);
+  sorted.bins = scene::explaining_faults(triangles, [&] {
+    return sort_into_tiles(sorted.objects, 0, next, parts_of_round(options), frame, by);
+  });
   return result;
 }
 
@@ -210,37 +211,20 @@ TilesInRounds::TilesInRounds(const TriangleSource& scene, const Camera& camera,
                              const RenderOptions& options, const Limits& limits) {
   require_meaningful(options);
   in_threads(options.threads, [&] {
-    scene::require_renderable_but_elements(scene, camera);
+    require_renderable(scene, camera, LookAtElements::later);
     state_ = std::make_unique<State>(scene, camera, options, limits);
   });
 }
 
 TilesInRounds::~TilesInRounds() = default;
 
-namespace {
-
-/// sort(), or what is wrong with a scene that has a fault.
-template <class Sort>
-SortedTriangles sort_valid(const TriangleSource& triangles, int threads, const Sort& sort) {
-  return in_threads(threads, [&] {
-    try {
-      return sort();
-    } catch (const scene::ElementFault&) {
-      if (triangles.scene() != nullptr) require_valid(triangles);
-      throw InputError("scene: a file has changed since it was opened");
-    }
-  });
-}
-
-}  // namespace
-
 SortedTriangles TilesInRounds::sort(std::vector<SomeTriangles> triangles) {
-  return sort_valid(state_->triangles, state_->options.threads,
+  return in_threads(state_->options.threads,
                     [&] { return state_->sort(std::move(triangles), state_->workers); });
 }
 
 SortedTriangles TilesInRounds::sort_again(std::vector<SomeTriangles> triangles) {
-  return sort_valid(state_->triangles, state_->options.threads,
+  return in_threads(state_->options.threads,
                     [&] { return state_->sort(std::move(triangles), state_->sorting_again); });
 }
 

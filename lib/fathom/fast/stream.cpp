@@ -208,11 +208,8 @@ Rendered render_streamed(const StreamedScene& scene, const Camera& camera,
   }
   return with_threads(options.threads, [&] {
     require_renderable(scene, camera);
-    try {
-      return render_in_arena(scene, camera, options, limits, context);
-    } catch (const scene::ElementFault&) {
-      throw InputError("scene: a file has changed since it was opened");
-    }
+    return scene::explaining_faults(
+        scene, [&] { return render_in_arena(scene, camera, options, limits, context); });
   });
 }
 

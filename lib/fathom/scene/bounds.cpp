@@ -89,7 +89,7 @@ void include_placed(WorldBounds& bounds, int axis, const Object& object, const M
   }
 }
 
-/// Looks at what require_valid_but_elements() leaves out. Throws ElementFault.
+/// Looks at the elements of placed meshes. Throws ElementFault.
 std::optional<WorldBounds> bounds_of(const Scene& scene) {
   WorldBounds bounds{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
   bool empty = true;
@@ -118,13 +118,8 @@ std::optional<WorldBounds> bounds_of(const Scene& scene) {
 
 std::optional<WorldBounds> world_bounds(const Scene& scene) {
   const StandardArithmetic standard;
-  require_valid_but_elements(scene);
-  try {
-    return bounds_of(scene);
-  } catch (const ElementFault&) {
-    require_valid(scene);
-    throw;
-  }
+  require_valid(scene, LookAtElements::later);
+  return explaining_faults(scene, [&] { return bounds_of(scene); });
 }
 
 }  // namespace fathom

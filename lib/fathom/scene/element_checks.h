@@ -5,28 +5,47 @@
 #include <cstring>
 #include <exception>
 #include <limits>
+#include <optional>
 #include <span>
+#include <string>
 #include <type_traits>
 
-#include "fathom/camera/camera.h"
 #include "fathom/mesh/mesh.h"
 #include "fathom/scene/triangle_source.h"
 
-/// Quick looks at parts of the lists of a mesh, in a form that compilers turn into vector
-/// instructions. To look at a large mesh takes as long as to read it from memory, a twentieth of
-/// the time in which it is rendered; so who reads it anyway looks at each part just before.
+/// Parts of the check of a scene (scene_fault.h). Those of the lists of a mesh are in a form that
+/// compilers turn into vector instructions. To look at a large mesh takes as long as to read it from
+/// memory, a twentieth of the time in which it is rendered; so who reads it anyway looks at each
+/// part just before.
 namespace fathom::scene {
 
-/// What require_valid() and require_renderable() ask (scene_fault.h), but for the vertices and
-/// triangles of placed meshes: who calls these asks all_finite() and all_below() of them.
-void require_valid_but_elements(const TriangleSource& triangles);
-void require_renderable_but_elements(const TriangleSource& triangles, const Camera& camera);
+/// The part of find_fault() that looks at no mesh: whether objects name meshes that are there, and
+/// their triangles can be counted.
+std::optional<std::string> find_fault_of_objects(const Scene& scene);
+std::optional<std::string> find_fault_of_objects(const StreamedScene& scene);
 
-/// Thrown where these say no, by those who do not have the scene; who has it says what is wrong
-/// (require_valid).
+/// Fails    InputError, "scene: " and the fault, if there is one.
+void require(const std::optional<std::string>& no_fault);
+
+/// Thrown where all_finite() or all_below() say no, by those who do not have the scene.
 struct ElementFault : std::exception {
   [[nodiscard]] const char* what() const noexcept override { return "a mesh is not valid"; }
 };
+
+/// What is wrong with a scene in which there is an ElementFault.
+/// Fails    InputError.
+[[noreturn]] void fail_of_elements(const TriangleSource& triangles);
+
+/// work(), which looks at elements after require_valid(…, LookAtElements::later): an ElementFault
+/// becomes what require_valid() says of the whole scene.
+template <class Work>
+auto explaining_faults(const TriangleSource& triangles, const Work& work) {
+  try {
+    return work();
+  } catch (const ElementFault&) {
+    fail_of_elements(triangles);
+  }
+}
 
 /// Number i of those that elements consist of.
 template <class Number, class T>

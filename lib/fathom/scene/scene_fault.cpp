@@ -9,7 +9,6 @@
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/element_checks.h"
-#include "fathom/scene/object_fault.h"
 #include "fathom/text/counted.h"
 #include "fathom/threads/threads.h"
 
@@ -325,35 +324,25 @@ Fault find_fault(const StreamedScene& scene) {
   return find_fault_of_placements(scene);
 }
 
-void require_valid(const Scene& scene) {
-  require(find_fault(scene));
-}
-
-void require_valid(const StreamedScene& scene) {
-  require(find_fault(scene));
-}
-
-void require_valid(const TriangleSource& triangles) {
-  if (triangles.scene()) require_valid(*triangles.scene());
-  if (triangles.streamed_scene()) require_valid(*triangles.streamed_scene());
-}
-
-void require_renderable(const TriangleSource& triangles, const Camera& camera) {
-  require_camera(camera);
-  require_valid(triangles);
-}
-
-void scene::require_valid_but_elements(const TriangleSource& triangles) {
-  if (triangles.streamed_scene()) return require_valid(*triangles.streamed_scene());
+void require_valid(const TriangleSource& triangles, LookAtElements when) {
+  if (triangles.streamed_scene()) return require(find_fault(*triangles.streamed_scene()));
+  const StandardArithmetic standard;
   const Scene& scene = *triangles.scene();
-  std::vector<bool> not_placed(scene.meshes.size(), true);
-  for (const Object& object : scene.objects) not_placed[object.mesh] = false;
-  require(find_fault(scene, not_placed));
+  std::vector<bool> looked_at(scene.meshes.size(), true);
+  if (when == LookAtElements::later)
+    for (const Object& object : scene.objects) looked_at[object.mesh] = false;
+  require(find_fault(scene, looked_at));
 }
 
-void scene::require_renderable_but_elements(const TriangleSource& triangles, const Camera& camera) {
+void require_renderable(const TriangleSource& triangles, const Camera& camera,
+                        LookAtElements when) {
   require_camera(camera);
-  require_valid_but_elements(triangles);
+  require_valid(triangles, when);
+}
+
+void scene::fail_of_elements(const TriangleSource& triangles) {
+  require_valid(triangles);
+  throw InputError("scene: a file has changed since it was opened");
 }
 
 }  // namespace fathom

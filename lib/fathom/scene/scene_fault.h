@@ -32,15 +32,17 @@ std::optional<std::string> find_fault(const Scene& scene);
 /// opened.
 std::optional<std::string> find_fault(const StreamedScene& scene);
 
-/// Refuses a scene that is not valid.
+/// When the vertices and triangles of placed meshes are looked at: at once, or by a caller that
+/// reads them anyway (scene::explaining_faults).
+enum class LookAtElements { now, later };
+
+/// Refuses a scene, in memory or in files, that is not valid.
 /// Fails    InputError, "scene: " and what find_fault() says.
-void require_valid(const Scene& scene);
-void require_valid(const StreamedScene& scene);
-/// The scene that the triangles are from.
-void require_valid(const TriangleSource& triangles);
+void require_valid(const TriangleSource& triangles, LookAtElements when = LookAtElements::now);
 
 /// What every way to render asks of what it is given.
 /// Fails    InputError where scene or camera has a fault, or the image has more than 2⁴⁴ pixels.
-void require_renderable(const TriangleSource& triangles, const Camera& camera);
+void require_renderable(const TriangleSource& triangles, const Camera& camera,
+                        LookAtElements when = LookAtElements::now);
 
 }  // namespace fathom

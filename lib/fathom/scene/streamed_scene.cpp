@@ -2,7 +2,6 @@
 
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/scene/object_fault.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/scene/triangle_source.h"
 
@@ -28,10 +27,7 @@ StreamedScene stream_scene(const std::vector<std::filesystem::path>& files,
 }
 
 std::uint64_t triangle_count(const StreamedScene& scene) {
-  scene::require(scene::find_fault_of_objects(scene));
-  std::uint64_t count = 0;
-  for (const Object& object : scene.objects) count += scene.streams[object.mesh]->triangle_count();
-  return count;
+  return TriangleSource(scene).count();
 }
 
 TriangleOrigin origin_of(const StreamedScene& scene, std::uint32_t number) {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "fathom/failures/errors.h"
-#include "fathom/scene/object_fault.h"
+#include "fathom/scene/element_checks.h"
 
 namespace fathom {
 

@@ -211,13 +211,8 @@ std::optional<ViewWarning> warning_of_inside(const Scene& scene, const Camera& c
 /// The map is without background: a look at every triangle, which may take a twentieth of the time
 /// in which they are rendered, is all that is done to find that nothing is wrong.
 std::optional<ViewWarning> warning_of_full_map(const Scene& scene, const Camera& camera) {
-  require_valid_but_elements(scene);
-  try {
-    return warning_of_inside(scene, camera);
-  } catch (const ElementFault&) {
-    require_valid(scene);
-    throw;
-  }
+  require_valid(scene, LookAtElements::later);
+  return explaining_faults(scene, [&] { return warning_of_inside(scene, camera); });
 }
 
 std::optional<ViewWarning> warning_of_empty_map(const Scene& scene, const Camera& camera) {
