@@ -75,7 +75,7 @@ std::vector<Usage> wrong_usages() {
        "--cryptomatte is for .exr"},
       {"CryptomatteStreamed", render({"--cryptomatte", "--stream"}), "--stream"},
       {"CullUnknown", render({"--cull", "some"}), "back, front and none"},
-      {"LossyCompression", render({"--compression", "pxr24"}), "loses"},
+      {"LossyCompression", render({"--compression", "pxr24"}), "is lossy"},
       {"UnknownCompression", render({"--compression", "lzma"}), "zip"},
       {"PngScaleForExr", render({"--png-scale", "10"}), "--png-scale is for .png"},
       {"DtypeForExr", render({"--dtype", "float64"}), "--dtype is for .npy"},
