@@ -17,8 +17,8 @@ std::optional<std::uint32_t> rows_of_chunk(const MapPlan& plan);
 /// Makes the map of a camera, from the triangles of all ranks to a file. Called by all ranks.
 /// `outputs`  of the first rank;  `number`: of the camera
 /// `traffic`  gets the costs
-/// `report`   what is said of the map: in every rank its statistics, summed over all ranks; the rest
-///            in the first rank
+/// `report`   gets the statistics of the map, in every rank and summed over all ranks; everything
+///            else only in the first rank
 void make_map_together(const JobTogether& job, const Camera& camera, RenderOutputs* outputs,
                        std::size_t number, const std::function<void(double)>& progress,
                        MapTraffic& traffic, MapReport& report);

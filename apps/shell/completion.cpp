@@ -192,7 +192,11 @@ _fathom() {
     if [[ $kind == *list ]]; then compadd -q -S , -a plain; else compadd -a plain; fi && found=0
   fi
   if (($#described)); then
-    if [[ $described[1] == -* ]]; then _describe -o option described; else _describe command described; fi && found=0
+    if [[ $described[1] == -* ]]; then
+      _describe -o option described
+    else
+      _describe command described
+    fi && found=0
   fi
   [[ $kind == all* ]] && _files && found=0
   [[ $kind == folders* ]] && _files -/ && found=0

@@ -78,8 +78,8 @@ struct Clues {
 /// Images are rows from the top, as the maps.
 struct Attribution {
   std::vector<PixelClass> classes;
-  /// The values that the model allows for the visible triangle, as depths in scene units; NaN in the
-  /// background.
+  /// The values that the model allows for the visible triangle, as depths in scene units; NaN in
+  /// the background.
   std::vector<float> least, greatest;
   /// Pixels of each class.
   std::array<std::uint64_t, pixel_class_count> counts{};

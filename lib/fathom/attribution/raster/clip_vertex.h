@@ -15,7 +15,7 @@ struct ClipRow {
   std::array<double, 4> row{};
   /// What the renderer's roundings are relative to: error <= γ·magnitude·(|p|, 1).
   std::array<double, 4> magnitude{};
-  /// What was lost in making the row in binary64, here or there, is less than 2⁻⁴⁶ of loss·(|p|, 1).
+  /// Making the row in binary64, here or there, lost less than 2⁻⁴⁶ of loss·(|p|, 1).
   std::array<double, 4> loss{};
 };
 
