@@ -120,7 +120,7 @@ TEST_F(DataSets, ATornManifestLosesNoMoreThanItsLastLine) {
   }
   write("out/fathom-manifest.jsonl", "no JSON\n" + manifest);
   const Outcome again = make();
-  EXPECT_THAT(again.err, HasSubstr("line 1 is no record"));
+  EXPECT_THAT(again.err, HasSubstr("line 1 is damaged"));
   EXPECT_EQ(again.out, "out: 2 maps, 0 made now\n");
   write("out/fathom-manifest.jsonl", "{\"fathom-manifest\":2}\n");
   EXPECT_THAT(make().err, HasSubstr("later version"));

@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"ConstantWithoutLog",
                 {"encode", "--near", "1", "--far", "2", "--c", "1", "1"},
                 2,
-                "log alone"},
+                "only for --mapping log"},
         Refusal{"ConstantZero",
                 {"encode", "--mapping", "log", "--near", "1", "--far", "2", "--c", "0", "1"},
                 2,
@@ -189,7 +189,7 @@ TEST(Depth, AMapsDepthFormatThatMeansNothingIsRefused) {
   refused({"-o", "a.exr", "--near", "1", "--depth-format", "unorm16"}, "needs a finite far");
   refused({"-o", "a.exr", "--near", "1", "--far", "9", "--depth-format", "unorm8"}, "unorm24");
   refused({"-o", "a.exr", "--near", "1", "--far", "9", "--depth-format", "unorm16", "--c", "2"},
-          "log alone");
+          "only for --mapping log");
   refused({"-o", "a.exr", "--mapping", "linear"}, "--depth-format");
   refused({"-o", "a.pfm", "--near", "1", "--far", "9", "--depth-format", "unorm16"}, ".exr");
 }
