@@ -44,6 +44,7 @@ std::string joined(const std::vector<std::string>& names, std::string_view last 
 template <class Values>
 std::vector<std::string> names_of(const Values& values) {
   std::vector<std::string> names;
+  names.reserve(std::size(values));
   for (const auto value : values) names.emplace_back(name_of(value));
   return names;
 }
