@@ -407,8 +407,9 @@ Picture draw_edge_values(const Json& object, const Json& answer) {
   const double size = 420;
   for (std::size_t k = 0; k < 3; ++k) {
     const Json& edge = answer["edges"][k];
-    const Place corner{static_cast<double>(k % 2) * (size + 16),
-                       title_height + 24 + static_cast<double>(k / 2) * (size + 46)};
+    const std::size_t column = k % 2, row = k / 2;
+    const Place corner{static_cast<double>(column) * (size + 16),
+                       title_height + 24 + static_cast<double>(row) * (size + 46)};
     // The view leaves a tenth about the image, where the triangle may lie.
     const View view(image, corner, size, size, true);
     picture.text(

@@ -174,6 +174,7 @@ std::vector<RendererModel> Candidates::narrowest_after(const Hypothesis& fault) 
   std::stable_sort(possible.begin(), possible.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<RendererModel> models;
+  models.reserve(possible.size());
   for (auto& [width, model] : possible) models.push_back(std::move(model));
   return models;
 }

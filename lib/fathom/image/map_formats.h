@@ -21,6 +21,9 @@ enum class HeldChannels {
   all     ///< all, with all texts of the map
 };
 
+inline constexpr std::uint32_t any_side = 0xFFFFFFFF;
+inline constexpr std::uint64_t any_pixels = 0xFFFFFFFFFFFFFFFF;
+
 struct MapFormatDescription {
   MapFormat format;
   /// In messages.
@@ -29,94 +32,58 @@ struct MapFormatDescription {
   std::array<std::string_view, 2> suffixes;
   HeldChannels channels;
   /// Whether read_map() reads files of the format.
-  bool is_read;
+  bool is_read = true;
   /// Whether depths are floating-point numbers; else they are 16-bit codes.
-  bool holds_floats;
+  bool holds_floats = true;
   /// Whether depths are 0 where no surface is, and nothing else.
-  bool zero_for_none;
+  bool zero_for_none = false;
   /// More pixels on a side do not fit.
-  std::uint32_t greatest_side;
+  std::uint32_t greatest_side = any_side;
   /// As many pixels do not fit, of 4 bytes each at least.
-  std::uint64_t pixels_beyond;
+  std::uint64_t pixels_beyond = any_pixels;
   /// What is wrong with a larger image, for messages; empty: any image fits.
-  std::string_view limit;
+  std::string_view limit = {};
 };
-
-inline constexpr std::uint32_t any_side = 0xFFFFFFFF;
-inline constexpr std::uint64_t any_pixels = 0xFFFFFFFFFFFFFFFF;
 
 /// In the order of MapFormat.
 inline constexpr auto map_format_table = std::to_array<MapFormatDescription>({
-    {MapFormat::exr,
-     "OpenEXR",
-     {".exr"},
-     HeldChannels::all,
-     true,
-     true,
-     false,
-     0x3FFFFFFF,
-     any_pixels,
-     "EXR holds fewer than 2^30 pixels a side"},
-    {MapFormat::pfm,
-     "PFM",
-     {".pfm"},
-     HeldChannels::one,
-     true,
-     true,
-     false,
-     any_side,
-     any_pixels,
-     ""},
-    {MapFormat::png,
-     "PNG",
-     {".png"},
-     HeldChannels::one,
-     true,
-     false,
-     true,
-     0x7FFFFFFF,
-     any_pixels,
-     "PNG holds fewer than 2^31 pixels a side"},
-    {MapFormat::npy,
-     "NPY",
-     {".npy"},
-     HeldChannels::parts,
-     true,
-     true,
-     false,
-     any_side,
-     any_pixels,
-     ""},
-    {MapFormat::npz,
-     "NPZ",
-     {".npz"},
-     HeldChannels::all,
-     true,
-     true,
-     false,
-     any_side,
-     std::uint64_t{1} << 30,
-     "an NPZ holds less than 4 GiB; .exr holds more"},
-    {MapFormat::colmap,
-     "COLMAP",
-     {".bin"},
-     HeldChannels::parts,
-     true,
-     true,
-     true,
-     any_side,
-     any_pixels,
-     ""},
-    {MapFormat::tiff,
-     "GeoTIFF",
-     {".tif", ".tiff"},
-     HeldChannels::all,
-     false,
-     true,
-     false,
-     any_side,
-     std::uint64_t{1} << 30,
-     "a GeoTIFF holds less than 4 GiB; .exr holds more"},
+    {.format = MapFormat::exr,
+     .name = "OpenEXR",
+     .suffixes = {".exr"},
+     .channels = HeldChannels::all,
+     .greatest_side = 0x3FFFFFFF,
+     .limit = "EXR holds fewer than 2^30 pixels a side"},
+    {.format = MapFormat::pfm, .name = "PFM", .suffixes = {".pfm"}, .channels = HeldChannels::one},
+    {.format = MapFormat::png,
+     .name = "PNG",
+     .suffixes = {".png"},
+     .channels = HeldChannels::one,
+     .holds_floats = false,
+     .zero_for_none = true,
+     .greatest_side = 0x7FFFFFFF,
+     .limit = "PNG holds fewer than 2^31 pixels a side"},
+    {.format = MapFormat::npy,
+     .name = "NPY",
+     .suffixes = {".npy"},
+     .channels = HeldChannels::parts},
+    {.format = MapFormat::npz,
+     .name = "NPZ",
+     .suffixes = {".npz"},
+     .channels = HeldChannels::all,
+     .pixels_beyond = std::uint64_t{1} << 30,
+     .limit = "an NPZ holds less than 4 GiB; .exr holds more"},
+    {.format = MapFormat::colmap,
+     .name = "COLMAP",
+     .suffixes = {".bin"},
+     .channels = HeldChannels::parts,
+     .zero_for_none = true},
+    {.format = MapFormat::tiff,
+     .name = "GeoTIFF",
+     .suffixes = {".tif", ".tiff"},
+     .channels = HeldChannels::all,
+     .is_read = false,
+     .pixels_beyond = std::uint64_t{1} << 30,
+     .limit = "a GeoTIFF holds less than 4 GiB; .exr holds more"},
 });
 
 constexpr const MapFormatDescription& description_of(MapFormat format) {

@@ -123,6 +123,6 @@ def lens_handle(lens: object, keywords: Mapping[str, Any]) -> _core.Lens:
         return Lens(**keywords)._handle
     if not isinstance(lens, Lens):
         raise TypeError(f"lens: expected a Lens, found {lens!r}")
-    for name in keywords:
-        raise TypeError(f"{name}: a lens is given, too: make a Lens with it")
+    if keywords:
+        raise TypeError(f"{next(iter(keywords))}: a lens is given, too: make a Lens with it")
     return lens._handle

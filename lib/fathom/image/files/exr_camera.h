@@ -13,11 +13,12 @@ namespace fathom::image {
 
 using ExrNumbers = std::map<std::string, std::vector<double>>;
 
-/// What an EXR says of a camera: `worldToCamera`, x right, y up, z forward; `worldToNDC`, with (0,
-/// 0) the top left and (1, 1) the bottom right corner; both for row vectors, row by row;
-///    `pixelAspectRatio`,
-/// `screenWindowCenter` (x right, y up) and `screenWindowWidth`. Rounded, for other programs' eyes
-/// only: `fathom.camera` has the camera.
+/// The attributes of an EXR that describe a camera to other programs; `fathom.camera` has the exact
+/// numbers.
+///   worldToCamera       x right, y up, z forward; for row vectors, row by row
+///   worldToNDC          (0, 0) is the top left, (1, 1) the bottom right corner; likewise
+///   pixelAspectRatio, screenWindowCenter (x right, y up), screenWindowWidth
+/// Rounded in binary64.
 ExrNumbers exr_numbers(const Camera& camera);
 
 /// Puts them into a header, in binary32. What a header cannot hold (a mirrored screen window, a

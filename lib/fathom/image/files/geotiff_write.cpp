@@ -55,8 +55,7 @@ constexpr std::uint16_t image_width = 256, image_length = 257, bits_per_sample =
 constexpr std::uint16_t by_deflate = 8, black_is_zero = 1, separate_planes = 2, floating_point = 3,
                         floating_point_predictor = 3, unspecified = 0;
 
-// ------------------------------------------------------------------------------------- what bands
-// hold
+// --------------------------------------------------------------------------------- what bands hold
 
 /// The value of all bands that says that no surface is there.
 float value_of_none(const DepthMap& map) {
@@ -100,8 +99,7 @@ std::vector<float> band_of(const DepthMap& map, const ImageChannel& channel, flo
   return band;
 }
 
-// ----------------------------------------------------------------------------------------------
-// strips
+// ------------------------------------------------------------------------------------------ strips
 
 /// Before compression, about: as GDAL and libtiff take them into memory whole.
 constexpr std::size_t bytes_of_strip = std::size_t{1} << 18;
@@ -166,8 +164,7 @@ TiffStrips compressed_strips(const DepthMap& map, float none, int threads,
   return strips;
 }
 
-// ------------------------------------------------------------------------------- what is said of
-// them
+// ---------------------------------------------------------------------------- what is said of them
 
 WorldFromImage place_of(const std::optional<Camera>& camera, const std::string& name) {
   if (camera)
