@@ -15,13 +15,13 @@
 #include "validation/scenes/scenes.h"
 
 /// Times render(), from mesh and camera in memory to the complete map in memory, without any peer,
-/// or with --keep render_into() a map of before, with memory of before:
+/// or with --keep render_into(), reusing the previous map and its memory:
 ///   engine_bench [SCENE…] [--size WxH] [--threads N] [--repeat N] [--engine fast|reference]
 ///                [--channels Z,id,…] [--depths binary32|binary64|scaled_unorm16] [--cull
 ///                back|front|none] [--without avx-512,simd,hierarchy,early-rejection] [--tiers]
 ///                [--keep]
-/// The scenes are those of scenes.h, or mesh files. The first run of each is not counted. --tiers
-/// tells how many decisions and values were settled by which arithmetic.
+/// Scenes are named in scenes.h, or are mesh files. The first run of each is not counted. --tiers
+/// counts how many decisions and values each arithmetic settled.
 namespace {
 
 using namespace fathom;

@@ -64,7 +64,7 @@ struct Job {
   std::function<Result(std::size_t task)> make;
   std::vector<JobList> lists;
   Shard shard;
-  /// Replaces files that are there and that no such job has made.
+  /// Overwrites existing files, even those that no job wrote.
   bool overwrites = false;
 };
 

@@ -21,7 +21,7 @@ FileKind kind_of(std::string_view content) {
   if (first == std::string_view::npos || (text[first] != '{' && text[first] != '['))
     return FileKind::mesh;
   if (text[first] == '[') return FileKind::camera;
-  // What is no JSON is told by the reader of cameras.
+  // The reader of cameras reports files that are not JSON.
   nlohmann::json json;
   try {
     text::parse_json(content, json);

@@ -8,7 +8,7 @@
 
 namespace fathom::app {
 
-/// How a rank shares out the memory that it may take.
+/// How a rank divides its memory limit among its buffers.
 struct RankMemory {
   /// Triangles of a round.
   std::uint32_t triangles_at_once;

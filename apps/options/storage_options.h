@@ -32,9 +32,9 @@ struct StorageOptions {
   [[nodiscard]] MapFormat format_of(const std::string& target) const;
   [[nodiscard]] DepthEncoding encoding_for(MapFormat format) const;
   [[nodiscard]] WriteOptions write_options(int threads) const;
-  /// The map with the background and the names that were asked for, to be written as `target`;
-  /// `now` is its background, where that is known. Fails with OutputError, naming the target, or
-  /// UsageError, naming the option.
+  /// Applies --background and --channel-name to a map that will be written as `target`; `now` is
+  /// its current background, if known. Fails with OutputError, naming the target, or UsageError,
+  /// naming the option.
   [[nodiscard]] DepthMap dressed(DepthMap map, const std::string& target,
                                  std::optional<double> now = std::nullopt) const;
   [[nodiscard]] bool has_png_options() const {

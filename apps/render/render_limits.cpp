@@ -42,7 +42,7 @@ void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
   for (const Camera& camera : cameras) {
     require_size(plan.format, camera.width, camera.height, output);
     if (plan.format == MapFormat::tiff) require_place_in_world(camera, output);
-    // To ask the system how much memory there is takes longer than to read a camera.
+    // Querying free memory is slower than reading a camera: skip it if the size is unchanged.
     const bool is_known =
         before != nullptr && before->width == camera.width && before->height == camera.height;
     if (!in_bands && !is_known) check_size(camera, plan);

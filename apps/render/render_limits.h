@@ -25,8 +25,8 @@ void check_cameras(const std::vector<Camera>& cameras, const DeepMapPlan& plan,
 /// the triangles that channel A needs, a sixteenth for those that are read at a time.
 StreamLimits stream_limits(const Camera& camera, const RenderOptions& options);
 
-/// While it is there, TBB uses no more threads than this (0: no limit). Where more threads are
-/// asked for than there are processors, its pool would keep to these and say so on standard error.
+/// Limits TBB's threads during its lifetime (0: no limit). Also lets TBB use more threads than
+/// processors, which it would otherwise refuse with a warning on standard error.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);

@@ -9,10 +9,10 @@
 
 namespace fathom::app {
 
-/// What the program says beside its answers, on standard error.
+/// Messages on standard error: warnings, notes, errors and progress.
 class Console {
  public:
-  /// No warnings and no progress; errors are said all the same.
+  /// Suppresses warnings and progress, but not errors.
   bool quiet = false;
 
   void warn(const std::string& text) const;

@@ -14,10 +14,10 @@ class App;
 namespace fathom::app {
 
 /// `fathom help [--man] COMMAND…` asks the program that has the command by an argument that every
-/// program understands: --help=text, --help=man, or --help=completion, to which it answers with its
-/// completion_table(). Returns the arguments in that form: "COMMAND… --help=man". Others are
-/// returned as they are, and so are those of `help --man -o DIR`; of others of `help`, such as
-/// `help --help`, the first option that is none of these remains.
+/// program understands: --help=text, --help=man, or --help=completion, which prints the
+/// completion_table(). Returns the arguments in that form: "COMMAND… --help=man". Returns arguments
+/// of other commands and of `help --man -o DIR` unchanged. Any other option of `help`, such as
+/// `help --help`, is passed on unchanged, without the arguments that follow.
 std::vector<std::string> with_help_as_option(std::vector<std::string> arguments);
 
 /// What is printed where one of the arguments is --help=FORM; nothing where none is.

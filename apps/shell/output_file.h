@@ -22,8 +22,8 @@ class NewFolders;
 /// and what is not committed leaves nothing behind, however the program ends.
 ///
 ///   an ordinary or a new file   is replaced at once; an existing file's permissions are kept, a
-///                               new one has those that open(2) gives. Its bytes are on the disk
-///                               before its name is
+///                               new one has those that open(2) gives. Its bytes are synced to
+///                               disk before it gets its name
 ///   a folder that is missing    is made when the outputs take their places, with those above it; a
 ///                               command that fails leaves none
 ///   a symbolic link             is followed: the file it names is replaced, the link stays

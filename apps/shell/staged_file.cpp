@@ -47,7 +47,7 @@ void make_room_for_more(int descriptor) {
 }
 
 /// The permissions of a new file in this folder: they depend on the umask or on the folder's
-/// default ACL. Told by one that is made and removed.
+/// default ACL. Found by creating and removing a probe file.
 mode_t mode_of_new_file(const fs::path& folder) {
   PendingFile* const name = note_pending(folder / new_part_name());
   const files::Descriptor file(::open(name->path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));

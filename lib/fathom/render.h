@@ -29,9 +29,9 @@ namespace fathom {
 Rendered render(const Scene& scene, const Camera& camera, const RenderOptions& options = {},
                 const RenderContext& context = {});
 
-/// Renders into a map of before: channels that are there with the same name, type and number of
-/// values are written where they are; all else is replaced. With a RenderMemory in the context, a
-/// frame of the same scene and size takes no memory of the system.
+/// Renders into an existing map, reusing its channel buffers where name, type and size match, and
+/// replacing everything else. With a RenderMemory in the context, a frame of the same scene and
+/// size allocates no memory.
 /// Fails    as render(); `rendered` is empty then.
 void render_into(Rendered& rendered, const Scene& scene, const Camera& camera,
                  const RenderOptions& options = {}, const RenderContext& context = {});

@@ -1,4 +1,4 @@
-"""What is probably not meant is warned of, in Python as in the program; a right view gives no warning."""
+"""Suspicious cameras raise the same warnings in Python as in the program; a right view raises none."""
 
 import subprocess
 import os

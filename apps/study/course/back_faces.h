@@ -13,7 +13,7 @@ struct FacingCount {
   double distance = 0;  ///< of the eye from the middle, in radii
   pipeline::Precision precision{};
   std::uint64_t triangles = 0, front_in_world = 0, front_in_ndc = 0, front_in_window = 0;
-  std::uint64_t disagreeing = 0;  ///< triangles about which the tests are not of one mind
+  std::uint64_t disagreeing = 0;  ///< triangles on which the three tests disagree
   /// What is seen of a ball of radius 1 from there: (1 − 1/distance)/2 of its surface.
   double seen_share = 0;
 };

@@ -57,7 +57,7 @@ Report report_of(const Json& json, const std::string& name) {
   return report;
 }
 
-/// A fault of the syntax at the very end is that there is an end.
+/// A syntax error at the last byte means that the file was truncated.
 bool is_cut_off(const text::JsonFault& fault, std::string_view text) {
   return fault.kind() == text::JsonFault::Kind::syntax && fault.byte() >= text.size();
 }

@@ -60,7 +60,7 @@ ExactVector3 exactly(const Vector3& v) {
   return {v[0], v[1], v[2]};
 }
 
-/// The frame in which a direction is told by azimuth and elevation: rows right (of the image at
+/// The frame of azimuth and elevation: rows right (of the image at
 /// azimuth 0), up, and back, towards the eye. Orthonormal up to one rounding of each entry; exact
 /// where `up` is along an axis.
 Matrix3 frame_of(const Vector3& up) {

@@ -55,7 +55,7 @@ void require_meaningful(const DepthFormat& format) {
   }
   if (format.c != 1 && format.mapping != Mapping::log) {
     throw UsageError("mapping " + std::string(name_of(format.mapping)) +
-                     " has no constant C; log alone has one");
+                     " has no constant C; only log has one");
   }
 }
 

@@ -35,7 +35,7 @@ bool is_harmless(const struct stat& status) {
   return is_standard_input || (S_ISCHR(status.st_mode) && status.st_rdev == ::makedev(1, 3));
 }
 
-/// Told before it is opened, which alone makes some devices do something.
+/// Checked before opening, because merely opening some devices has side effects.
 void refuse_folders_and_devices(const std::string& name) {
   struct stat status {};
   if (::stat(name.c_str(), &status) != 0) fail_with_errno(name, "cannot be opened");

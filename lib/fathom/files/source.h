@@ -9,7 +9,7 @@ struct Source {
   std::string path;
   /// 64 hexadecimal digits; empty if no hash was asked for.
   std::string sha256;
-  /// The library of others that read it, with its version: "assimp 5.2.4"; empty where we did.
+  /// Third-party library that read the file, e.g. "assimp 5.2.4"; empty if Fathom did.
   std::string reader;
 };
 

@@ -9,8 +9,8 @@
 namespace fathom::mesh {
 namespace {
 
-/// Each corner that may be an ear is in a queue, the first one in front. A corner that is none
-/// waits: for a neighbour to go, and, where another corner lies in its triangle, also for that.
+/// A queue holds the candidate ears in ring order. A corner that turns out not to be an ear waits
+/// until a neighbour is cut or until the corner that lies in its triangle is cut.
 ///
 /// Only corners that do not turn the ring's way need to be looked for in a triangle abc whose
 /// middle corner b turns that way. Of the corners in it, which are at none of a, b, c, take one, q,

@@ -131,7 +131,7 @@ struct PipelineOptions {
 struct FacingStatistics {
   std::uint64_t compared = 0;
   std::uint64_t front_in_world = 0, front_in_ndc = 0, front_in_window = 0;
-  std::uint64_t disagreeing = 0;  ///< triangles about which the tests are not of one mind
+  std::uint64_t disagreeing = 0;  ///< triangles on which the three tests disagree
 };
 
 /// What the pipeline did.

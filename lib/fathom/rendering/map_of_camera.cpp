@@ -28,7 +28,7 @@ struct Room {
 
 template <class T>
 Room<T> room_for(const std::string& name, const MapMemory& memory) {
-  // First the caller's own, which a map of before may have been lent, too.
+  // First the caller's own memory, which may also be lent to the previous map.
   void* const lent = memory.context.memory ? memory.context.memory(name) : nullptr;
   if (lent) return {Samples<T>::lent(static_cast<T*>(lent), memory.pixels), false};
   if (auto* values = memory.before.values<T>(name); values && values->size() == memory.pixels) {

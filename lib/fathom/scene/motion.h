@@ -49,7 +49,7 @@ class MovingScene {
 
   /// The scene at a time; it lasts until the next call.
   const Scene& at(double time);
-  /// The same, for good.
+  /// Like at(), but moves the scene out.
   Scene take(double time) &&;
 
  private:

@@ -68,7 +68,7 @@ Fault find_not_finite(const List& list, const char* element) {
                   all_finite<Real, T>);
 }
 
-/// Names the first triangle with a corner that is none of so many; no_index is one where it is
+/// Names the first triangle whose index is out of range; `is_good` decides whether no_index is
 /// allowed.
 template <class IsGood>
 Fault find_index_beyond(std::span<const CornerIndices> triangles, std::uint64_t end,

@@ -208,8 +208,8 @@ std::optional<ViewWarning> warning_of_inside(const Scene& scene, const Camera& c
                   object->name.empty() ? "an object" : "object " + object->name)};
 }
 
-/// The map is without background: a look at every triangle, which may take a twentieth of the time
-/// in which they are rendered, is all that is done to find that nothing is wrong.
+/// For a map without background, one pass over the triangles (at most 5 % of the render time)
+/// checks whether the eye is inside a solid.
 std::optional<ViewWarning> warning_of_full_map(const Scene& scene, const Camera& camera) {
   require_valid(scene, LookAtElements::later);
   return explaining_faults(scene, [&] { return warning_of_inside(scene, camera); });

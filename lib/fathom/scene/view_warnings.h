@@ -9,9 +9,9 @@
 #include "fathom/failures/warnings.h"
 #include "fathom/scene/scene.h"
 
-/// What is probably not meant in the way that a camera looks at a scene: mistakes that give a map
-/// of the right size with the wrong thing in it, or with nothing. Nothing here changes a map; a
-/// camera that is warned of is as valid as any other.
+/// Warnings about suspicious cameras: mistakes that give a map of the right size that is empty or
+/// shows the wrong part of the scene. Warnings do not change the map, and a suspicious camera is
+/// still valid.
 ///
 /// Exact    nothing: all is judged in binary64, by the thresholds below.
 namespace fathom {
@@ -54,9 +54,9 @@ std::vector<ViewWarning> warnings_of_camera(const Camera& camera);
 /// Of a camera that looks at a scene, given how many pixels of its map show it:
 /// - none: what there is to see lies behind the camera, outside the image or the range of depth, or
 ///   between pixel centres; and which other reading of the matrix would show it, if one does;
-/// - a speck: the scene is a thousand times too small (metres beside poses in millimetres);
+/// - a speck: the scene is a thousand times too small (metres mixed with poses in millimetres);
 /// - every pixel: the eye is inside a closed object whose triangles face outwards, or the object
-///   is a thousand times too large (millimetres beside poses in metres).
+///   is a thousand times too large (millimetres mixed with poses in metres).
 /// `scene` may be the outline of a scene that stays in its files (outline_of).
 /// Cost     none where a part of the image shows the scene and a part does not; of a map without
 ///          background, one look at every triangle; else some.

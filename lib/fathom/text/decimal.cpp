@@ -25,8 +25,7 @@ constexpr std::array<double, 23> powers_of_ten{1e0,  1e1,  1e2,  1e3,  1e4,  1e5
 
 /// Reads the number at `first` if it has no exponent and so few digits that these, as a whole
 /// number, and the power of ten by which they are divided are both exact in Real: one division
-/// rounds it, once. That is what nearly all files hold. False of other numbers, and of what is
-/// none.
+/// rounds it, once. Covers almost all numbers in practice. Returns false for any other input.
 /// Source   [Cli90] section 1
 template <class Real>
 [[gnu::always_inline]] inline bool parse_short(const char* first, const char* last, Real& value,

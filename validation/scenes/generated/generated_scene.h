@@ -20,8 +20,8 @@ struct GeneratedArguments {
   GeneratedKind kind = GeneratedKind::terrain;
   /// At most 2³² − 2.
   std::uint32_t triangles = 1'000'000;
-  /// Of the soup: the edge of the cubes that its triangles lie in; 2 / √triangles where none is
-  /// given, so that the triangles of any scene cover about as much of the image.
+  /// Only for the soup: the edge of the cubes that contain its triangles. The default,
+  /// 2 / √triangles, makes soups of any size cover about the same part of the image.
   std::optional<double> edge;
 };
 

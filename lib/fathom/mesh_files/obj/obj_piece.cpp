@@ -177,8 +177,8 @@ class PieceReader {
     std::uint32_t vertex = no_index, texture = no_index, normal = no_index;
   };
 
-  /// Into `corner`: as a result its parts would be written, read together and wait for each other,
-  /// three quarters of the time that a corner takes.
+  /// Out-parameter on purpose: returning by value caused a store-forwarding stall, 75 % of the time
+  /// per corner.
   void read_corner(Corner& corner) {
     corner = {};
     const char* at = cursor_.position();
