@@ -159,30 +159,32 @@ Cameras read_kitti(const ImportArguments& a, Warnings&) {
 
 std::vector<ImportSource> data_set_sources() {
   return {
-      {"matrices", "Intrinsics and poses as text, .npy or .npz",
+      {"matrices", "Import intrinsics and poses from text, .npy or .npz",
        "A file or folder of matrices: .txt, .npy, .npz or .npz:ARRAY",
        "  fathom camera import matrices poses.npy --K K.txt --size 640x480 \\\n"
        "    --poses camera-to-world --axes opencv --pixel-centre 0 -o cameras.json\n"
        "\nA text has one 3x4 or 4x4 matrix, or one on each line; a folder, a text for each image.",
        declare_matrices, read_matrices},
-      {"tum", "TUM RGB-D: groundtruth.txt", "groundtruth.txt, or the folder with it",
+      {"tum", "Import cameras of TUM RGB-D: groundtruth.txt",
+       "groundtruth.txt, or the folder with it",
        "  fathom camera import tum groundtruth.txt --images depth.txt --K ros \\\n"
        "    -o cameras.json",
        declare_tum, read_tum},
-      {"7scenes", "7-Scenes: frame-XXXXXX.pose.txt", "The folder of a sequence",
+      {"7scenes", "Import cameras of 7-Scenes: frame-XXXXXX.pose.txt", "The folder of a sequence",
        "  fathom camera import 7scenes chess/seq-01 -o cameras.json", add_lens_options,
        read_7scenes},
-      {"scannet", "ScanNet: pose/N.txt and intrinsic/", "The folder of a scene",
+      {"scannet", "Import cameras of ScanNet: pose/N.txt and intrinsic/", "The folder of a scene",
        "  fathom camera import scannet scene0000_00 --stream colour -o cameras.json",
        declare_scannet, read_scannet},
-      {"scannetpp", "ScanNet++: iphone/pose_intrinsic_imu.json", "pose_intrinsic_imu.json",
+      {"scannetpp", "Import cameras of ScanNet++: iphone/pose_intrinsic_imu.json",
+       "pose_intrinsic_imu.json",
        "  fathom camera import scannetpp iphone/pose_intrinsic_imu.json -o cameras.json\n"
        "\nIts DSLR images have cameras for `import colmap` and `import nerf`.",
        add_lens_options, read_scannetpp},
-      {"replica", "Replica (iMAP, NICE-SLAM): traj.txt", "The folder of a scene",
+      {"replica", "Import cameras of Replica (iMAP, NICE-SLAM): traj.txt", "The folder of a scene",
        "  fathom camera import replica Replica/room0 -o cameras.json", add_lens_options,
        read_replica},
-      {"kitti", "KITTI: calib.txt or calib_cam_to_cam.txt", "The calibration",
+      {"kitti", "Import cameras of KITTI: calib.txt or calib_cam_to_cam.txt", "The calibration",
        "  fathom camera import kitti calib.txt --poses poses/00.txt --camera 2 \\\n"
        "    --size 1241x376 -o cameras.json\n"
        "  fathom camera import kitti calib_cam_to_cam.txt --image image_02 -o cam.json",

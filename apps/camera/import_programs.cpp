@@ -52,27 +52,30 @@ void add_distortion_option(Command& command, CameraChoice& choice) {
 }
 
 std::vector<ImportSource> program_sources() {
-  return {{"colmap", "COLMAP: cameras and images, .bin or .txt", "The folder of the model",
+  return {{"colmap", "Import cameras of COLMAP: cameras and images, .bin or .txt",
+           "The folder of the model",
            "  fathom camera import colmap sparse/0 --image IMG_0001.jpg -o camera.json", no_options,
            read_colmap},
-          {"nerf", "NeRF, Nerfstudio, instant-ngp: transforms.json", "transforms.json",
+          {"nerf", "Import cameras of NeRF, Nerfstudio or instant-ngp: transforms.json",
+           "transforms.json",
            "  fathom camera import nerf transforms.json --size 800x800 -o cameras.json",
            add_size_option, read_nerf},
-          {"bop", "BOP: scene_camera.json", "The folder of a scene, or its scene_camera.json",
+          {"bop", "Import cameras of BOP: scene_camera.json",
+           "The folder of a scene, or its scene_camera.json",
            "  fathom camera import bop test/000001 -o cameras.json\n"
            "  fathom camera import bop scene_camera.json --size 640x480 -o cameras.json\n"
            "\nWithout --size, the size is read from the data set's camera.json, in the scene's "
            "folder or one of the two folders above.",
            add_size_option, read_bop},
-          {"sfmdata", "AliceVision (Meshroom): sfmData as JSON", "cameras.sfm",
+          {"sfmdata", "Import cameras of AliceVision (Meshroom): sfmData as JSON", "cameras.sfm",
            "  fathom camera import sfmdata cameras.sfm -o cameras.json\n"
            "\nMeshroom's meshes have y and z reversed relative to its cameras: data-sets.md in the "
            "documentation.",
            no_options, read_sfm_data},
-          {"gltf", "glTF: the cameras of a scene", "model.gltf or model.glb",
+          {"gltf", "Import the cameras of a glTF scene", "model.gltf or model.glb",
            "  fathom camera import gltf model.glb --size 1920x1080 -o cameras.json",
            add_size_option, read_gltf},
-          {"opengl", "OpenGL: projection, modelview and viewport as JSON",
+          {"opengl", "Import a camera of OpenGL: projection, modelview and viewport as JSON",
            "A JSON file with projection, modelview and viewport",
            "  fathom camera import opengl matrices.json -o camera.json", no_options, read_opengl}};
 }

@@ -88,7 +88,7 @@ int run_bop(BopArguments& arguments, const Console& console) {
 void add_bop_layout(Command& family) {
   const auto arguments = std::make_shared<BopArguments>();
   Command& command =
-      family.command("bop", "BOP: depth images, masks and scene_gt_info.json of a scene",
+      family.command("bop", "Render a scene of BOP: depth images, masks and scene_gt_info.json",
                      "  fathom dataset bop test/000001 --models models -o exact/000001\n"
                      "\nINPUT contains scene_camera.json and scene_gt.json; the image size is read "
                      "from the data set's camera.json, unless --size is given. Visible is the "

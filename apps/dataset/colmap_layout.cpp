@@ -52,7 +52,7 @@ int run_colmap(ColmapArguments& arguments, const Console& console) {
 void add_colmap_layout(Command& family) {
   const auto arguments = std::make_shared<ColmapArguments>();
   Command& command = family.command(
-      "colmap", "COLMAP: stereo/depth_maps and stereo/normal_maps of a dense workspace",
+      "colmap", "Render stereo/depth_maps and stereo/normal_maps of a dense workspace of COLMAP",
       "  fathom dataset colmap dense/sparse --mesh mesh.ply -o exact\n"
       "\nWith links to dense/images and dense/sparse in it, 'colmap stereo_fusion' takes the "
       "folder "

@@ -96,26 +96,34 @@ std::string nerf_list(const DepthImagesArguments& arguments, const std::vector<C
 
 const std::vector<DepthImages>& all_depth_images() {
   static const std::vector<DepthImages> all{
-      {"tum", "TUM RGB-D: depth/TIME.png, 5000 codes per metre, and depth.txt", "depth/{stem}.png",
-       5000, 0, "depth.txt", tum_list,
+      {"tum",
+       "Render depth images of TUM RGB-D: depth/TIME.png, 5000 codes per metre, and depth.txt",
+       "depth/{stem}.png", 5000, 0, "depth.txt", tum_list,
        "  fathom dataset tum groundtruth.txt --images rgb.txt --K freiburg3 \\\n"
        "    --mesh room.ply -o exact"},
-      {"7scenes", "7-Scenes: NAME.depth.png in millimetres, 65535 for none", "{stem}.depth.png",
-       1000, 65535, nullptr, nullptr,
+      {"7scenes",
+       "Render depth images of 7-Scenes: NAME.depth.png in millimetres, 65535 for no depth",
+       "{stem}.depth.png", 1000, 65535, nullptr, nullptr,
        "  fathom dataset 7scenes chess/seq-01 --mesh chess.ply -o exact"},
-      {"scannet", "ScanNet: depth/N.png in millimetres", "depth/{stem}.png", 1000, 0, nullptr,
-       nullptr, "  fathom dataset scannet scene0000_00 --mesh scene0000_00_vh_clean.ply -o exact"},
-      {"scannetpp", "ScanNet++: depth/NAME.png in millimetres", "depth/{stem}.png", 1000, 0,
-       nullptr, nullptr,
+      {"scannet", "Render depth images of ScanNet: depth/N.png in millimetres", "depth/{stem}.png",
+       1000, 0, nullptr, nullptr,
+       "  fathom dataset scannet scene0000_00 --mesh scene0000_00_vh_clean.ply -o exact"},
+      {"scannetpp", "Render depth images of ScanNet++: depth/NAME.png in millimetres",
+       "depth/{stem}.png", 1000, 0, nullptr, nullptr,
        "  fathom dataset scannetpp iphone/pose_intrinsic_imu.json \\\n"
        "    --mesh mesh_aligned_0.05.ply -o exact"},
-      {"replica", "Replica (iMAP, NICE-SLAM): results/depthN.png, 6553.5 codes per metre",
+      {"replica",
+       "Render depth images of Replica (iMAP, NICE-SLAM): results/depthN.png, 6553.5 codes per "
+       "metre",
        "results/depth{index:06}.png", 6553.5, 0, nullptr, nullptr,
        "  fathom dataset replica Replica/room0 --mesh Replica/room0_mesh.ply -o exact"},
-      {"kitti", "KITTI: NAME.png, 256 codes per metre", "{stem}.png", 256, 0, nullptr, nullptr,
+      {"kitti", "Render depth images of KITTI: NAME.png, 256 codes per metre", "{stem}.png", 256, 0,
+       nullptr, nullptr,
        "  fathom dataset kitti calib.txt --poses poses/00.txt --camera 2 \\\n"
        "    --size 1241x376 --mesh 00.ply -o exact"},
-      {"nerf", "Nerfstudio: depth/NAME.png, 1000 codes per unit, and a transforms.json with them",
+      {"nerf",
+       "Render depth images of Nerfstudio: depth/NAME.png, 1000 codes per unit, and a matching "
+       "transforms.json",
        "depth/{stem}.png", 1000, 0, "transforms.json", nerf_list,
        "  fathom dataset nerf transforms.json --mesh mesh.ply -o exact"}};
   return all;

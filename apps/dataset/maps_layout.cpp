@@ -60,11 +60,11 @@ int run_maps(MapsArguments& arguments, const Console& console) {
 void add_maps_layout(Command& family) {
   const auto arguments = std::make_shared<MapsArguments>();
   Command& command = family.command(
-      "maps", "Maps of the cameras of a camera file, in any format",
+      "maps", "Render a map for each camera of a camera file, in any format",
       "  fathom dataset maps cameras.json --mesh room.ply -o maps\n"
       "  fathom dataset maps cameras.json --mesh room.ply --name '{stem}.npy' -o room\n"
       "  fathom dataset maps cameras.json --mesh room.ply --name '{index:05}.png' \\\n"
-      "    --png-scale 1000 -o room\n");
+      "    --png-scale 1000 -o room");
   arguments->add_to(command, "Camera file (JSON), e.g. from 'fathom camera import'");
   arguments->add_scene_to(command);
   command.option("--name", "PATTERN", arguments->pattern,

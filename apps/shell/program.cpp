@@ -166,7 +166,7 @@ int run_to_the_end(const std::function<int()>& run) {
 
 int run_arguments(const std::vector<std::string>& given, const std::vector<AddCommand>& commands,
                   const std::vector<Companion>& companions) {
-  CLI::App app("Exact depth maps of triangle meshes.", "fathom");
+  CLI::App app("Compute exact depth maps of triangle meshes", "fathom");
   Console console;
   Command program(app, console, examples);
   program.requires_command();
