@@ -34,14 +34,11 @@ struct ConvertArguments {
 };
 
 DepthQuantity parse_quantity(const std::string& text) {
-  return parse_word<DepthQuantity>(text, {{"Z", DepthQuantity::planar_depth},
-                                          {"distance", DepthQuantity::ray_distance},
-                                          {"disparity", DepthQuantity::disparity}});
+  return parse_enumerator(text, all_depth_quantities);
 }
 
 PointFrame parse_frame(const std::string& text) {
-  return parse_word<PointFrame>(text,
-                                {{"world", PointFrame::world}, {"camera", PointFrame::camera}});
+  return parse_enumerator(text, all_point_frames);
 }
 
 bool ends_with_ply(const std::string& name) {
@@ -104,7 +101,7 @@ DepthMap converted(DepthMap map, const ConvertArguments& arguments, const Consol
   }
   const DepthQuantity from = arguments.from.value_or(DepthQuantity::planar_depth);
   // PFM, PNG and NPY do not name their channel: it is what the user says it is.
-  if (map.channels.size() == 1 && map.texts.empty()) map.channels[0].name = channel_of(from);
+  if (map.channels.size() == 1 && map.texts.empty()) map.channels[0].name = name_of(from);
   return convert_quantity(map, from, *arguments.to, camera_for(map, arguments, console),
                           rig_of(arguments), arguments.storage.background);
 }

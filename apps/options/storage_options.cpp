@@ -89,7 +89,8 @@ MapFormat StorageOptions::format_of(const std::string& target) const {
     throw UsageError("--dtype is for .npy and .npz, not for " + target);
   }
   if (!channel_names.empty() && !keeps_all_channels(*format)) {
-    throw UsageError("--channel-name is for .exr and .npz: no channel has a name in " + target);
+    throw UsageError("--channel-name is for " + suffixes_of_complete_maps() +
+                     ": no channel has a name in " + target);
   }
   if (background && *background != 0 && has_zero_for_none(*format)) {
     throw UsageError("--background: it is always 0 in a " +

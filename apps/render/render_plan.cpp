@@ -56,18 +56,19 @@ void check_single_channel(const RenderArguments& a, MapFormat format,
   if (holds_all_channels(format)) return;
   if (format == MapFormat::colmap && channels != std::vector{Channel::Z} &&
       channels != std::vector{Channel::Nc}) {
-    throw UsageError(fmt::format("{}: a COLMAP map holds Z or Nc, not '{}'; .exr and .npz hold all",
-                                 a.output, text_of(channels)));
+    throw UsageError(fmt::format("{}: a COLMAP map holds Z or Nc, not '{}'; {} hold all", a.output,
+                                 text_of(channels), suffixes_of_complete_maps()));
   }
-  if (a.samples) throw UsageError(a.output + " holds one channel; --samples needs an .exr or .npz");
-  if (a.depth_buffer.storage) {
-    throw UsageError(a.output + " holds one channel; --depth-format needs an .exr or .npz");
+  if (a.samples || a.depth_buffer.storage) {
+    throw UsageError(fmt::format("{} holds one channel; {} needs an {}", a.output,
+                                 a.samples ? "--samples" : "--depth-format",
+                                 suffixes_of_complete_maps(" or ")));
   }
   // The parts of one are an array of pixels with several.
   if (holds_parts(format) && channels.size() == 1) return;
   if (count_parts(channels) != 1) {
-    throw UsageError(fmt::format("{} holds one channel, not '{}'; .exr and .npz hold them all",
-                                 a.output, text_of(channels)));
+    throw UsageError(fmt::format("{} holds one channel, not '{}'; {} hold them all", a.output,
+                                 text_of(channels), suffixes_of_complete_maps()));
   }
   const Channel only = channels.front();
   if (format == MapFormat::png && (only == Channel::A || only == Channel::Zlow)) {

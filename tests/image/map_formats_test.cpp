@@ -44,6 +44,8 @@ TEST(MapFormats, ListsForMessages) {
   EXPECT_EQ(suffixes_of_maps(), ".exr, .pfm, .png, .npy, .npz, .bin or .tif");
   EXPECT_EQ(suffixes_of_maps(" and "), ".exr, .pfm, .png, .npy, .npz, .bin and .tif");
   EXPECT_EQ(suffixes_of_float_maps(), ".exr, .pfm, .npy, .npz, .bin or .tif");
+  EXPECT_EQ(suffixes_of_complete_maps(), ".exr and .npz");
+  EXPECT_EQ(suffixes_for_any_channel(), ".exr, .npy or .npz");
   EXPECT_EQ(names_of_readable_maps(), "OpenEXR, PFM, PNG, NPY, NPZ or COLMAP");
   EXPECT_EQ(refusal("a.jpg"),
             "a.jpg: expected a name that ends in .exr, .pfm, .png, .npy, .npz, .bin or .tif");

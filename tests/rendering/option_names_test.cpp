@@ -5,6 +5,7 @@
 
 #include "fathom/failures/unknown_name.h"
 #include "fathom/image/map_files.h"
+#include "fathom/image/point_cloud.h"
 
 namespace fathom {
 namespace {
@@ -24,6 +25,8 @@ TEST(OptionNames, LeadToValuesAndBack) {
   expect_to_lead_back(all_normal_sources);
   expect_to_lead_back(all_stored_types);
   expect_to_lead_back(all_compressions);
+  expect_to_lead_back(all_depth_quantities);
+  expect_to_lead_back(all_point_frames);
 }
 
 TEST(OptionNames, AreThoseOfTheDocumentation) {
@@ -32,6 +35,8 @@ TEST(OptionNames, AreThoseOfTheDocumentation) {
   EXPECT_THAT(names_of(all_normal_sources), ElementsAre("file", "vertex", "place"));
   EXPECT_THAT(names_of(all_stored_types), ElementsAre("float32", "float64", "uint16"));
   EXPECT_THAT(names_of(all_compressions), ElementsAre("none", "rle", "zips", "zip", "piz"));
+  EXPECT_THAT(names_of(all_depth_quantities), ElementsAre("Z", "distance", "disparity"));
+  EXPECT_THAT(names_of(all_point_frames), ElementsAre("world", "camera"));
 }
 
 TEST(OptionNames, AreJoinedForMessages) {

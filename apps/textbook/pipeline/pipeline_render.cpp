@@ -99,8 +99,8 @@ PipelinePlan plan_pipeline(const RenderArguments& a) {
   check_possible(a, plan.format);
   plan.channels = a.channels.value_or(std::vector{Channel::Z});
   if (!holds_all_channels(plan.format) && plan.channels.size() != 1) {
-    throw UsageError(a.output + " holds one channel, not '" + text_of(plan.channels) +
-                     "'; .exr and .npz hold them all");
+    throw UsageError(a.output + " holds one channel, not '" + text_of(plan.channels) + "'; " +
+                     suffixes_of_complete_maps() + " hold them all");
   }
   require_pipeline_channels(plan.channels);
   plan.writing = a.storage.write_options(a.scene.threads);

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "fathom/camera/camera.h"
 #include "fathom/image/channel_table.h"
@@ -19,8 +20,10 @@ namespace fathom {
 std::array<double, 3> point_at(const Camera& camera, double i, double j, double z);
 
 enum class DepthQuantity { planar_depth, ray_distance, disparity };
-/// The channel that holds it: Z, distance or disparity.
-std::string channel_of(DepthQuantity quantity);
+inline constexpr std::array all_depth_quantities{
+    DepthQuantity::planar_depth, DepthQuantity::ray_distance, DepthQuantity::disparity};
+/// The name of the channel that holds it: "Z", "distance" or "disparity".
+std::string_view name_of(DepthQuantity quantity);
 
 /// A rectified stereo pair: disparity = |fx|·baseline / Z − doffs (Middlebury's calib.txt).
 /// Unit     baseline: scene units; doffs and disparities: pixels.

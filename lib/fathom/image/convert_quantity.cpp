@@ -95,7 +95,7 @@ std::array<double, 3> point_at(const Camera& camera, double i, double j, double 
   return {x * z, y * z, z};
 }
 
-std::string channel_of(DepthQuantity quantity) {
+std::string_view name_of(DepthQuantity quantity) {
   switch (quantity) {
     case DepthQuantity::planar_depth:
       return "Z";
@@ -113,7 +113,7 @@ DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity
   const StandardArithmetic standard;
   require_valid(map);
   require_valid(camera);
-  const std::string name = channel_of(from);
+  const std::string name(name_of(from));
   const ImageChannel* source = map.find(name);
   if (!source) throw missing_channel(map, name);
   Converter convert{from, to, camera, {}};
@@ -126,9 +126,11 @@ DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity
   result.png_scale.reset();
   result.texts.erase(background_text);
   if (const auto* floats = std::get_if<Samples<float>>(&source->values))
-    result.channels.push_back({channel_of(to), converted(*floats, surface, map.width, convert)});
+    result.channels.push_back(
+        {std::string(name_of(to)), converted(*floats, surface, map.width, convert)});
   else if (const auto* doubles = std::get_if<Samples<double>>(&source->values))
-    result.channels.push_back({channel_of(to), converted(*doubles, surface, map.width, convert)});
+    result.channels.push_back(
+        {std::string(name_of(to)), converted(*doubles, surface, map.width, convert)});
   else
     throw UsageError("channel '" + name + "' holds codes: decode them first");
   const double value = background.value_or(usual_background(map, from, to));

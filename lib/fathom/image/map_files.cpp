@@ -26,7 +26,8 @@ const std::string one_channel = "this format holds one channel";
 /// The error of a channel of several parts, of which a file cannot hold more than one.
 UsageError one_part_only(const DepthMap& map, const std::string& name) {
   return {Setting{"channel"}, one_channel + ", and " + text_of_parts(map, name) +
-                                  "; name the one to write, or write .npy or .exr"};
+                                  "; name the one to write, or write " +
+                                  suffixes_for_any_channel()};
 }
 
 const ImageChannel& channel_to_write(const DepthMap& map, const std::string& asked) {

@@ -55,6 +55,19 @@ std::string suffixes_of_float_maps() {
   return joined(listed([](const auto& format) { return format.holds_floats; }, suffix_of), " or ");
 }
 
+std::string suffixes_of_complete_maps(std::string_view last) {
+  return joined(
+      listed([](const auto& format) { return keeps_all_channels(format.format); }, suffix_of),
+      last);
+}
+
+std::string suffixes_for_any_channel() {
+  const auto holds_any = [](const MapFormatDescription& format) {
+    return format.is_read && format.channels != HeldChannels::one && !format.zero_for_none;
+  };
+  return joined(listed(holds_any, suffix_of), " or ");
+}
+
 std::string names_of_readable_maps() {
   return joined(listed([](const auto& format) { return format.is_read; },
                        [](const auto& format) { return format.name; }),

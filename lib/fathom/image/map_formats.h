@@ -124,6 +124,12 @@ std::string suffixes_of_maps(std::string_view last = " or ");
 /// The same, of the formats whose depths are floating-point numbers.
 std::string suffixes_of_float_maps();
 
+/// ".exr and .npz": the formats that keep all channels; `last` stands before the last suffix.
+std::string suffixes_of_complete_maps(std::string_view last = " and ");
+
+/// ".exr, .npy or .npz": the formats that hold a channel of any type with all of its parts.
+std::string suffixes_for_any_channel();
+
 /// "OpenEXR, PFM, … or COLMAP": the formats that read_map() reads.
 std::string names_of_readable_maps();
 

@@ -91,19 +91,13 @@ void write(const SharedMap& map, const std::filesystem::path& path, const std::s
   });
 }
 
-DepthQuantity quantity_named(const std::string& name) {
-  for (const DepthQuantity each :
-       {DepthQuantity::planar_depth, DepthQuantity::ray_distance, DepthQuantity::disparity})
-    if (channel_of(each) == name) return each;
-  throw UsageError("expected Z, distance or disparity, found " + name);
-}
-
 SharedMap convert(const SharedMap& map, const std::string& from, const std::string& to,
                   const Camera& camera, std::optional<double> baseline, double doffs,
                   std::optional<double> background) {
   std::optional<StereoRig> rig;
   if (baseline) rig = StereoRig{*baseline, doffs};
-  const DepthQuantity source = quantity_named(from), target = quantity_named(to);
+  const DepthQuantity source = named_value("from", all_depth_quantities, from);
+  const DepthQuantity target = named_value("to", all_depth_quantities, to);
   return run([&](const auto&) {
     return std::make_shared<DepthMap>(
         convert_quantity(*map, source, target, camera, rig, background));
@@ -118,21 +112,19 @@ SharedMap store(const DepthMap& map, const std::string& channel, const std::stri
   });
 }
 
-PointFrame frame_named(const std::string& name) {
-  return name == "camera" ? PointFrame::camera : PointFrame::world;
-}
-
 void write_points(const DepthMap& map, const Camera& camera, const std::filesystem::path& path,
                   const std::string& frame, bool binary64) {
   PointCloudOptions options;
-  options.frame = frame_named(frame);
+  options.frame = named_value("frame", all_point_frames, frame);
   options.binary64 = binary64;
   run([&](const auto&) { write_point_cloud(map, camera, path, options); });
 }
 
 /// N×3.
 py::array points(const SharedMap& map, const Camera& camera, const std::string& frame) {
-  const auto found = run([&](const auto&) { return points_of(*map, camera, frame_named(frame)); });
+  const auto found = run([&](const auto&) {
+    return points_of(*map, camera, named_value("frame", all_point_frames, frame));
+  });
   Samples<double> flat(3 * found.size());
   for (std::size_t i = 0; i < flat.size(); ++i) flat[i] = found[i / 3][i % 3];
   return array_of(std::move(flat), {static_cast<py::ssize_t>(found.size()), 3});
@@ -273,6 +265,8 @@ void bind_maps(Module& core) {
   core.attr("camera_text") = camera_text;
   core.attr("normals_text") = normals_text;
   core.attr("compressions") = names_of(all_compressions);
+  core.attr("quantities") = names_of(all_depth_quantities);
+  core.attr("point_frames") = names_of(all_point_frames);
 }
 
 }  // namespace fathom::python

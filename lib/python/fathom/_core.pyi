@@ -17,6 +17,8 @@ background_text: str
 camera_text: str
 normals_text: str
 compressions: list[str]
+point_frames: list[str]
+quantities: list[str]
 culls: list[str]
 engines: list[str]
 normal_sources: list[str]

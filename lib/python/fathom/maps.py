@@ -32,7 +32,8 @@ segment_channels = tuple(_core.segment_channels)
 #: files.
 parts_of = {name: parts for name, (parts, _) in rendered.items() if parts}
 
-quantities = ("Z", "distance", "disparity")
+quantities = tuple(_core.quantities)
+point_frames = tuple(_core.point_frames)
 
 
 class Map(dict[str, "npt.NDArray[Any]"]):
@@ -287,7 +288,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         """N×3 float64 points in scene units, row by row, one for each pixel with a surface at a
         finite depth. They are computed from Z (or distance) and the camera; in the world from
         channel P, if the map has it, whose values are exact, rounded once."""
-        one_of("frame", frame, ("world", "camera"))
+        one_of("frame", frame, point_frames)
         # Positions in the world need no camera.
         needs_camera = frame == "camera" or "P" not in self
         view = self._camera(camera) if needs_camera else Camera(1, 1, 1, 1, 0, 0, pixel_centre=0.5)
@@ -298,7 +299,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         """Writes the points as PLY, with normals and identifiers if the map has them."""
         path = path_of("file", file)
         name = one_of("dtype", np.dtype(dtype).name, ("float32", "float64"))
-        one_of("frame", frame, ("world", "camera"))
+        one_of("frame", frame, point_frames)
         handle, view = self._handle(), camera_handle(self._camera(camera))
         make_folder_of(file)
         _core.write_point_cloud(handle, view, path, frame,

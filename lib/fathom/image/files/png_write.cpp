@@ -161,7 +161,7 @@ Bytes encode_png(const DepthMap& map, const ImageChannel& channel, const std::st
                       "' is stored as floating point; " +
                       (kind_of(channel) == ChannelKind::depth
                            ? "give a scale, in codes per scene unit"
-                           : ".exr, .npz and .npy hold it"));
+                           : "write " + suffixes_for_any_channel()));
   Picture picture{map.width, map.height, 16, PNG_COLOR_TYPE_GRAY, {}, {}};
   picture.pixels.resize(2 * codes.size());
   for (std::size_t k = 0; k < codes.size(); ++k)
