@@ -76,7 +76,7 @@ class Work {
     return all;
   }
 
-  /// Before the first file is made: those that are there already have to be the job's own.
+  /// Called before the first file is made. Existing files must be the job's own.
   void announce() {
     std::vector<std::string> unannounced;
     std::unordered_set<std::string> known;
@@ -128,8 +128,8 @@ class Work {
     return made;
   }
 
-  /// Where all tasks are finished, those of other shards too: writes the lists, and the manifest
-  /// anew where no shard has one of its own. Returns whether they are.
+  /// If all tasks of all shards are finished, writes the lists, and rewrites the manifest unless
+  /// shards have their own. Returns whether all tasks are finished.
   bool write_lists() {
     Warnings told_before;
     if (!job_.shard.is_all()) content_ = manifest_.read(told_before);

@@ -10,12 +10,12 @@
 #include "apps/shell/console.h"
 #include "fathom/files/file_bytes.h"
 
-/// Work of many files that survives being interrupted. Each task's files are published as soon as
-/// they are on the disk; a manifest beside them says which are finished, so that the same command,
-/// given again, makes what is missing and no more.
+/// Work of many files that survives interruption. Each task's files are published as soon as they
+/// are on the disk. A manifest next to the files lists the finished tasks, so that the same
+/// command, run again, makes only the missing files.
 namespace fathom::app {
 
-/// Part `number` of `of` equal ones, from 1 on: every of-th task.
+/// Part `number` (from 1) of `of` equal parts: every of-th task.
 struct Shard {
   std::size_t number = 1, of = 1;
 
@@ -27,9 +27,9 @@ struct Shard {
 /// "2/5". Fails with UsageError.
 Shard parse_shard(const std::string& text);
 
-/// What is computed in one go and published together.
+/// Files that are computed and published together.
 struct Task {
-  /// Of all that its files depend on; another key has the files made anew.
+  /// Hash of everything that the files depend on. If the key changes, the files are made again.
   std::string key;
   /// The files that it makes, below the folder of the job; at least one.
   std::vector<std::string> files;
@@ -38,11 +38,11 @@ struct Task {
 /// The key of a task whose files depend on this text and on nothing else.
 std::string key_of(const std::string& inputs);
 
-/// What a task has computed.
+/// The result of a task.
 struct Result {
   /// The bytes of each of its files. Called from another thread, while the next task is computed.
   std::vector<std::function<files::Bytes()>> files;
-  /// What a list needs to know of the task: JSON. Not null.
+  /// The task's entry for lists, as JSON; not null.
   std::string facts = "{}";
   /// About as many bytes of memory does the result hold.
   std::size_t memory = 0;
@@ -56,7 +56,7 @@ struct JobList {
 };
 
 struct Job {
-  /// What a task is called in messages: "map", whose plural has an s.
+  /// Name of a task in messages, e.g. "map"; the plural adds an s.
   std::string noun = "map";
   std::filesystem::path folder;
   std::vector<Task> tasks;
@@ -68,11 +68,11 @@ struct Job {
   bool overwrites = false;
 };
 
-/// Does what is not done yet of the job, or of a part of it, and says on standard output how much
-/// that was.
-/// Fails    UsageError where a file is there that the job has not made; OutputError; InputError,
-///          and whatever `make` fails with. What is finished by then stays, and is told by all but
-///          the first.
+/// Does the unfinished tasks of the job, or of its shard, and prints their number to standard
+/// output.
+/// Fails    UsageError if a file exists that the job has not made; OutputError; InputError, and any
+///          exception of `make`. Finished files stay, and every message except a UsageError reports
+///          their number.
 void run_job(const Job& job, const Console& console);
 
 }  // namespace fathom::app

@@ -9,9 +9,9 @@
 
 namespace fathom::app {
 
-/// How far a job is: on a terminal a line of progress, "maps: 73/500, 41 maps/s, 0:10 left", wiped
-/// at the end; and what the program says when it is interrupted. May be told of from several
-/// threads.
+/// Progress of a job: on a terminal a line, "maps: 73/500, 41 maps/s, 0:10 left", wiped at the end;
+/// and the message that the program prints when it is interrupted. Several threads may report
+/// progress.
 class JobProgress {
  public:
   /// `noun` has a plural with an s.
@@ -21,7 +21,7 @@ class JobProgress {
   ~JobProgress();
 
   void add_made(std::size_t count);
-  /// One that was finished before.
+  /// Counts a task that an earlier run finished.
   void add_found();
   /// " (73 of 500 maps are finished; the same command goes on from there)"
   [[nodiscard]] std::string so_far() const;

@@ -68,7 +68,7 @@ Record record_of(const Json& json) {
   return record;
 }
 
-/// Adds a line of a manifest to what it says of each task, and to the files of the content.
+/// Adds a line of a manifest to the records of the tasks and to the files of the content.
 void add_line(const std::string& line, const std::string& name,
               std::unordered_map<std::string, Record>& said, ManifestContent& content) {
   const Json json = text::parse_json<Json>(line);
@@ -239,7 +239,7 @@ void Manifest::replace(const std::vector<Record>& records, std::unordered_set<st
   output.commit();
   for (const fs::path& other : manifests_in(folder_)) {
     if (other == path_) continue;
-    // NFS grants such a lock on files that are open for writing alone.
+    // NFS grants such a lock only on files that are open for writing.
     const files::Descriptor file(::open(other.c_str(), O_RDWR | O_CLOEXEC));
     const bool is_free = file.is_open() && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0;
     if (is_free) ::unlink(other.c_str());

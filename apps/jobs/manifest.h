@@ -18,7 +18,7 @@ namespace fathom::app {
 struct PublishedFile {
   std::string path;
   std::uint64_t bytes = 0;
-  /// Of its content; tells damage, not forgery.
+  /// Checksum of the content; detects damage, not forgery.
   std::uint32_t crc32 = 0;
 };
 
@@ -38,15 +38,15 @@ struct Record {
 /// or, where it is not UTF-8, the list of its bytes.
 std::string line_of(const Record& record);
 
-/// What the manifests in a folder say, of all shards.
+/// Content of all shards' manifests in a folder.
 struct ManifestContent {
-  /// By the first file of each task: of each manifest what it says last. Which of the manifests has
-  /// said it last is not known: one may be of an earlier mesh.
+  /// By the first file of each task: the last record of each manifest. The order between manifests
+  /// is unknown: one may belong to an earlier mesh.
   std::unordered_map<std::string, std::vector<Record>> records;
   /// Files that jobs have made or may have made.
   std::unordered_set<std::string> owned;
 
-  /// What is said of the task of this first file with this key; null where nothing is.
+  /// The record of the task with this first file and this key; null if there is no record.
   [[nodiscard]] const Record* find(const std::string& file, const std::string& key) const;
   /// A manifest. A line that is no record is passed over, with a warning where it is not the last.
   /// `name` is the manifest's for messages.
@@ -56,17 +56,17 @@ struct ManifestContent {
   void add(Record record);
 };
 
-/// The list of what is finished, in a file beside it: fathom-manifest.jsonl, or one for each shard.
-/// A record is on the disk before the next one is made, and after the files that it is about; what
-/// a power cut leaves of one that was not is removed.
-/// One process at a time has it. Fails with OutputError, also where another process has it.
+/// The list of finished tasks, in a file next to the maps: fathom-manifest.jsonl, or one file for
+/// each shard. A record is on the disk after its files and before the next record is made. A record
+/// that a power cut left incomplete is removed.
+/// One process at a time holds the file. Fails with OutputError, also if another process holds it.
 class Manifest {
  public:
   Manifest(std::filesystem::path folder, const Shard& shard);
 
   /// Reads all manifests of the folder.
   [[nodiscard]] ManifestContent read(Warnings& warnings) const;
-  /// Says which files will be made, before the first one is.
+  /// Records which files will be made, before the first file is made.
   void announce(const std::vector<std::string>& files);
   void add(const std::vector<Record>& records);
   /// Where all is finished: replaces the manifests of the folder by one of these records, with what

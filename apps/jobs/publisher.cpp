@@ -7,9 +7,9 @@
 namespace fathom::app {
 namespace {
 
-/// Results wait in less memory than this, but for one.
+/// Waiting results take less memory than this, unless a single result is larger.
 constexpr std::size_t most_memory = std::size_t{256} << 20U;
-/// So many files, of which each is open, are written at once, but for those of one task.
+/// At most this many files are open and written at once, unless a single task has more.
 constexpr std::size_t most_files = 128;
 
 }  // namespace

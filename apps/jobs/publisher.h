@@ -15,8 +15,8 @@
 
 namespace fathom::app {
 
-/// Writes the results of tasks while the next ones are computed, by a thread of its own. Those that
-/// wait are written together, and wait for the disk once.
+/// Writes the results of tasks in a separate thread while the next tasks are computed. Waiting
+/// results are written together and synced to disk once.
 class Publisher {
  public:
   /// `published` is called with the records of the tasks that have been published just now, from

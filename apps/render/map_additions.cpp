@@ -27,7 +27,7 @@ DepthBufferReport add_depth_buffer_channels(DepthMap& map, const DepthBufferPlan
   return report;
 }
 
-/// Takes away what the map has for the depth buffer alone.
+/// Removes the channels that only the depth buffer needed.
 void drop_helpers(DepthMap& map, const DepthBufferPlan& plan) {
   if (plan.drops_id) std::erase_if(map.channels, [](const auto& c) { return c.name == "id"; });
 }

@@ -14,23 +14,23 @@
 
 namespace fathom::app {
 
-/// What a map was rendered from.
+/// The inputs of a map.
 struct RenderedFrom {
   TriangleSource triangles;
   const Camera& camera;
   const RenderOptions& options;
   /// Renders the same map with other options.
   std::function<Rendered(const RenderOptions&)> render;
-  /// Those of the plan, each asked for once, in its order.
+  /// The plan's mattes in order, each requested once.
   std::function<Mattes(const MatteKind&)> mattes;
 };
 
 /// Whether the plan has anything that add_planned() does, for which it needs the whole map.
 bool has_additions(const MapPlan& plan);
 
-/// Adds to a map, called `name`, what the plan asks for beside the channels that are rendered, and
-/// verifies it where that is asked for; the report gets what is said of that.
-/// Fails    UsageError, InputError as the functions that do it.
+/// Adds to a map, called `name`, everything that the plan requests in addition to rendered
+/// channels, and verifies the map if requested; the report gets the result of the verification.
+/// Fails    UsageError, InputError as the called functions.
 void add_planned(DepthMap& map, const MapPlan& plan, const std::string& name,
                  const RenderedFrom& from, MapReport& report, const Console& console);
 

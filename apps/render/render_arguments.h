@@ -33,8 +33,8 @@ struct DepthBufferArguments {
   void add_to(Command& command);
 };
 
-/// The arguments of `fathom render`, each by itself as it was given: what they mean together is
-/// decided where a plan is made of them.
+/// The arguments of `fathom render`, each as it was given. Combinations are checked when a plan is
+/// made from them.
 struct RenderArguments {
   SceneOptions scene;
   MotionOptions motion;
@@ -58,7 +58,7 @@ struct RenderArguments {
   void add_to(Command& command);
   /// For the exact engines. Fails with UsageError where an option of the pipeline is given.
   void refuse_pipeline_options() const;
-  /// The layers of Cryptomatte that are asked for.
+  /// The requested layers of Cryptomatte.
   [[nodiscard]] std::vector<MatteKind> mattes() const;
 
  private:

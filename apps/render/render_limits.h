@@ -11,18 +11,18 @@
 
 namespace fathom::app {
 
-/// Refuses cameras whose maps the file or the depth format cannot hold, or that take more memory
-/// than there is or --max-memory allows, before any is tried: a map, and what is needed to write
-/// it. `output` is their name for messages. Fails with OutputError, InputError and UsageError.
-/// `in_bands`: a map is never whole in memory, but a few rows of it.
+/// Refuses cameras, before the first is rendered, if the file or the depth format cannot hold their
+/// maps, or if a map and the memory for writing it exceed available memory or --max-memory.
+/// `output` is their name for messages. Fails with OutputError, InputError and UsageError.
+/// `in_bands`: only a few rows of a map are in memory at a time.
 void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
                    const std::string& output, bool in_bands = false);
 /// The same for deep maps, whose size is known when they are there.
 void check_cameras(const std::vector<Camera>& cameras, const DeepMapPlan& plan,
                    const std::string& output);
 
-/// Of the memory that the map leaves over of what is allowed, a quarter for tiles, an eighth for
-/// the triangles that channel A needs, a sixteenth for those that are read at a time.
+/// Divides the allowed memory that the map leaves free: a quarter for tiles, an eighth for the
+/// triangles that channel A needs, a sixteenth for triangles that are read at a time.
 StreamLimits stream_limits(const Camera& camera, const RenderOptions& options);
 
 /// Limits TBB's threads during its lifetime (0: no limit). Also lets TBB use more threads than

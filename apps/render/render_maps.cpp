@@ -26,12 +26,12 @@
 namespace fathom::app {
 namespace {
 
-/// What is rendered: a scene in memory, or one that stays in its files.
+/// The rendered scene: in memory, or streamed from its files.
 class RenderInput {
  public:
   enum class Place { memory, files };
 
-  /// What channels need of the files beside positions.
+  /// Data that channels need from the files in addition to positions.
   struct Kept {
     /// Materials, groups, parts and labels.
     bool segments = false;
@@ -40,8 +40,8 @@ class RenderInput {
 
   RenderInput(const SceneOptions& options, Place place, const Kept& kept, const Console& console);
 
-  /// The scene; of one that stays in its files its bounds, objects and sources: what cameras are
-  /// made from.
+  /// The scene; for a streamed scene only its bounds, objects and sources, from which cameras are
+  /// made.
   [[nodiscard]] const Scene& outline() const { return scene_; }
   /// Places the objects that move.
   /// Fails    UsageError where the scene stays in its files; as MotionOptions::placed.
@@ -98,7 +98,7 @@ Rendered RenderInput::render(const Camera& camera, const RenderOptions& options,
              : fathom::render(scene_, camera, options, context);
 }
 
-/// Makes the map of a camera, checks it where that is asked for, and writes it.
+/// Makes the map of a camera, checks it if requested, and writes it.
 MapReport make_map(const MapPlan& plan, const RenderInput& scene, const MotionOptions& motion,
                    const Camera& camera, RenderOutputs& outputs, std::size_t number,
                    const RenderContext& context, const Console& console) {
@@ -106,7 +106,7 @@ MapReport make_map(const MapPlan& plan, const RenderInput& scene, const MotionOp
   MapReport report{.map = name, .engine = plan.rendering.engine};
   const RenderOptions& options = plan.rendering;
   Stopwatch stopwatch;
-  // A depth that the file cannot hold is told with the name of its map.
+  // The message about a depth that the file cannot hold names the map.
   Rendered rendered = about_output(name, [&] { return scene.render(camera, options, context); });
   DepthMap map = std::move(rendered.map);
   report.statistics = rendered.statistics;

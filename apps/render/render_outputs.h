@@ -10,12 +10,12 @@
 
 namespace fathom::app {
 
-/// What a map says of its depth format in `fathom.depth_format`, and `render --stats` of it.
+/// Description of the depth format for a map's `fathom.depth_format` and for `render --stats`.
 nlohmann::ordered_json json_of(const DepthFormat& format);
 
-/// The outputs of `render`: for each camera a map and, where they are asked for, a picture and
-/// what codes mean; the cameras; the statistics. All are opened before the work and put in their
-/// places together, when every one of them is written.
+/// The outputs of `render`: for each camera a map and, if requested, a picture and a description of
+/// the codes; the cameras; the statistics. All are opened before the work and published together
+/// when every file is written.
 class RenderOutputs {
  public:
   /// Fails    UsageError where the names do not fit the number of cameras; as OutputFile.

@@ -19,8 +19,7 @@ bool contains(const std::vector<Channel>& channels, Channel channel) {
   return std::find(channels.begin(), channels.end(), channel) != channels.end();
 }
 
-/// The channels that are asked for, or depth and coverage; depth alone where coverage cannot be
-/// written.
+/// The requested channels, or depth and coverage; only depth if the format cannot hold coverage.
 std::vector<Channel> channels_of(const RenderArguments& a, MapFormat format) {
   if (a.channels) return *a.channels;
   if (keeps_all_channels(format)) return {Channel::Z, Channel::A};
@@ -36,7 +35,7 @@ RenderOptions rendering_of(const RenderArguments& a) {
   return options;
 }
 
-/// Refuses what a scene that stays in its files cannot be asked for.
+/// Refuses options that a streamed scene does not support.
 void check_stream(const RenderArguments& a, const std::vector<Channel>& channels) {
   if (!a.stream) return;
   if (a.engine != EngineName::fast) {
@@ -48,7 +47,7 @@ void check_stream(const RenderArguments& a, const std::vector<Channel>& channels
   if (!a.mattes().empty()) throw UsageError("--cryptomatte is not for --stream");
 }
 
-/// Refuses what a file with a single channel cannot hold.
+/// Refuses options that need more channels than the file format holds.
 void check_single_channel(const RenderArguments& a, MapFormat format,
                           const std::vector<Channel>& channels) {
   if (format == MapFormat::exr) return;
@@ -93,7 +92,7 @@ std::optional<DepthBufferPlan> depth_buffer_of(const DepthBufferArguments& a,
   return plan;
 }
 
-/// Refuses what a deep map has no place for.
+/// Refuses options that a deep map does not support.
 void check_deep(const RenderArguments& a) {
   if (a.storage.format_of(a.output) != MapFormat::exr) {
     throw UsageError("--deep is for .exr, not for " + a.output);

@@ -14,7 +14,7 @@ struct DepthBufferPlan {
   Storage storage = Storage::float32;
   double c = 1;
   bool against_exact = false;
-  /// The map has the channel id for the depth buffer alone: it is not written.
+  /// Only the depth buffer needs channel id: it is not written.
   bool drops_id = false;
 
   /// How many channels it adds, at most.
@@ -24,7 +24,7 @@ struct DepthBufferPlan {
 /// The depth format with the camera's near and far. Fails with UsageError where they do not fit it.
 DepthFormat format_for(const DepthBufferPlan& plan, const Camera& camera);
 
-/// How an exact engine makes maps: what the arguments mean together.
+/// How an exact engine makes maps: the combined meaning of the arguments.
 struct MapPlan {
   MapFormat format = MapFormat::exr;
   WriteOptions writing;

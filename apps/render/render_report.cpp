@@ -32,7 +32,7 @@ Json decided_by(Engine engine) {
   return json;
 }
 
-/// All counts but two that are parts of others.
+/// All counts except two that are parts of other counts.
 Json to_json(const RenderStatistics& statistics) {
   Json json = Json::object(), decisions = Json::object();
   for_each_count([&](const std::string& name, auto member) {

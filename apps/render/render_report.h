@@ -20,11 +20,11 @@ namespace fathom::app {
 /// Of scenes that show nothing or less than one would think.
 void warn_of(const RenderStatistics& statistics, const Console& console);
 
-/// Of channels that will show nothing but that there is none.
+/// Warnings about channels that will be empty because the scene has no such data.
 void warn_of_missing_segments(const TriangleSource& triangles, const std::vector<Channel>& channels,
                               const Console& console);
 
-/// What is probably not meant about the cameras of a path, each kind of it told once.
+/// Warnings about suspicious cameras of a path, each kind once.
 class CameraWarnings {
  public:
   /// Of a camera whose map shows the scene in so many pixels.
@@ -58,7 +58,7 @@ struct DepthBufferReport {
   DepthBufferStatistics seen;
 };
 
-/// What `render --stats` says of a map.
+/// The entry of a map in `render --stats`.
 struct MapReport {
   std::string map;  ///< the name of the file
   Engine engine = Engine::fast;

@@ -8,7 +8,7 @@
 #include "validation/colour/colour_comparison.h"
 #include "validation/vtk/vtk_colours.h"
 
-/// Which picture of the pipeline's is held beside which of VTK's.
+/// A picture of the pipeline and the picture of VTK that it is compared with.
 namespace fathom::app {
 
 struct ColourPair {
@@ -22,7 +22,7 @@ struct ColourPair {
   validation::LightModel their_model;
 };
 
-/// Those that show the same by their formulas first.
+/// Pairs with equal formulas first.
 inline constexpr std::array colour_pairs{
     // Without highlights, which ours has from the centre of the face and VTK's from each fragment.
     ColourPair{"flat, VTK flat, matte", "flat-matte", false, pipeline::Shading::flat,
@@ -34,7 +34,7 @@ inline constexpr std::array colour_pairs{
     ColourPair{"phong, VTK Gouraud", "phong-beside-gouraud", true, pipeline::Shading::phong,
                validation::LightModel::interpolated_normal, validation::VtkShading::gouraud,
                validation::LightModel::interpolated_normal},
-    // Each by a formula of its own.
+    // Different formulas.
     ColourPair{"flat, VTK flat, glossy", "flat", true, pipeline::Shading::flat,
                validation::LightModel::face, validation::VtkShading::flat,
                validation::LightModel::derived_normal},
@@ -49,7 +49,7 @@ pipeline::Material material_of(const ColourPair& pair);
 validation::GreyPicture drawn_by_pipeline(const validation::LitScene& scene,
                                           pipeline::Shading shading);
 
-/// A scene and a pair of pictures of it, or why there are none.
+/// A scene and a pair of pictures of it, or the reason why they are missing.
 struct ColourCase {
   std::string scene;
   const ColourPair* pair = nullptr;

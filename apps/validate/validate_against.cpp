@@ -38,7 +38,7 @@ std::vector<Peer> peers_of(const ValidateArguments& arguments) {
   return about_option("--variants", [&] { return validation::with_variants(peers, variants); });
 }
 
-/// With --model matching, those that a named model is of.
+/// With --model matching, the variants that have a named model.
 std::vector<Peer> with_models(std::vector<Peer> peers) {
   std::erase_if(peers, [](const Peer& peer) { return !validation::matching_model(peer); });
   if (peers.empty()) throw UsageError("--model matching: no model fits these variants");

@@ -16,7 +16,7 @@ namespace fathom::app {
 
 namespace {
 
-/// Stores a list of names, each of which has passed a check.
+/// Stores a list of names after checking each name.
 TakeText names_into(std::string& list, void (*check)(const std::string&)) {
   return [&list, check](const std::string& text) {
     parse_names(text, check);

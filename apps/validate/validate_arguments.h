@@ -11,8 +11,8 @@
 
 namespace fathom::app {
 
-/// Values of --model that name none: the one that fits best, and, of a renderer that draws here,
-/// the one that is of its variant.
+/// Values of --model that select a model: the best fit, or, for a renderer that draws here, the
+/// model of its variant.
 inline constexpr const char* any_model = "auto";
 inline constexpr const char* matching = "matching";
 

@@ -15,7 +15,7 @@ namespace {
 
 using validation::LitScene;
 
-/// What means something for depth maps alone is refused.
+/// Refuses options that apply only to depth maps.
 void require_colour_options(const ValidateArguments& a) {
   for (const auto& [option, value] : {std::pair{"--variants", &a.variants},
                                       {"--baseline", &a.baseline},

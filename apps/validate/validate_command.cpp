@@ -1,4 +1,5 @@
-// fathom validate: another renderer's map beside the exact one, every difference attributed.
+// fathom validate: compares another renderer's map with the exact map and attributes every
+// difference.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -78,7 +78,7 @@ struct SpoiledMaps {
   std::vector<SpoiledMap> maps;
 };
 
-/// Sizes of all faults, in a process of its own, which may start threads.
+/// Sizes of all faults, computed in a separate process, which may start threads.
 std::vector<std::vector<double>> planned_sizes(const std::vector<Fault>& faults,
                                                const SpoiledMaps& maps) {
   return validation::in_child(

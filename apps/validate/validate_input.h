@@ -11,7 +11,7 @@
 #include "fathom/scene/scene.h"
 #include "validation/scenes/validation_scenes.h"
 
-/// What a map is compared with, as files: read, and kept from being an output's place.
+/// Input files of a comparison; no output may overwrite them.
 namespace fathom::app {
 
 /// The single camera of --camera; warnings go to the console.
@@ -19,19 +19,19 @@ namespace fathom::app {
 Camera read_camera(const std::string& file, const Console& console);
 
 /// The scene of SCENE…; warnings go to the console.
-/// Fails    UsageError where there is none; InputError.
+/// Fails    UsageError if SCENE is missing; InputError.
 Scene read_files(const std::vector<std::string>& files, const ReadLimits& limits,
                  const Console& console);
 
-/// How each scene is made: anew in every process that draws it.
+/// How each scene is made; every process that draws a scene makes it again.
 struct SceneToMake {
   std::string name;
   std::function<validation::ValidationScene()> make;
 };
 
-/// The scene of SCENE…, else those of --scene, else all of ours. What is returned refers to the
-/// arguments and the console.
-/// Fails    UsageError where --scene names one that there is not.
+/// The scene of SCENE…, else the scenes of --scene, else all built-in scenes. The result refers to
+/// the arguments and the console.
+/// Fails    UsageError if --scene names an unknown scene.
 std::vector<SceneToMake> scenes_of(const ValidateArguments& arguments, const Console& console);
 
 }  // namespace fathom::app

@@ -22,7 +22,7 @@ namespace {
 using attribution::OtherMap;
 using validation::ValidationCase;
 
-/// The map of --map. Where it does not say what is needed to read it, the message does.
+/// The map of --map. If the map lacks information for reading it, the message names the option.
 OtherMap read_other_map(const ValidateArguments& arguments) {
   DepthMap map = read_map_argument(arguments.map);
   if (arguments.png_scale) {
@@ -48,7 +48,7 @@ OtherMap read_other_map(const ValidateArguments& arguments) {
 
 ValidationCase judge_brought(const ValidateArguments& arguments, const Console& console) {
   const Camera camera = read_camera(arguments.camera, console);
-  // What is wrong with it is said before the files are read.
+  // Faults of the arguments are reported before the files are read.
   const std::string name = arguments.model.empty() ? any_model : arguments.model;
   std::optional<attribution::RendererModel> model;
   if (name != any_model) model = attribution::model_for(name, camera);

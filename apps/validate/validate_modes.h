@@ -14,19 +14,19 @@ int validate_against(const ValidateArguments& arguments, const Console& console)
 /// status, as ValidationReport::finish().
 int validate_map(const ValidateArguments& arguments, const Console& console);
 
-/// `validate --render`: only draws, and writes what the renderer drew as a map of ours. Returns the
-/// exit status.
+/// `validate --render`: only draws, and writes the renderer's picture as a map. Returns the exit
+/// status.
 int validate_render(const ValidateArguments& arguments, const Console& console);
 
-/// `validate --colour`: has VTK draw lit scenes and holds its pictures and the pipeline's against
-/// what the formulas allow each (validation/colour). Returns the exit status: answer_is_no where a
-/// pixel is unexplained, unusable_input where VTK did not draw or a scene cannot be compared.
+/// `validate --colour`: has VTK draw lit scenes and compares VTK's and the pipeline's pictures with
+/// the bounds of their formulas (validation/colour). Returns the exit status: answer_is_no if a
+/// pixel is unexplained, unusable_input if VTK did not draw or a scene cannot be compared.
 int validate_colours(const ValidateArguments& arguments, const Console& console);
 
-/// `validate --faults --against …`: faults of the catalogue in maps of real renderers. Prints what
-/// is not found or wrongly named, writes faults.json and faults.md, and returns the exit status:
-/// answer_is_no where something is found in a right map, or a fault that is large enough is not
-/// found and rightly named; unusable_input where a renderer did not draw.
+/// `validate --faults --against …`: faults of the catalogue in maps of real renderers. Prints
+/// faults that are not found or wrongly named, writes faults.json and faults.md, and returns the
+/// exit status: answer_is_no if a right map has a finding, or a large fault is not found and
+/// rightly named; unusable_input if a renderer did not draw.
 int validate_faults(const ValidateArguments& arguments, const Console& console);
 
 }  // namespace fathom::app

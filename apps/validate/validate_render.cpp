@@ -17,7 +17,7 @@ namespace {
 
 using validation::Peer;
 
-/// The renderer of --render in the variant that is asked for, else in its first.
+/// The renderer of --render in the requested variant, else in its first variant.
 Peer peer_to_render(const ValidateArguments& arguments) {
   const auto renderer =
       about_option("--render", [&] { return validation::renderer_named(arguments.render); });

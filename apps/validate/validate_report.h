@@ -11,13 +11,13 @@
 
 namespace fathom::app {
 
-/// Makes the folder of a report, if one is asked for; to be called before the work, like the
-/// constructor below.
-/// Fails    OutputError where standard output or the folder cannot be written.
+/// Makes the folder of a report, if requested; call it before the work, like the constructor
+/// below.
+/// Fails    OutputError if standard output or the folder cannot be written.
 void prepare_answer(const std::string& out);
 
-/// What a validation answers: lines on standard output, and the files that were asked for. Made
-/// before the work, which need not be done where a file cannot be written or the baseline not read.
+/// Answer of a validation: lines on standard output, and the requested files. Constructed before
+/// the work, so that unwritable files and an unreadable baseline are reported at once.
 class ValidationReport {
  public:
   /// Takes --output, --junit, --baseline and --ctest.

@@ -1,4 +1,4 @@
-// Of processes that end together, one says why.
+// One of several processes that end together reports the reason.
 #include "apps/mpi/last_word.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace fathom::app {
 namespace {
 
-/// What a process of its own says to a question: what is set in it lasts as long as the process.
+/// Answer of a separate process, so that its settings end with it.
 bool answer_of_process(const std::function<bool()>& ask) {
   const pid_t process = ::fork();
   if (process == 0) ::_exit(ask() ? 1 : 0);
@@ -54,7 +54,7 @@ TEST(LastWord, IsSaidByTheFirstOfThoseThatShareAFile) {
   EXPECT_FALSE(answer_of_process(ask));
 }
 
-// The file cannot be made: then the number tells.
+// The file cannot be made: then the number decides.
 TEST(LastWord, IsSaidByTheFirstOfThoseThatShareANumber) {
   const auto ask = [](int said) {
     return answer_of_process([said] {

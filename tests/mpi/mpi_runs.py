@@ -17,7 +17,7 @@ partitions = ["load", "rows", "round-robin"]
 
 #: More processes than processors, and as root, as in containers.
 mpirun = ["mpirun", "--oversubscribe", "--allow-run-as-root", "--bind-to", "none"]
-#: What a run says beside what mpirun adds when a process fails.
+#: Output of a run without the lines that mpirun adds when a process fails.
 ours = "fathom: "
 
 
@@ -50,7 +50,7 @@ segments = ",material,group,part,label"
 
 
 def combinations(seed):
-    """Numbers of ranks with partitions: all in check-long, else one that is drawn at random."""
+    """Numbers of ranks with partitions: all in check-long, else a random pair."""
     every = list(itertools.product(ranks, partitions))
     return every if is_long else [random.Random(seed).choice(every)]
 

@@ -66,7 +66,7 @@ class RandomScene:
         return view
 
     def write_camera(self, path, width, height):
-        """An ordinary view, of which depths, focal lengths, near and far have any exponents, subnormal ones included."""
+        """An ordinary view whose depths, focal lengths, near and far have any exponents, also subnormal."""
         depth, *across = (self.random.randint(-1074, 1000) for _ in range(3))
         focal = [math.ldexp(width, min(1000, max(-1074, depth - each))) for each in across]
         camera = {"width": width, "height": height, "fx": focal[0], "fy": focal[1], "cx": width / 2, "cy": height / 2,

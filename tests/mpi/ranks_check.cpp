@@ -1,5 +1,5 @@
-// What ranks tell each other arrives, in however many rounds, and that one of them gives up:
-// started by mpirun, exit status 0 where it does.
+// Messages between ranks arrive in any number of rounds, and so does the news that a rank gives up.
+// Started by mpirun; exit status 0 if everything arrives.
 #include <cstdio>
 #include <random>
 #include <stdexcept>
@@ -51,8 +51,8 @@ bool sparse_messages_arrive(const Ranks& ranks, std::size_t most_on_the_way) {
   return ranks.least(well ? 1 : 0) == 1;
 }
 
-/// One of them fails while it works, or while it takes what comes: all others end, too, and hear of
-/// it where that is of use.
+/// One rank fails while it works or while it receives messages: all other ranks end, too, and get
+/// the reason if they need it.
 bool sparse_failures_end(const Ranks& ranks, int failing, bool while_taking) {
   const bool is_failing = ranks.self() == failing;
   bool told = false, thrown = false;
@@ -92,7 +92,7 @@ bool numbers_are_reduced(const Ranks& ranks) {
 bool all_is_well() {
   const Ranks ranks;
   bool well = numbers_are_reduced(ranks);
-  // The last is what a rank of much memory may send at once, and more than MPI counts.
+  // The last size is as much as a rank with much memory may send at once; MPI cannot count it.
   for (const std::size_t most : {std::size_t{1}, std::size_t{7}, std::size_t{100},
                                  std::size_t{1000}, std::size_t{100000}, ~std::size_t{0}})
     well = messages_arrive(ranks, most) && sparse_messages_arrive(ranks, most) && well;

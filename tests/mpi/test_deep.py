@@ -1,4 +1,4 @@
-"""Deep maps and Cryptomatte: each rank has a share of the rows, and the files are those of one process, byte for byte."""
+"""Deep maps and Cryptomatte: each rank has a share of the rows, and the files equal one process's files, byte for byte."""
 
 import json
 
@@ -60,7 +60,7 @@ def test_mattes_by_material(tmp_path, materials):
 
 
 def test_what_travels(tmp_path):
-    """Counts of all rows of others, of four bytes for each pixel, and twenty bytes for each sample."""
+    """Traffic: four bytes for each pixel in other ranks' rows, and twenty bytes for each sample."""
     outcome = run([*mpirun, "-n", 3, mpi_program, "render", data / "meshes/cube.stl", "--size", "40x48", "--quiet", "--deep",
                    "--threads", 1, "-o", tmp_path / "map.exr", "--traffic", "-"])
     assert outcome.returncode == 0, outcome.stderr

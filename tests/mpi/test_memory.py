@@ -25,7 +25,7 @@ def write_sphere(path, rings, times=1):
 
 
 def write_scattered(path, count):
-    """Triangles of which no two that follow each other are near."""
+    """Triangles in an order in which no two neighbours are near each other."""
     draw = random.Random(71)
     triangles = []
     for _ in range(count):
@@ -57,7 +57,7 @@ def test_tiles_that_wait_do_not_show(tmp_path):
 
 
 def test_ranks_that_have_different_memory(tmp_path):
-    # One of them would take its part at once, the other in rounds.
+    # One rank would take its part at once, the other in rounds.
     write_scattered(tmp_path / "mesh.stl", 160_000)
     arguments = [tmp_path / "mesh.stl", "--size", "300x200", "--channels", "Z,id", "--quiet"]
     render_alone(*arguments, "-o", tmp_path / "one.exr")
@@ -85,7 +85,7 @@ def test_memory_is_bounded(tmp_path):
 
 @pytest.mark.parametrize("folder, text", [("/proc", "/proc"), ("none", "TMPDIR: expected a folder")])
 def test_no_room_for_what_waits(tmp_path, folder, text):
-    """Where there is no folder for it, that is one line, and nothing is written."""
+    """A missing folder gives one line of error, and nothing is written."""
     write_sphere(tmp_path / "mesh.stl", 150)
     outcome = run([*mpirun, "-n", 2, "env", f"TMPDIR={folder}", mpi_program, "render", tmp_path / "mesh.stl", "--size",
                    "4096x4096", "--quiet", "--threads", 1, "--memory", "128M", "-o", tmp_path / "map.exr"])

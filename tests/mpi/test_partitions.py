@@ -1,4 +1,4 @@
-"""However many ranks render a scene, and however its tiles are dealt out to them, the file is that of one process, byte
+"""Any number of ranks, with any partition of the tiles, writes the same file as one process, byte
 for byte: every channel, and what the file says of itself. Here by every number of ranks and every partition."""
 
 import pytest

@@ -1,4 +1,4 @@
-"""What --traffic tells: sums that follow from the number of ranks, the triangles and the image."""
+"""Figures of --traffic: sums that follow from the number of ranks, the triangles and the image."""
 
 import json
 
@@ -21,7 +21,7 @@ def test_one_rank_sends_nothing(tmp_path):
 
 
 def test_rows_send_their_triangles_and_no_pixels(tmp_path):
-    # Three rows of tiles, of 4 tiles each, are those of the bands too: no pixel travels.
+    # The bands coincide with the three rows of 4 tiles each: no pixel is sent.
     found = traffic_of(3, tmp_path, "--partition", "rows", "--channels", "Z,A,id")
     sent = found["sent"]
     assert sent["pixels"] == {"messages": 0, "bytes": 0}
@@ -33,7 +33,7 @@ def test_rows_send_their_triangles_and_no_pixels(tmp_path):
 
 
 def test_pixels_travel_once(tmp_path):
-    # Round robin: of 12 tiles in turn to 3 ranks, a band has 4; those that another rank has drawn travel.
+    # Round robin over 3 ranks: a band has 4 of the 12 tiles; tiles that another rank has drawn are sent.
     found = traffic_of(3, tmp_path, "--partition", "round-robin", "--channels", "Z")
     owners = [tile % 3 for tile in range(12)]
     moving = sum(owner != tile // 4 for tile, owner in enumerate(owners))

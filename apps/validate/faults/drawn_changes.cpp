@@ -27,7 +27,7 @@ Matrix3 rotation(const std::array<double, 3>& turn) {
            {c * x * z - s * y, c * y * z + s * x, 1 - c * (x * x + y * y)}}};
 }
 
-/// A triangle that is nowhere seen, in place of those that are to go: the others keep their
+/// An invisible triangle that replaces removed triangles, so that other triangles keep their
 /// numbers.
 ValidationScene without(const ValidationScene& scene, const std::vector<bool>& gone) {
   ValidationScene result = scene;

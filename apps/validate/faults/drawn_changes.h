@@ -7,7 +7,7 @@
 #include "fathom/camera/camera.h"
 #include "validation/scenes/validation_scenes.h"
 
-/// What a renderer is made to draw in place of what it says, for the catalogue.
+/// Changed scenes and cameras that a renderer draws for the catalogue of faults.
 namespace fathom::validation {
 
 using CameraChange = std::function<void(Camera& camera, double size)>;
@@ -21,7 +21,7 @@ void turn_and_move(Camera& camera, const std::array<double, 3>& turn,
 
 /// Without the `count` triangles that the most pixels show.
 SceneChange without_triangles(std::size_t count);
-/// Without those that face the camera: most of what is seen of a closed mesh.
+/// Without triangles that face the camera: most visible triangles of a closed mesh.
 SceneChange without_facing_triangles();
 
 }  // namespace fathom::validation

@@ -11,10 +11,10 @@
 /// Faults as code: what goes wrong with depth maps, to see whether it is found and rightly named.
 namespace fathom::validation {
 
-/// A right map, as a renderer drew it, and what it should be.
+/// A right map as a renderer drew it, and the exact map.
 struct RightMap {
   const attribution::Truth& truth;
-  /// Depths alone, in binary32, infinite in the background.
+  /// Only depths, in binary32, infinite in the background.
   const attribution::OtherMap& map;
 };
 
@@ -23,15 +23,15 @@ struct Fault {
   /// background, storage, units, decoding, camera, image, surfaces or pixels.
   std::string group;
   std::string name;
-  /// What it may be called: kinds of findings or notes.
+  /// Correct names: kinds of findings or notes.
   std::vector<std::string> kinds;
-  /// Draws another scene than it says, or with another camera.
+  /// Draws another scene than declared, or with another camera.
   std::function<ValidationScene(const ValidationScene& scene, double size)> drawn;
   /// What becomes of a right map: `values` and `depths` of `map` are changed.
   std::function<void(attribution::OtherMap& map, const RightMap& right, double size)> changed;
   /// A small size to start from; 0 for a fault that has no size.
   double probe = 0;
-  /// What the size is in: "pixels", "rad", …
+  /// Unit of the size: "pixels", "rad", …
   std::string unit;
   /// Only of a rasterizer, whose depths are decoded from window depths.
   bool raster_only = false;

@@ -98,7 +98,7 @@ std::vector<const Fault*> faults_of(const FaultStudy& study) {
   return faults;
 }
 
-/// null where there is no finite number.
+/// null if the number is not finite.
 Json number(double x) {
   return std::isfinite(x) ? Json(x) : Json(nullptr);
 }

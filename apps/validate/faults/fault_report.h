@@ -5,19 +5,19 @@
 
 #include "apps/validate/faults/fault_study.h"
 
-/// What the catalogue's faults led to, as tables.
+/// Verdicts on the catalogue's faults, as tables.
 namespace fathom::validation {
 
 /// A fault of one size in one renderer's map of one scene.
 struct FaultCase {
   const Fault* fault = nullptr;
   std::string scene, renderer;
-  /// Why there is no map, in one line; empty where there is one.
+  /// Reason for a missing map, in one line; empty if the map exists.
   std::string failure;
   FaultResult result;
 };
 
-/// A right map, and what is said of it: nothing should be.
+/// A right map and its findings, which should be empty.
 struct RightCase {
   std::string scene, renderer, failure, said;
 };
@@ -31,11 +31,11 @@ struct FaultStudy {
   [[nodiscard]] bool is_good() const;
 };
 
-/// A fault's effect from which on it has to be found and rightly named, in half widths of what the
-/// model allows.
+/// Least effect with which a fault must be found and rightly named, in half widths of the model's
+/// intervals.
 inline constexpr double effect_to_be_named = 3;
 
-/// A line for each right map of which something is said and each fault that is not rightly named.
+/// A line for each right map with a finding and for each fault that is not rightly named.
 std::string lines_of(const FaultStudy& study);
 /// A row for each fault, a column for each renderer: the least effect from which on it is always
 /// found and rightly named; and what comparing pictures sees of it.

@@ -42,7 +42,7 @@ double effect_between(const Attribution& found, const OtherMap& before_map,
 
 double effect_of_size(const Fault& fault, const FaultSubject& subject, double size) {
   if (!fault.drawn) return effect_of(subject, changed_map(fault, subject, size));
-  // Beside the exact map, not the renderer's: its roundings are not the fault's.
+  // Compared with the exact map, because the renderer's roundings are not part of the fault.
   return effect_between(subject.found, exact_map_of(subject.truth),
                         exact_map_of(fault.drawn(subject.scene, size)));
 }

@@ -6,7 +6,7 @@
 #include "fathom/attribution/other_map.h"
 #include "fathom/camera/camera.h"
 
-/// What is usual in place of a truth: an earlier picture, and a tolerance that someone chose.
+/// The usual substitute for a truth: an earlier picture and a chosen tolerance.
 namespace fathom::validation {
 
 /// Whether a comparison sees that a map is not the earlier one.

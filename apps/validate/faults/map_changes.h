@@ -31,7 +31,7 @@ MapChange share_of_pixels(double share, std::function<double(double depth)> f);
 MapChange lines_as(bool rows, double first, double last, double value);
 /// One row (or column), at a part of the image, holds a value.
 MapChange line_as(bool rows, double at, double value);
-/// Surfaces nearer (or farther) than those of a share of the pixels are not there.
+/// Removes surfaces nearer (or farther) than a quantile of the depths.
 MapChange clipped_at(bool near, double share);
 /// Depth is interpolated linearly in the image over each triangle.
 MapChange affine_depths();
