@@ -20,10 +20,10 @@ namespace fathom::app {
 class WaitingChunks {
  public:
   explicit WaitingChunks(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
-  /// Fails    OutputError where there is no room in a file.
+  /// Fails    OutputError if the disk is full.
   void add(files::Bytes chunk);
-  /// The first one of those that have not been taken.
-  /// Fails    InputError where the file cannot be read any more.
+  /// The first chunk that has not been taken.
+  /// Fails    InputError if the file cannot be read any more.
   [[nodiscard]] files::Bytes take();
   [[nodiscard]] std::size_t count() const { return chunks_.size(); }
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
@@ -40,13 +40,13 @@ class WaitingChunks {
   std::optional<files::SpillFile> file_;
 };
 
-/// An EXR that the first rank writes, chunk by chunk, as they come from the ranks that have the
-/// rows (image/exr_bands.h): it never holds more of the image than its own chunks and one other.
-/// Called by all ranks, with the chunks of their bands, which are used up.
-/// `path`       in the first rank, where the file is; `beginning`: what it begins with
+/// An EXR that the first rank writes, chunk by chunk, as chunks arrive from the ranks that have the
+/// rows (image/exr_bands.h): it never holds more of the image than its own chunks and one other
+/// chunk. Called by all ranks, with the chunks of their bands, which are consumed.
+/// `path`       in the first rank, path of the file; `beginning`: its first bytes
 /// `of_chunks`  the rank of each chunk
-/// Fails    after all has been sent: in the first rank OutputError; InputError where own chunks
-///          cannot be taken.
+/// Fails    after everything has been sent: in the first rank OutputError; InputError if own chunks
+///          cannot be read.
 void write_banded_exr(const Ranks& ranks, const std::filesystem::path& path,
                       const files::Bytes& beginning, std::span<const int> of_chunks,
                       std::uint32_t rows_of_chunk, WaitingChunks& own_chunks);

@@ -50,9 +50,9 @@ class RowsOfOthers {
 void send_rows(const Ranks& ranks, std::uint32_t width, std::span<const std::uint32_t> counts,
                files::ByteView items, Traffic& traffic);
 
-/// Puts together in the first rank what each has found in its share of the rows of an image: how
-/// many items each pixel has, and all of them, pixel by pixel; other rows of it have none. Called
-/// by all ranks; the others keep what they have.
+/// Gathers in the first rank the items that each rank found in its share of an image's rows: the
+/// number of items of each pixel, and all items, pixel by pixel; a rank has no items in other rows.
+/// Called by all ranks; other ranks keep their items.
 template <class Item>
 void gather_rows(const Ranks& ranks, std::uint32_t width, std::span<std::uint32_t> counts,
                  std::vector<Item>& items, Traffic& traffic) {

@@ -24,8 +24,7 @@ std::vector<TileRows> equal_bands(std::uint32_t rows, int ranks);
 /// All of them for rank 0.
 std::vector<TileRows> all_for_first(std::uint32_t rows, int ranks);
 
-/// The parts of the ranks' bands that begin `from` rows after them and have `most` rows, or what is
-/// left.
+/// The parts of the ranks' bands that begin at row `from` of the band and have at most `most` rows.
 std::vector<TileRows> parts_of(std::span<const TileRows> bands, std::uint32_t from,
                                std::uint32_t most);
 
@@ -39,23 +38,22 @@ struct DrawnTiles {
 /// Makes the map of rows of tiles with values where this rank has drawn.
 using RowsDrawn = std::function<DepthMap(const TileRows&)>;
 
-/// Of the rows that each rank is to get, what this rank has drawn of them goes to the others:
-/// messages, one for each.
+/// Messages to the other ranks, one for each: the pixels that this rank has drawn of the rows that
+/// the receiver compresses.
 /// Fails    as `drawn` does.
 std::vector<files::Bytes> pixels_for_others(const Ranks& ranks, const DrawnTiles& where,
                                             std::span<const TileRows> of_ranks,
                                             const RowsDrawn& drawn);
-/// The map of the rows that this rank gets, from what it has drawn of them and what has come from
-/// the others.
+/// The map of this rank's rows, from pixels that it has drawn and pixels received from other ranks.
 DepthMap rows_from_all(const Ranks& ranks, const DrawnTiles& where, const TileRows& own,
                        const RowsDrawn& drawn, const std::vector<files::Bytes>& from_others);
 
 /// A map that is put together from rows, one after another.
 class WholeMap {
  public:
-  /// Of an image of this height, of which these are the first rows.
+  /// For an image of this height, with its first rows.
   WholeMap(DepthMap first_rows, std::uint32_t height);
-  /// Those that follow; the same channels.
+  /// Appends the next rows; the same channels.
   void add(const std::vector<ImageChannel>& rows);
   [[nodiscard]] DepthMap take() { return std::move(map_); }
 

@@ -11,7 +11,7 @@ namespace fathom::app {
 namespace {
 
 std::atomic<Reports> reports_now{Reports::everything};
-/// The file that is created by the process that reports; "" if there is none.
+/// The file that the reporting process creates; "" if there is no such file.
 std::array<char, 512> last_word_path{};
 std::atomic<std::atomic<int>*> said_by_any{nullptr};
 
@@ -26,7 +26,7 @@ std::optional<bool> makes_last_word_file() noexcept {
   return errno == EEXIST ? std::optional(false) : std::nullopt;
 }
 
-/// Called in signal handlers: only what is safe there.
+/// Called in signal handlers: async-signal-safe.
 bool is_ours_to_report(Ending ending) noexcept {
   const Reports needed =
       ending == Ending::interruption ? Reports::interruptions : Reports::everything;

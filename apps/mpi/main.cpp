@@ -39,8 +39,8 @@ void add_render_together(Command& program) {
   });
 }
 
-/// Refuses ranks that were started with other arguments than the first: what they would do next
-/// does not fit together.
+/// Refuses ranks whose arguments differ from the first rank's, because their work would not fit
+/// together.
 std::vector<AddCommand> commands(const std::vector<std::string>& arguments) {
   std::string text;
   for (const std::string& argument : arguments) text += argument + '\0';
@@ -54,8 +54,8 @@ void close_standard_output() {
   if (nowhere >= 0) ::dup2(nowhere, STDOUT_FILENO);
 }
 
-/// A rank that ends before the work has begun tells those that wait for it there. If all end, as
-/// they do where arguments are wrong or ask for help, the first has said why.
+/// A rank that ends before the work begins notifies the ranks that wait for it. If all ranks end,
+/// as with wrong arguments or --help, the first rank has printed the reason.
 void leave_before_work(const Ranks& ranks, int status) {
   try {
     together(ranks, [&] {

@@ -26,9 +26,9 @@
 // image together (tiles_together.h). Then pixels go to the ranks that compress bands of rows, some
 // rows at a time, and from there to the file.
 //
-// Whatever is said to other ranks is said between calls of together(), within which a rank works by
-// itself and may fail; but for write_banded_exr(), which fails only when all has been said, and for
-// TriangleMail, which tells the others.
+// Ranks communicate only between calls of together(). Within such a call a rank works alone and may
+// fail. Two exceptions: write_banded_exr() fails only after all communication, and TriangleMail
+// notifies the other ranks of a failure.
 namespace fathom::app {
 namespace {
 
@@ -64,7 +64,7 @@ class MapTogether {
     sum_up_statistics();
   }
 
-  /// What each rank has counted, but for the triangles of the scene, which all know.
+  /// Counts of each rank, except the triangles of the scene, which all ranks know.
   void sum_up_statistics() {
     report_.statistics = drawing_.statistics();
     std::vector<std::uint64_t> numbers;
@@ -138,7 +138,7 @@ class MapTogether {
   }
 
   /// Calls take(map of some rows of this rank's band, from its first to its last), within
-  /// together(): a map without channels where there are none left.
+  /// together(): a map without channels after the last row.
   void for_each_rows(const std::function<void(DepthMap)>& take) {
     std::uint32_t most = 0;
     for (const TileRows& band : bands_) most = std::max(most, band.count());
@@ -158,13 +158,13 @@ class MapTogether {
     }
   }
 
-  /// Adds what is said of the map.
+  /// Adds the texts of the header.
   void describe(DepthMap& map) const {
     finish_map(map, job_.scene.outline(), camera_, job_.plan.rendering, report_.statistics);
     const MotionOptions& motion = job_.arguments.render.motion;
     motion.describe(map, motion.time_or_start());
   }
-  /// Adds what is asked for beside the channels that are rendered.
+  /// Adds requested channels that are not rendered.
   [[nodiscard]] DepthMap dressed(DepthMap map) const {
     return job_.plan.storage.dressed(std::move(map), traffic_.map,
                                      std::numeric_limits<double>::infinity());

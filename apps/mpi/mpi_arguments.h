@@ -9,7 +9,7 @@
 
 namespace fathom::app {
 
-/// The arguments of `fathom-mpi render`: those of `fathom render`, and more.
+/// The arguments of `fathom-mpi render`: the arguments of `fathom render`, and more.
 struct MpiArguments {
   RenderArguments render;
   Partition partition = Partition::load;

@@ -7,8 +7,8 @@
 namespace fathom::app {
 namespace {
 
-/// What a tile costs, in triangles, even where it meets none. A guess: how the work is balanced
-/// depends on it, nothing else does.
+/// Cost of a tile without triangles, in triangles. A guess that affects only the balance of the
+/// work.
 constexpr std::uint64_t cost_of_pixels = 256;
 
 /// The rank in whose part of `whole` the middle of an interval lies.

@@ -9,8 +9,8 @@ namespace fathom::app {
 
 /// How the tiles of an image are dealt out to the ranks of a run. The map does not depend on it.
 enum class Partition {
-  /// Runs of neighbouring tiles, row by row, of about the same work: that of the triangles which
-  /// the tiles meet, and of their pixels. Neighbours share triangles, which go to one rank then.
+  /// Runs of neighbouring tiles, row by row, of about equal work for their triangles and pixels.
+  /// Neighbours share triangles, which then go to one rank.
   load,
   /// Whole rows of tiles, as many for each rank.
   rows,

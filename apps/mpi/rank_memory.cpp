@@ -10,7 +10,7 @@
 namespace fathom::app {
 namespace {
 
-/// What a rank takes before it has read anything: the program, its libraries, MPI.
+/// Memory of a rank before it reads anything: the program, its libraries, MPI.
 constexpr std::uint64_t program_bytes = std::uint64_t{64} << 20;
 
 /// Of a message.

@@ -15,7 +15,7 @@ struct RankMemory {
   /// For tiles that are drawn, and for triangles that channel A needs again; what does not fit
   /// waits in files.
   std::uint64_t tile_bytes, kept_bytes;
-  /// For rows of the image on their way to the file; for what is compressed and waits for its turn.
+  /// For rows of the image that are being gathered; for compressed chunks that are not yet written.
   std::uint64_t row_bytes, chunk_bytes;
   /// For pixels that are sent at a time.
   std::size_t message_bytes;
@@ -36,8 +36,8 @@ inline constexpr std::uint64_t least_rank_memory = std::uint64_t{128} << 20;
 RankMemory memory_of_rank(const Ranks& ranks, const std::optional<std::uint64_t>& bytes,
                           bool keeps_triangles);
 
-/// What a round gives back stays with the process for the next one: to get it from the system
-/// again, page by page, took a quarter of the time of a rank.
+/// Makes the process keep memory that a round frees for the next round: getting it again from the
+/// system, page by page, took a quarter of a rank's time.
 void keep_what_rounds_give_back();
 
 }  // namespace fathom::app

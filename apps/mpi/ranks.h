@@ -12,9 +12,9 @@
 /// sparse_exchange.cpp.
 namespace fathom::app {
 
-/// Of the ranks on a machine, one speaks where they end without having agreed on why
-/// (shell/last_resort.h), from before MPI has started, if it says where the files of the run are.
-/// Returns whether it does: otherwise, from when it has started.
+/// If ranks on a machine end without agreeing on a reason, only one of them reports
+/// (shell/last_resort.h). This takes effect before MPI starts if the environment names the folder
+/// of the run's files, and otherwise when MPI has started. Returns whether it took effect.
 bool share_last_word_of_run();
 
 /// MPI, from the start of the program to its end.
@@ -26,9 +26,9 @@ class MpiSession {
   ~MpiSession();
 };
 
-/// What the processes of a run tell each other. Every function is called by all of them, in the
-/// same order, by the thread that has the MpiSession; it returns when all have what they wait for.
-/// Bytes and counts may be more than an int holds: they go in rounds.
+/// Communication between the processes of a run. All processes call every function, in the same
+/// order, in the thread that has the MpiSession; it returns when every process has its data. Bytes
+/// and counts may exceed an int: they are sent in rounds.
 class Ranks {
  public:
   Ranks();
@@ -55,8 +55,8 @@ class Ranks {
                                                    std::size_t most_at_once = std::size_t{1}
                                                                               << 26) const;
 
-  /// What rank 0 does with bytes of the others: they come in the order of the ranks, in pieces.
-  /// Only rank 0 calls receive(), the others send(); each number of calls must match.
+  /// Rank 0 receives bytes of the other ranks in the order of the ranks, in pieces. Only rank 0
+  /// calls receive(), other ranks call send(); the numbers of calls must match.
   void send_to_first(files::ByteView bytes) const;
   [[nodiscard]] files::Bytes receive_from(int rank) const;
 

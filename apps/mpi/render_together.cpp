@@ -25,8 +25,8 @@
 namespace fathom::app {
 namespace {
 
-/// What a run writes, all of it by its first rank: what one process would write, and what ranks
-/// have sent each other.
+/// Outputs of a run, all written by its first rank: the outputs of a single process, and the
+/// traffic between ranks.
 class RunOutputs {
  public:
   /// Writes the cameras.
@@ -155,7 +155,7 @@ int render_maps(const JobTogether& job, const std::vector<Camera>& cameras,
     outputs->of_render().write_statistics(as_json(reports));
     outputs->commit(traffic, ranks.count());
   });
-  // What was verified, the first rank knows.
+  // Only the first rank has the result of the verification.
   const bool differs = std::ranges::any_of(reports, [](const MapReport& each) {
     return each.verification && !each.verification->agrees();
   });

@@ -139,7 +139,7 @@ std::vector<SomeTriangles> SharedScene::read(const TriangleRange& range) const {
 
 namespace {
 
-/// Of an object of which nothing has been seen.
+/// Bounds of an object before any of its triangles is read.
 constexpr double no_coordinate = std::numeric_limits<double>::infinity();
 
 /// The least coordinates, and the greatest with the other sign: both are found as the least.

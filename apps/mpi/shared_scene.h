@@ -25,23 +25,23 @@ namespace fathom::app {
 struct TriangleRange {
   std::uint64_t first = 0, end = 0;
   [[nodiscard]] std::uint64_t count() const { return end - first; }
-  /// Those that are less than `most` from number first + from on.
+  /// Fewer than `most` triangles, beginning with number first + from.
   [[nodiscard]] TriangleRange part(std::uint64_t from, std::uint64_t most) const {
     const std::uint64_t begin = first + std::min(from, count());
     return {begin, begin + std::min(most, end - begin)};
   }
 };
 
-/// A scene of which all ranks know objects and sources, and whose triangles they share out. Binary
-/// STL and PLY stay in their files, of which a rank keeps nothing but its part; of an STL, and of a
-/// PLY of nothing but triangles, it reads no more. Of other formats, every rank has all.
+/// A scene whose objects and sources all ranks know, and whose triangles are divided among them.
+/// Binary STL and PLY stay in their files, of which a rank keeps only its part; of an STL, and of a
+/// PLY with only triangles, it also reads only its part. Other formats are in memory in every rank.
 class SharedScene {
  public:
   struct Kept {
     /// Everything, in every rank.
     bool whole = false;
-    /// Materials, groups, parts and labels; normals. Where they are asked for, files are read
-    /// whole, too.
+    /// Materials, groups, parts and labels; normals. If they are requested, files are read whole,
+    /// too.
     bool segments = false, normals = false;
     /// SHA-256 of the sources, which one rank is enough for.
     bool hash = false;
@@ -53,25 +53,25 @@ class SharedScene {
   /// Fails    InputError where it has a fault (find_fault).
   explicit SharedScene(StreamedScene scene);
 
-  /// Looks at what was not looked at when files were opened: each rank at its part, and all of them
-  /// at the whole files where these are not what their sizes let suppose. Called by all ranks,
-  /// before anything is asked of the scene.
+  /// Checks the data that was not checked when files were opened: each rank its part, or, if a file
+  /// is not what its size suggests, all ranks the whole file. Called by all ranks before any other
+  /// function of the scene.
   /// Fails    as the constructor, in all ranks.
   void check_files(const Ranks& ranks, const Console& console);
   /// Places the objects that move.
   /// Fails    as MotionOptions::placed.
   void place(const MotionOptions& motion);
-  /// Completes the outline by the bounds of what stays in its files, of which each rank looks at
-  /// its part, so many triangles at a time. Called by all ranks.
+  /// Adds the bounds of streamed meshes to the outline. Each rank reads its part, so many triangles
+  /// at a time. Called by all ranks.
   /// Fails    as part(), in all ranks.
   void find_bounds(const Ranks& ranks, std::uint32_t triangles_at_once);
-  /// The scene; of one that stays in its files its objects and sources and, after find_bounds(),
-  /// its bounds.
+  /// The scene; for a streamed scene only its objects and sources and, after find_bounds(), its
+  /// bounds.
   [[nodiscard]] const Scene& outline() const { return scene_; }
   /// Whether the outline is the whole scene.
   [[nodiscard]] bool is_whole() const { return !streamed_; }
   [[nodiscard]] TriangleSource triangles() const;
-  /// Renders a map of it in this rank alone.
+  /// Renders a map of the scene in this rank only.
   [[nodiscard]] Rendered render(const Camera& camera, const RenderOptions& options) const;
   /// Which of its triangles are a rank's to read.
   [[nodiscard]] TriangleRange part_of(const Ranks& ranks) const;
@@ -80,7 +80,7 @@ class SharedScene {
   /// Some of its triangles, a list for each object that has any.
   /// Fails    InputError where a file has changed, or a triangle of it a fault.
   [[nodiscard]] std::vector<SomeTriangles> read(const TriangleRange& range) const;
-  /// What is the same in all ranks if they read the same files.
+  /// A text that is equal in all ranks if they read the same files.
   [[nodiscard]] std::string description() const;
 
  private:
@@ -101,9 +101,9 @@ class SharedScene {
 /// Fails    as SharedScene; InputError where the ranks read different files.
 SharedScene open_scene(const Ranks& ranks, const RenderArguments& arguments,
                        const SharedScene::Kept& kept, const Console& console);
-/// The cameras that are asked for; places what moves, and warns of segments that channels ask for
-/// and the scene has not.
-/// Fails    as CameraOptions::get(); InputError where the ranks have different cameras.
+/// The requested cameras. Also places moving objects and warns about requested channels of segments
+/// that the scene does not have.
+/// Fails    as CameraOptions::get(); InputError if the ranks have different cameras.
 std::vector<Camera> cameras_of(const Ranks& ranks, const RenderArguments& arguments,
                                const std::vector<Channel>& channels, SharedScene& scene,
                                const Console& console);

@@ -96,7 +96,7 @@ bool SparseExchange::State::start_receiving() {
   return any;
 }
 
-/// In the order in which they began, which is that of sending where they come from one rank.
+/// In the order of arrival; messages of one rank arrive in the order of sending.
 bool SparseExchange::State::finish_receiving() {
   bool any = false;
   for (; !coming.empty() && coming.front().is_done(); any = true) {
@@ -133,7 +133,7 @@ void SparseExchange::State::end() {
   ended = true;
 }
 
-/// Tells the others, but where it has told them before, by the barrier, that it sends no more.
+/// Notifies the other ranks, by the barrier and at most once, that this rank sends no more.
 void SparseExchange::State::give_up() {
   if (!has_entered && !given_up) {
     for (int rank = 0; rank < ranks.count(); ++rank)

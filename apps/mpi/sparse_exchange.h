@@ -9,22 +9,22 @@
 
 namespace fathom::app {
 
-/// Messages between ranks that work at their own pace: none waits for another but where more of
-/// what it has sent is on the way than may be. It ends when all ranks have no more to send and all
-/// has arrived: dynamic sparse data exchange by nonblocking consensus [HSL10]. Each rank makes one
-/// at the same time; what comes before the next is a collective call of all, such as together().
+/// Messages between ranks that work at their own pace: a rank waits only if too many of its bytes
+/// are undelivered. The exchange ends when no rank has more to send and all messages have arrived:
+/// dynamic sparse data exchange by nonblocking consensus [HSL10]. All ranks construct it together;
+/// a collective call such as together() must separate two exchanges.
 class SparseExchange {
  public:
   using Take = std::function<void(int from, files::Bytes message)>;
 
-  /// `most_on_the_way`  bytes that this rank may have sent and others not received yet, and that it
-  ///                    may be receiving; a message that is longer goes alone
-  /// `take`             gets each message, those of one rank in the order in which they were sent
+  /// `most_on_the_way`  limit of undelivered bytes that this rank has sent, and of bytes that it is
+  ///                    receiving; a longer message is sent alone
+  /// `take`             gets each message; messages of one rank arrive in the order of sending
   SparseExchange(const Ranks& ranks, std::size_t most_on_the_way, Take take);
   SparseExchange(const SparseExchange&) = delete;
   SparseExchange& operator=(const SparseExchange&) = delete;
-  /// Where end() has not been called or has failed, this rank gives up: the others are told, and
-  /// what comes from them is thrown away until they have ended too.
+  /// If end() has not been called or has failed, this rank gives up: it notifies the other ranks
+  /// and discards their messages until they have ended too.
   ~SparseExchange();
 
   /// Sends less than 2³¹ bytes to another rank. Takes what comes meanwhile.
@@ -33,7 +33,7 @@ class SparseExchange {
   /// Takes what has come, and does not wait for more.
   /// Fails    as take().
   void receive();
-  /// Whether a rank has given up: what is sent and drawn from then on is of no use to anybody.
+  /// Whether a rank has given up: further work is useless.
   [[nodiscard]] bool is_given_up() const;
   /// Takes what comes until all ranks have called end() or given up.
   /// Fails    as take().

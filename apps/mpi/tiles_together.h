@@ -18,7 +18,7 @@
 
 namespace fathom::app {
 
-/// What a run is asked for, and what all its maps are made from.
+/// The request of a run, and the common input of all its maps.
 struct JobTogether {
   const MpiArguments& arguments;
   const Ranks& ranks;
@@ -31,14 +31,14 @@ struct JobTogether {
 /// The tiles of an image, drawn by all ranks: each has some of them.
 class TilesTogether {
  public:
-  /// `traffic` gets what is sent, and how long this rank draws. All of these outlive it.
+  /// `traffic` counts sent bytes and the time in which this rank draws. All arguments outlive it.
   TilesTogether(const JobTogether& job, const Camera& camera, MapTraffic& traffic);
 
   /// Draws the scene. Called by all ranks.
   void draw(const std::function<void(double)>& progress);
   /// The rank of each tile.
   [[nodiscard]] const std::vector<int>& owners() const { return owners_; }
-  /// The map of some rows of tiles, with values where this rank has drawn. Each is asked for once.
+  /// The map of some rows of tiles, with values where this rank has drawn. Call once for each row.
   DepthMap rows(const TileRows& rows);
   /// What this rank has counted.
   [[nodiscard]] RenderStatistics statistics() const { return drawing_->statistics(); }

@@ -24,7 +24,7 @@ struct Fault {
   std::string message;
 };
 
-/// What an error says, the setting that it begins with as the option of that name.
+/// The message of an error, with the setting at its beginning written as an option.
 std::string message_of(const Error& error) {
   return (error.setting().empty() ? "" : "--") + std::string(error.what());
 }

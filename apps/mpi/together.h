@@ -7,20 +7,20 @@
 
 namespace fathom::app {
 
-/// Runs a part of the work of which nothing is said to other ranks, and ends it with them: if it
-/// fails in one of them, all of them fail here, as the first of those does, whose message all have.
-/// It alone says it; where others went on, it is told which rank it was. Called by all ranks.
+/// Runs a part of the work without communication, and ends it together with the other ranks. If the
+/// part fails in some ranks, all ranks fail here with the message of the first of them. Only that
+/// rank prints the message, with its number if other ranks succeeded. Called by all ranks.
 /// Fails    as `work` does in any rank.
 void together(const Ranks& ranks, const std::function<void()>& work);
 
-/// Whether the failure with which this rank ends is that of all ranks.
+/// Whether all ranks share the failure with which this rank ends.
 bool failed_together() noexcept;
 
-/// The first rank that has another text than rank 0; the number of ranks where all have the same. A
-/// rank that is told of one fails with the others.
+/// The first rank whose text differs from rank 0's; the number of ranks if all texts are equal. A
+/// rank that gets a smaller number fails with the others.
 int first_that_differs(const Ranks& ranks, const std::string& text);
 
-/// Refuses what is not the same text in all ranks, in all of them.
+/// Fails in all ranks unless all have the same text.
 /// Fails    with a `Failure` of this message and the rank.
 template <class Failure>
 void require_same(const Ranks& ranks, const std::string& text, const std::string& message) {

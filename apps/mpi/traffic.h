@@ -20,10 +20,10 @@ struct Traffic {
   void add(std::span<const files::Bytes> messages_to_ranks, int self);
 };
 
-/// What it took to make a map, of all ranks.
+/// Cost of a map, over all ranks.
 struct MapTraffic {
   std::string map;  ///< the name of the file
-  /// Triangles of the scene; those that ranks had to draw, in all and the most of a rank.
+  /// Triangles of the scene; triangles drawn, in total and by the busiest rank.
   std::uint64_t triangles = 0, drawn = 0, most_drawn = 0;
   /// Triangles to those who draw them, pixels to those who compress them, and these to the file.
   Traffic of_triangles, of_pixels, of_chunks;
@@ -31,8 +31,8 @@ struct MapTraffic {
   double drawing = 0, slowest = 0;
 };
 
-/// Puts together what each rank knows of itself: sums, and the greatest of `most_drawn` and
-/// `slowest`. Called by all ranks.
+/// Combines the figures of all ranks: sums, and the maximum of `most_drawn` and `slowest`. Called
+/// by all ranks.
 void sum_up(MapTraffic& traffic, const Ranks& ranks);
 
 /// A line of JSON for each map.

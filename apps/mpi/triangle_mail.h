@@ -18,10 +18,11 @@ class TriangleMail {
  public:
   using Draw = std::function<void(std::vector<SomeTriangles>)>;
 
-  /// `most_waiting`  bytes, of each of these: what waits to be sent, what is on the way from this
-  ///                 rank and to it, what waits to be drawn; or one message, if that is longer
-  /// `traffic`       gets what is sent
-  /// `draw`          is given what has come, within the other functions
+  /// `most_waiting`  limit in bytes for each of these: data to be sent, undelivered data from and
+  /// to
+  ///                 this rank, data to be drawn; a longer message is sent alone
+  /// `traffic`       counts sent bytes
+  /// `draw`          gets the received triangles, within the other functions
   TriangleMail(const Ranks& ranks, std::size_t most_waiting, Traffic& traffic, Draw draw);
 
   /// messages[r] is for rank r. May take what has come meanwhile.

@@ -11,7 +11,7 @@
 namespace fathom::app {
 
 /// Takes triangles out of a mesh, once or often. The mesh outlives it unchanged.
-/// Cost     of the first time, 4 bytes for each vertex; else that of what is taken.
+/// Cost     4 bytes for each vertex, once; then proportional to the triangles taken.
 class TrianglePicker {
  public:
   explicit TrianglePicker(const Mesh& mesh) : mesh_(mesh) {}
@@ -25,15 +25,15 @@ class TrianglePicker {
   std::vector<std::uint32_t> places_;
 };
 
-/// What a rank sends to the others: to each the triangles of its part that may touch tiles of that
-/// rank, each once, in their order. A message is a list of sections, one for each object:
+/// Messages of a rank: each other rank gets the triangles that may touch its tiles, each once, in
+/// order. A message is a list of sections, one for each object:
 ///
 ///   object, numbers of vertices and triangles
 ///   vertices    three binary64 numbers each, as in the mesh
 ///   triangles   three vertices of the section each
 ///   numbers     of the triangles in the scene
 ///
-/// Numbers are as they are in memory: all ranks run on machines of one kind.
+/// Numbers have the layout of memory: all ranks run on machines of one kind.
 /// `touches`    of tiles of other ranks, in the order of the triangles
 /// `owners`     the rank of each tile
 std::vector<files::Bytes> messages_of(const std::vector<SomeTriangles>& part,

@@ -15,12 +15,12 @@ namespace {
 
 constexpr const char* version_line = "fathom " FATHOM_VERSION;
 
-/// A text that no option takes for a word that it knows.
+/// A text that no option accepts as a word.
 const std::string no_word = "\x01";
 
 using Take = std::function<void(const std::vector<std::string>&)>;
 
-/// The error with which a parser refuses a text as none of the words that it knows.
+/// The error with which a parser refuses a text that is not one of its words.
 std::optional<UnknownName> refusal_of(const Take& take, const std::string& text) {
   try {
     take({text});

@@ -17,8 +17,8 @@ class Option;
 
 namespace fathom::app {
 
-/// Makes something of the text that an option was given.
-/// Fails    UsageError: what is wrong with the text. The option's name is put before it.
+/// Parses the text of an option.
+/// Fails    UsageError with the fault of the text; the caller puts the option's name before it.
 using TakeText = std::function<void(const std::string& text)>;
 
 /// Stores in `value` what `parse` makes of the text (see values.h).
@@ -75,7 +75,7 @@ class Command {
   Option option_with_values(const std::string& names, const std::string& value_name,
                             std::vector<std::string>& values, const std::string& help);
   Option flag(const std::string& name, bool& value, const std::string& help);
-  /// What is given without a name before it.
+  /// A positional argument.
   Option argument(const std::string& name, std::string& value, const std::string& help);
   Option argument(const std::string& name, TakeText take, const std::string& help);
   Option arguments(const std::string& name, std::vector<std::string>& values,
@@ -85,16 +85,16 @@ class Command {
   /// not refuse.
   void offer(const Option& option, std::vector<std::string> words);
 
-  /// It prints what it finds: where that cannot be, it fails before any work.
+  /// The command prints its answer; if standard output is unusable, it fails before any work.
   void answers_on_standard_output() { answers_on_standard_output_ = true; }
   void runs(Run run) { run_ = std::move(run); }
 
   /// Writes what was given to its places, then runs the command below that was named, or itself.
   int run_named(const Console& console) const;
 
-  /// What completion knows of this command and of all below it. Which words an option takes is
-  /// learnt from its parser: it is given a text that is none, and refuses it with an UnknownName
-  /// (fathom/failures/unknown_name.h). What the options write to is worthless afterwards.
+  /// Completion data of this command and all commands below it. The words of an option come from
+  /// its parser, which refuses an impossible text with an UnknownName that lists them
+  /// (fathom/failures/unknown_name.h). The variables of the options are garbage afterwards.
   [[nodiscard]] CompletionTable completion_table() const;
 
  private:
@@ -116,7 +116,7 @@ class Command {
   bool answers_on_standard_output_ = false;
 };
 
-/// The option that says where a command writes: "-o,--output", and other_name_of_output. `target`
+/// The option for the output of a command: "-o,--output", and other_name_of_output. `target`
 /// is a std::string or a TakeText.
 template <class Target>
 Option add_output_option(Command& command, const std::string& value_name, Target&& target,

@@ -19,7 +19,7 @@ std::vector<std::string> path_of(const CLI::App& command) {
   return path;
 }
 
-/// Options that exclude each other are declared in any order: they are told in that of the help.
+/// Options that exclude each other are declared in any order and listed in the order of the help.
 std::vector<std::string> excluded_by(const CLI::Option& option,
                                      const std::vector<const CLI::Option*>& all) {
   std::vector<std::string> names;

@@ -16,19 +16,19 @@ inline constexpr const char* command_heading = "Commands";
 /// The spelling that every "-o,--output" also takes. Help and completion show one name only.
 inline constexpr const char* other_name_of_output = "--out";
 
-/// What users are told of an option. Help, man pages and completion are all made of this.
+/// Description of an option. Help, man pages and completion are all made from it.
 struct OptionText {
   std::vector<std::string> names;     ///< "-o", "--output"; of an argument "SCENE"
   std::string value;                  ///< "FILE"; empty for flags and arguments
   std::string help;                   ///< one line
-  std::string heading;                ///< what it stands below: "Options"
-  std::vector<std::string> excluded;  ///< "--view": what is not given together with it
+  std::string heading;                ///< heading above it: "Options"
+  std::vector<std::string> excluded;  ///< options that exclude it: "--view"
   bool is_argument = false;           ///< given without a name
   bool is_required = false;
   bool takes_several = false;
 };
 
-/// What users are told of a command, in the order in which it was declared.
+/// Description of a command, in the order of its declaration.
 struct CommandText {
   struct Below {
     std::string heading;  ///< "Commands"
@@ -53,10 +53,10 @@ struct CommandText {
 
 CommandText text_of(const CLI::App& command);
 
-/// The name that messages and lists have for an option: the long one where there is one.
+/// Name of an option in messages and lists: the long name if it has one.
 const std::string& name_of(const OptionText& option);
 
-/// What is said of it: its help, and how it goes together with other options.
+/// Its help, and its relations to other options.
 std::string meaning_of(const OptionText& option);
 
 /// Columns of a UTF-8 text whose characters take one each.

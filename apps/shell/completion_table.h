@@ -16,7 +16,7 @@ struct CompletedValue {
   Files files = Files::none;
 };
 
-/// What completion knows of an option, of an argument or of a command.
+/// Completion data of an option, an argument or a command.
 struct CompletedOption {
   std::vector<std::string> names;  ///< "-o", "--output"; of an argument "SCENE"
   std::string help;
@@ -34,8 +34,8 @@ struct CompletedCommand {
 /// A command, and all those below it after it.
 using CompletionTable = std::vector<CompletedCommand>;
 
-/// What completion knows of an option, from what its help says: a value or an argument that is
-/// called FILE, MAP or alike is a file. `words` are those that its parser knows.
+/// Completion data of an option, derived from its help: a value or an argument called FILE, MAP or
+/// similar is a file. `words` are the words that its parser accepts.
 CompletedOption completed(const OptionText& option, std::vector<std::string> words, bool is_list);
 
 /// The table as lines of text, in which a companion hands it over, and back.

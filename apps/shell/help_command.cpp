@@ -45,8 +45,8 @@ const CLI::App& command_of(const CLI::App& program, const std::vector<std::strin
   return *command;
 }
 
-/// All commands of the program and, as far as they are built, of those companions that `is_asked`
-/// chooses; of the others the names.
+/// All commands of the program and of those built companions that `is_asked` chooses; only the
+/// names of all other companions.
 CompletionTable whole_table(const Command& program, const std::vector<Companion>& companions,
                             const std::function<bool(const Companion&)>& is_asked) {
   CompletionTable table = program.completion_table();

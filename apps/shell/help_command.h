@@ -20,19 +20,19 @@ namespace fathom::app {
 /// `help --help`, is passed on unchanged, without the arguments that follow.
 std::vector<std::string> with_help_as_option(std::vector<std::string> arguments);
 
-/// What is printed where one of the arguments is --help=FORM; nothing where none is.
-/// Fails    UsageError where there is no such command or form.
+/// The help to print if an argument is --help=FORM; otherwise nothing.
+/// Fails    UsageError for an unknown command or form.
 std::optional<std::string> asked_help(const CLI::App& program, const Command& commands,
                                       const std::vector<std::string>& arguments);
 
-/// What is printed for `fathom complete -- WORDS`, which the scripts of `completion` call:
-/// offers_for() these words. Nothing for other arguments.
+/// The answer to `fathom complete -- WORDS`, which the scripts of `completion` call: offers_for()
+/// these words. Nothing for other arguments.
 std::optional<std::string> asked_completion(const Command& program,
                                             const std::vector<Companion>& companions,
                                             const std::vector<std::string>& arguments);
 
-/// Declares `help`, which all but for --output is carried out before arguments are read, and
-/// `completion`.
+/// Declares `completion` and `help`. All forms of `help` except --output run before arguments are
+/// read.
 void add_help(Command& program, const CLI::App& app, const std::vector<Companion>& companions);
 
 }  // namespace fathom::app

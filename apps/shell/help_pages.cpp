@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t text_column = 26;
 
-/// A name with what it means beside it, or below it where the name is long.
+/// A name with its meaning next to it, or below a long name.
 std::string entry(const std::string& name, const std::string& meaning, std::size_t width) {
   std::string text = "  " + name;
   bool on_first_line = columns(text) + 2 <= text_column;
@@ -66,8 +66,8 @@ std::time_t date_of_pages() {
   }
 }
 
-/// A text as roff: what it gives a meaning to is escaped, and a hyphen stays one that can be
-/// copied.
+/// A text as roff: characters with a meaning in roff are escaped, and a hyphen stays a hyphen that
+/// can be copied.
 std::string roff(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -137,7 +137,7 @@ std::string tag_of(const OptionText& option) {
   return option.takes_several ? tag + "..." : tag;
 }
 
-/// Entries below the headings of the help, each of which is a section.
+/// Sections: the entries below each heading of the help.
 std::string roff_sections(const CommandText& command) {
   std::string text;
   for (const std::string& heading : command.headings()) {

@@ -11,8 +11,8 @@ namespace fathom::app {
 /// The help of a command, as plain text of at most `width` columns; examples may be wider.
 std::string help_page(const CommandText& command, std::size_t width);
 
-/// The columns that help on standard output may take: those of the terminal from 60 to 100, and 80
-/// where there is none.
+/// Width of help on standard output: the terminal's width, limited to 60 to 100 columns, or 80
+/// without a terminal.
 std::size_t help_width();
 
 /// "fathom-camera-orbit", under which `man` finds the page of a command.

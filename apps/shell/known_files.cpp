@@ -35,12 +35,12 @@ bool are_one_file(const fs::path& first, const fs::path& second) {
   return identity_of(second) == Identity{status.st_dev, status.st_ino};
 }
 
-/// Files, known by what they are on their device and by where they lie: a new file has only a
-/// place, and a hard link only the file in common with another.
+/// Files, identified by device and inode number and by place: a new file has only a place, and hard
+/// links share only the inode.
 ///
-/// The system uses the number of a file again when the file is gone, which may happen at any time:
-/// another process of the same job replaces files, too. So an equal number only leads to the place
-/// of a known file; whether this still is the same file is found out there.
+/// The system reuses the inode number of a deleted file, and another process of the same job may
+/// replace files at any time. So an equal number only leads to the place of a known file; the file
+/// at that place decides whether it is the same.
 class KnownFiles {
  public:
   [[nodiscard]] bool contains(const fs::path& file) const {

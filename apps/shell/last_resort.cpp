@@ -83,14 +83,14 @@ void deallocate(void* block, std::size_t) {
   std::free(block);
 }
 
-// Signals. Handlers call only what is safe in them.
+// Signals. Handlers call only async-signal-safe functions.
 
 constexpr std::array interruptions{SIGINT, SIGTERM, SIGHUP};
 constexpr std::array endings{SIGQUIT, SIGALRM,   SIGVTALRM, SIGPROF, SIGUSR1,
                              SIGUSR2, SIGSTKFLT, SIGIO,     SIGPWR,  SIGXCPU};
 constexpr std::array crashes{SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGBUS, SIGSYS, SIGTRAP};
 
-/// What a crash did before: what dies of a sanitizer's check is reported by that.
+/// The previous action of a crash, so that a sanitizer still reports its failed checks.
 std::array<struct sigaction, NSIG> action_before{};
 
 /// Of handlers that do not return. Before such a call the address sanitizer asks for the bounds of

@@ -29,13 +29,13 @@ ExitStatus report_lack_of_threads() noexcept;
 /// library (VTK 9.1 allocates in its own), no longer changes it. Returns the status.
 int outcome_is(int status) noexcept;
 
-/// Failures that no `catch` can or should handle: from now on they end the program as any other
+/// Handles failures that no `catch` can or should handle: they then end the program as any other
 /// failure does, with one line, no temporary file left, and an exit status.
 ///
 ///   std::terminate   an exception in a function that must not throw, or in a thread of a library
 ///   operator new     out of memory, it would throw through libraries that do not expect it:
 ///                    while writing a deep map, OpenEXR 3.1 then destroys objects that it has not
-///                    constructed, and omits what a task of its pool could not write
+///                    constructed, and omits parts that a task of its pool could not write
 ///   GMP, MPFR        out of memory, they print a line of their own and abort. Their allocation
 ///                    functions cannot throw instead: mpz_mul, for example, frees the old limbs of
 ///                    its result before it allocates new ones, so that a destructor would free them
@@ -55,8 +55,8 @@ void prepare_last_resort();
 /// A second call does nothing.
 void handle_signals();
 
-/// What the program prints on standard error when it is interrupted, from now on: a text that ends
-/// with a line feed, or nothing ("").
+/// Sets the text that the program prints on standard error when it is interrupted; it ends with a
+/// line feed or is empty.
 void say_when_interrupted(const std::string& text);
 
 }  // namespace fathom::app

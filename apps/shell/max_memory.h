@@ -7,10 +7,10 @@
 
 namespace fathom::app {
 
-/// --max-memory: from now on this process may take so much memory of its own (files that it maps
-/// are not counted). What is known to need more is refused before it is tried; an allocation beyond
-/// it fails. The system counts whole stacks, of which threads touch little: room for them is
-/// allowed on top (docs/limits.md), and an allocation may take what of it no stack has.
+/// --max-memory: limits the memory of this process, not counting mapped files. Work that is known
+/// to need more is refused before it starts; an allocation beyond the limit fails. The system
+/// counts whole stacks, although threads touch little of them, so the limit is raised by the size
+/// of the stacks (docs/limits.md); other allocations may use the unused part.
 void set_max_memory(std::uint64_t bytes);
 
 /// Where a control group allows less than the machine has: lets an allocation beyond that fail, as

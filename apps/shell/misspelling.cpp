@@ -28,14 +28,14 @@ std::string without_value(const std::string& argument) {
   return argument.substr(0, argument.find('='));
 }
 
-/// What a message says behind a name that there is not: the names that may be meant.
+/// End of the message about an unknown name: the similar names.
 std::string behind_name(const std::vector<std::string>& near) {
   const std::string text = did_you_mean(near);
   return text.empty() ? text : ": " + text;
 }
 
-/// Suggestions are looked for without the dashes, of which every option has as many. Names that the
-/// help does not show are not suggested.
+/// Compares names without dashes, which all options share. Names that the help does not show are
+/// not suggested.
 std::string suggested_option(const std::string& name, const CLI::App& command) {
   const std::size_t dashes = name.starts_with("--") ? 2 : 1;
   std::vector<std::string> bare;
@@ -51,7 +51,7 @@ std::string suggested_option(const std::string& name, const CLI::App& command) {
 std::string unexpected_of(const CLI::App& command) {
   const std::vector<std::string> rest = command.remaining();
   const std::vector<std::string> existing = commands_below(command);
-  // The options behind a misspelt command are unknown too, but they are those of the right one.
+  // Options after a misspelt command are unknown too, but they belong to the intended command.
   if (!rest.empty() && !rest[0].starts_with('-') && !existing.empty() &&
       command.get_subcommands().empty()) {
     return unknown_command(rest[0], existing);

@@ -15,8 +15,8 @@ std::string unknown_command(const std::string& name, const std::vector<std::stri
 /// The names of the commands below one.
 std::vector<std::string> commands_below(const CLI::App& command);
 
-/// What stands in the arguments that no command has, of those that were read, as a message: an
-/// option or a command that is misspelt, or an argument too many. Empty where there is none.
+/// Message about the first argument that no command accepts: a misspelt option or command, or an
+/// argument too many. Empty if every argument is accepted.
 std::string unexpected_argument(const CLI::App& program);
 
 /// A long option with one dash, "-output", would be taken for -o with the value "utput". The

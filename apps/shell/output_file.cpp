@@ -76,7 +76,7 @@ OutputFile::OutputFile(fs::path target) : target_(std::move(target)) {
   stage();
 }
 
-/// Where it goes: into an open file, through a device or a pipe, or to a place of its own.
+/// Destination: an open file, a device or a pipe, or a place in a folder.
 void OutputFile::find_place(bool exists, mode_t mode) {
   const OutputPlace place = place_of(target_);
   if (place.open_file) {
@@ -121,7 +121,7 @@ void OutputFile::write(files::ByteView bytes) const {
   write_all(file, reinterpret_cast<const char*>(bytes.data()), bytes.size(), target_);
 }
 
-/// The permissions of what it replaces, or those of a new file.
+/// Permissions of the replaced file, or of a new file.
 void OutputFile::take_permissions() const {
   const int file = staged_->descriptor();
   mode_t mode = staged_->ordinary_mode();

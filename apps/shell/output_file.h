@@ -17,19 +17,19 @@ namespace fathom::app {
 
 class NewFolders;
 
-/// One output of a command. It is written beside its place, without a name or under a temporary one
-/// (staged_file.h), and put there by commit(); until then an older file of that name is untouched,
-/// and what is not committed leaves nothing behind, however the program ends.
+/// One output of a command. It is written next to its place, without a name or under a temporary
+/// name (staged_file.h), and commit() moves it there. Until then an older file of that name is
+/// untouched. An output that is not committed leaves nothing behind, however the program ends.
 ///
 ///   an ordinary or a new file   is replaced at once; an existing file's permissions are kept, a
-///                               new one has those that open(2) gives. Its bytes are synced to
-///                               disk before it gets its name
+///                               new file gets the permissions of open(2). Its bytes are synced
+///                               to disk before it gets its name
 ///   a folder that is missing    is made when the outputs take their places, with those above it; a
 ///                               command that fails leaves none
 ///   a symbolic link             is followed: the file it names is replaced, the link stays
 ///   anything else that exists   (a device, a pipe, /dev/stdout) is written through, never replaced
 ///
-/// Fails    OutputError: "PATH: why"; from the constructor where that can be told before the work.
+/// Fails    OutputError: "PATH: why"; the constructor fails if the fault shows before the work.
 class OutputFile {
  public:
   explicit OutputFile(std::filesystem::path target);
@@ -73,7 +73,7 @@ class OutputFile {
   /// `target_` with symbolic links followed; empty where it is written through.
   std::filesystem::path place_;
   std::optional<Existing> existing_;
-  /// What is written through, where that is open already.
+  /// The device, pipe or file that is already open for writing.
   files::Descriptor through_;
   std::optional<StagedFile> staged_;
 };
@@ -85,7 +85,7 @@ class TextOutput {
   explicit TextOutput(const std::string& name);
 
   void write(const std::string& text);
-  /// The file that has to be committed; nullptr where there is none.
+  /// The file to commit; nullptr if the output is written through.
   [[nodiscard]] OutputFile* file() { return file_ ? &*file_ : nullptr; }
   /// Prints what goes to standard output.
   void print() const;
@@ -98,7 +98,7 @@ class TextOutput {
   std::string text_;
 };
 
-/// Writes a text as an output of its own.
+/// Writes a text as a complete output.
 inline void write_text(const std::string& name, const std::string& text) {
   TextOutput(name).finish(text);
 }

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder that a file lies in, with no link in its path; empty where there is none.
+/// The folder of a file, with all links resolved; empty if it does not exist.
 fs::path true_folder_of(const fs::path& file) {
   std::error_code error;
   const fs::path found = fs::canonical(folder_of(file), error);

@@ -10,7 +10,7 @@ namespace fathom::app {
 /// The folder that a file's name puts it in: "." where it names none.
 std::filesystem::path folder_of(const std::filesystem::path& file);
 
-/// What the name of an output leads to.
+/// The destination that the name of an output leads to.
 struct OutputPlace {
   /// The file that is meant, which need not exist: symbolic links are followed.
   std::filesystem::path path;
@@ -23,15 +23,15 @@ struct OutputPlace {
 /// Fails    OutputError where links lead in a circle.
 OutputPlace place_of(const std::filesystem::path& target);
 
-/// Whether what is written to this name goes on at once, into a device, a pipe or an open file: it
-/// need not have the suffix of what it is.
+/// Whether writes to this name go directly into a device, a pipe or an open file, whose name needs
+/// no suffix.
 bool is_written_through(const std::filesystem::path& target);
 
 /// The name of a picture as an argument: it ends in .png, or is a device, a pipe or an open file.
 /// Fails    UsageError: "'text' does not end in .png".
 std::string parse_png_name(const std::string& text);
 
-/// Makes a folder where there is none yet. Fails with OutputError.
+/// Makes a folder unless it exists. Fails with OutputError.
 void make_folder(const std::filesystem::path& folder);
 
 /// The folder itself, or the nearest one above it that exists. Files move between the two: a folder

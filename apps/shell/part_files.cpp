@@ -43,9 +43,9 @@ struct CloseFolder {
   void operator()(DIR* folder) const { ::closedir(folder); }
 };
 
-/// Removes a part unless someone holds its lock. Its owner locks it and only then looks whether it
-/// still has a name, so that a part is lost only before anything is in it. NFS grants such a lock
-/// on files that are open for writing alone.
+/// Removes a part unless a process holds its lock. The owner locks the part and then checks whether
+/// it still has a name, so that a part can be lost only while it is empty. NFS grants such a lock
+/// only on files that are open for writing.
 void remove_if_stale(int folder, const char* name) {
   const files::Descriptor file(
       ::openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));

@@ -22,7 +22,7 @@ bool is_part_name(std::string_view name);
 struct PendingFile {
   std::atomic<bool> active{false};
   char path[PATH_MAX] = {};
-  /// The process that the file belongs to: one that forked off it leaves the file alone.
+  /// The process that owns the file; forked processes do not touch it.
   pid_t owner = 0;
   PendingFile* next = nullptr;
 };
@@ -34,7 +34,7 @@ void forget_pending(PendingFile* file);
 /// Removes the file and forgets it.
 void remove_pending(PendingFile* file);
 
-/// Removes every noted file of this process. Calls only what is safe in a signal handler.
+/// Removes every noted file of this process. Async-signal-safe.
 void remove_all_pending();
 
 /// Removes from a folder what programs that were killed have left of their outputs: regular files

@@ -46,7 +46,7 @@ std::string names_above(const CLI::App& command) {
   return parent == nullptr ? "" : names_above(*parent) + parent->get_name() + " ";
 }
 
-/// What is misspelt is named before what is missing.
+/// Reports misspelt arguments before missing ones.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = chosen_command(app);
   std::string message = unexpected_argument(app);
@@ -59,8 +59,8 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
          command.get_name() + " --help'";
 }
 
-/// Where the arguments name a command that this program does not have itself, starts the program
-/// that has it: a companion, or any that lies beside this one under the name fathom-COMMAND.
+/// If the arguments name a command of another program, starts that program: a companion, or any
+/// program fathom-COMMAND in the same folder.
 void start_other_program(const CLI::App& app, const std::vector<std::string>& arguments,
                          const std::vector<Companion>& companions) {
   const auto name = std::find_if(arguments.begin(), arguments.end(),
@@ -99,8 +99,8 @@ std::string message_of(const Error& error) {
   return option + message.substr(error.setting().size());
 }
 
-/// What the machine refuses is nobody's bug. Where it is not known what was asked of it, an output
-/// is to blame for what only outputs meet with.
+/// A refusal of the machine is not a bug. If the operation is unknown, errors that only outputs
+/// encounter are attributed to an output.
 ExitStatus status_of(const std::error_code& code) {
   for (const std::errc refusal : {std::errc::no_space_on_device, std::errc::read_only_file_system,
                                   std::errc::file_too_large, std::errc::broken_pipe}) {
@@ -117,10 +117,9 @@ std::string said_by(const std::system_error& error) {
   return "the system refuses: " + why;
 }
 
-/// Says so and ends the program as it stands. What was to be written has been taken back on the way
-/// here; threads that oneTBB could start, when the system refused it another one, may still be
-/// running, and what a program does when it leaves, destroying what they use, would bring them down
-/// with a line of their own.
+/// Reports the lack of threads and ends the program without destructors. Outputs are already taken
+/// back. oneTBB's threads that did start may still be running; destroying the objects that they use
+/// would crash them with another message.
 [[noreturn]] void leave_without_threads() {
   std::_Exit(report_lack_of_threads());
 }
@@ -151,7 +150,7 @@ int run_reporting(const std::function<int()>& run) {
   }
 }
 
-/// Also a message takes memory: where there is none left for it, that is the message.
+/// A message takes memory, too: if it cannot be allocated, the message is "out of memory".
 int run_to_the_end(const std::function<int()>& run) {
   try {
     return outcome_is(run_reporting(run));

@@ -11,9 +11,9 @@ namespace fathom::app {
 
 using AddCommand = std::function<void(Command& program)>;
 
-/// Does what the arguments of a program with these commands ask for: runs the command that they
-/// name, shows help or the version, or starts the companion that has the command.
-/// Fails    UsageError where they make no sense; as the command fails.
+/// Carries out the arguments of a program with these commands: runs the named command, shows help
+/// or the version, or starts the companion that has the command.
+/// Fails    UsageError for invalid arguments; as the command fails.
 int run_arguments(const std::vector<std::string>& arguments,
                   const std::vector<AddCommand>& commands,
                   const std::vector<Companion>& companions);
@@ -22,12 +22,12 @@ int run_arguments(const std::vector<std::string>& arguments,
 using CommandsFor = std::vector<AddCommand>(const std::vector<std::string>& arguments);
 using CompanionsOf = std::vector<Companion>();
 
-/// The whole of a program that has these commands, and companions for others: does what the
-/// arguments ask for, and turns a failure into one line on standard error and its exit status.
-/// Functions are passed because even a list of commands takes memory, of which there may be none.
+/// The main function of a program with these commands and companions: carries out the arguments,
+/// and turns a failure into one line on standard error and an exit status. Functions are passed
+/// because even a list of commands takes memory, which may have run out.
 int program_main(int argc, char** argv, CommandsFor* commands, CompanionsOf* companions = nullptr);
 
-/// The whole of `fathom-NAME`, which takes the arguments of `fathom NAME` and speaks as that.
+/// The main function of `fathom-NAME`, whose arguments and messages are those of `fathom NAME`.
 int companion_main(int argc, char** argv, const char* name, void (*command)(Command&));
 
 }  // namespace fathom::app

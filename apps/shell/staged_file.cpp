@@ -59,8 +59,8 @@ mode_t mode_of_new_file(const fs::path& folder) {
   return status.st_mode & 07777;
 }
 
-/// Locks a file that is new under its name. False where another program took it for one that was
-/// left behind, and removes it.
+/// Locks a new file under its name. False if another program mistook it for an abandoned file and
+/// removes it.
 bool is_ours(int descriptor) {
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
   struct stat status {};
@@ -158,7 +158,7 @@ bool StagedFile::link_to(const char* place) const {
   return ::linkat(AT_FDCWD, self_.c_str(), AT_FDCWD, place, AT_SYMLINK_FOLLOW) == 0;
 }
 
-/// A link cannot take the place of a file: it gets a name first, beside that file.
+/// A link cannot replace a file: it first gets a name next to that file.
 void StagedFile::have_name(const fs::path& place) {
   if (name_ != nullptr) return;
   if (link_to(spare_name_->path)) {

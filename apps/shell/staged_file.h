@@ -11,13 +11,13 @@ namespace fathom::app {
 
 struct PendingFile;
 
-/// A file that is being written and has no place yet. Until it is put somewhere, only its owner can
-/// read it, and nothing is left of it however the program ends:
+/// A file that is being written and has no place yet. Until it gets its place, only its owner can
+/// read it, and it disappears however the program ends:
 ///
 ///   where the system can    it has no name at all (O_TMPFILE)
-///   elsewhere               its name is .fathom-XXXXXXXXXXXXXXXX.part; what a program that was
-///                           killed has left of these, the next one to write there removes. A lock
-///                           that ends with its process tells the living from the dead.
+///   elsewhere               its name is .fathom-XXXXXXXXXXXXXXXX.part. The next program that
+///                           writes to the folder removes parts of killed programs: parts of
+///                           running programs are locked, and a lock ends with its process.
 ///
 /// Fails    std::system_error with the reason.
 class StagedFile {
@@ -34,8 +34,7 @@ class StagedFile {
   ~StagedFile();
 
   [[nodiscard]] int descriptor() const { return file_.get(); }
-  /// A path under which it can be opened once more, as long as it is neither put in its place nor
-  /// gone.
+  /// A path under which it can be opened again until it is put in its place or removed.
   [[nodiscard]] std::string path() const;
   /// The permissions that an ordinary new file would have in its folder.
   [[nodiscard]] mode_t ordinary_mode() const { return ordinary_mode_; }
@@ -64,9 +63,9 @@ class StagedFile {
 
   files::Descriptor file_;
   mode_t ordinary_mode_ = 0;
-  /// The name it has, if it has one; once it is put somewhere for now, that of the earlier file.
+  /// Its name, if it has one; after a provisional exchange, the name of the earlier file.
   PendingFile* name_ = nullptr;
-  /// One that it can get beside its place, and where it is without one.
+  /// A name next to its place, and the path of the nameless file.
   PendingFile* spare_name_ = nullptr;
   std::string self_;
   Earlier earlier_ = Earlier::lost;

@@ -37,7 +37,7 @@ void expect_writable(int descriptor, const std::string& name) {
   if (is_pipe && ::poll(&state, 1, 0) > 0 && (state.revents & (POLLERR | POLLHUP)) != 0) {
     fail_with_errno(name, EPIPE);
   }
-  // A device tells at nothing at all whether it is full.
+  // An empty write to a device already fails if the device is full.
   if (S_ISCHR(status.st_mode) && ::write(descriptor, "", 0) != 0) fail_with_errno(name, errno);
 }
 

@@ -7,9 +7,9 @@
 
 namespace fathom::app {
 
-/// Opens /dev/null for those of the standard streams that the program was started without, so that
-/// no file it opens takes their number and is written to by mistake. They stay unusable: the input
-/// cannot be read, the outputs cannot be written.
+/// Opens /dev/null for each standard stream that is closed at the start, so that no opened file
+/// gets its number and is written to by mistake. The streams stay unusable: the input cannot be
+/// read, the outputs cannot be written.
 void open_missing_streams();
 
 /// Fails    OutputError "NAME: why" where an open file is not open for writing, where nobody reads
@@ -34,7 +34,7 @@ std::string json_answer(const nlohmann::ordered_json& answer, int indentation = 
 void write_all(int descriptor, const char* data, std::size_t size,
                const std::filesystem::path& target);
 
-/// Fails    OutputError: "TARGET: " and what the system says about this errno.
+/// Fails    OutputError: "TARGET: " and the system's message for this errno.
 [[noreturn]] void fail_with_errno(const std::filesystem::path& target, int error);
 
 }  // namespace fathom::app

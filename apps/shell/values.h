@@ -14,7 +14,7 @@
 
 namespace fathom::app {
 
-/// What the texts on the command line become.
+/// Parsers of texts on the command line.
 /// Exact    decimal text is rounded once, to binary64.
 /// Fails    UsageError: "'text' is not …".
 
@@ -54,7 +54,7 @@ std::array<double, 3> parse_vector(const std::string& text);
 /// The parts of a text between commas.
 std::vector<std::string> parse_list(const std::string& text);
 
-/// The names of a list, each of which has passed a check.
+/// The names of a list, each checked.
 std::vector<std::string> parse_names(const std::string& list,
                                      const std::function<void(const std::string&)>& check);
 
@@ -67,7 +67,7 @@ std::vector<std::string> parse_names(const std::string& list,
 template <class Value>
 using Words = std::initializer_list<std::pair<const char*, Value>>;
 
-/// One of some words. What the caller takes beside them it has looked for before; `other` names it.
+/// One of some words. The caller has already tried other accepted values; `other` names them.
 template <class Value>
 Value parse_word(const std::string& text, Words<Value> words, const std::string& other = "") {
   std::vector<std::string> names;
