@@ -89,8 +89,8 @@ struct TriangleBias {
   std::uint32_t pixels = 0;
 };
 
-/// Roundings are those of a triangle's corners and plane: its pixels share them, so triangles are
-/// what is averaged, each with the inverse square of how uncertain its depth is.
+/// The pixels of a triangle share the roundings of its corners and plane. Therefore triangles are
+/// averaged, each weighted with the inverse square of the uncertainty of its depth.
 Bias mean_bias(const std::vector<TriangleBias>& triangles) {
   Bias bias;
   std::vector<std::pair<double, double>> means;  // and weights

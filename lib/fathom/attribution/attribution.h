@@ -41,7 +41,7 @@ struct DepthErrors {
 struct Sharpness {
   /// Median width of the depth intervals, relative to the depth and in steps of the storage.
   double median_relative_width = 0, median_steps_width = 0;
-  /// Of the pixels that triangles touch, the share where one of them may be seen or not.
+  /// Share of undecided pixels, where a triangle may be visible, among pixels that triangles touch.
   double may_share = 0;
 };
 
@@ -63,7 +63,7 @@ struct Bias {
   }
 };
 
-/// What the search for findings starts from.
+/// Input of the search for findings.
 struct Clues {
   /// For each pixel, 1 if the visible triangle is certain to be drawn and no other is near it in
   /// depth.
@@ -88,7 +88,7 @@ struct Attribution {
   DepthErrors errors;
   Bias bias;
   Clues clues;
-  /// What is wrong.
+  /// The faults.
   std::vector<Finding> findings;
   /// Conventions that were recognised (`background`, `model`), and a possible cause: `clip-planes`.
   std::vector<Finding> notes;
@@ -98,8 +98,9 @@ struct Attribution {
   }
 };
 
-/// Compares `other` with the truth, pixel by pixel, as `model` allows. Looks for no findings.
-/// Exact    the truth and the bounds of what the model allows; a class is given only where they
+/// Compares `other` with the truth, pixel by pixel, as `model` allows. Does not search for
+/// findings.
+/// Exact    the truth and the model's bounds; a pixel gets a class only if they
 ///          prove it. Means and errors are sums in binary64.
 /// Needs    maps of the same size; near and far of the truth's camera as the model's mapping does.
 Attribution attribute(const Truth& truth, const OtherMap& other, const RendererModel& model);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Pixels that have to agree, and the share of those that show nothing.
+/// Number and share of the empty pixels that must agree.
 constexpr std::uint64_t least_pixels = 16;
 constexpr double least_share = 0.5;
 

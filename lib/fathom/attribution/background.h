@@ -15,9 +15,9 @@ struct KnownBackground {
   std::optional<Finding> note;
 };
 
-/// The value that most of the pixels hold around which the exact map shows nothing is the
-/// background, and it alone: the far plane's depth, 0, −1, 1, NaN, …. The map as it is where there
-/// are too few such pixels, they do not agree, or its values are not known.
+/// The background is the most frequent value of the pixels around which the exact map is empty: the
+/// far plane's depth, 0, −1, 1, NaN, …. Returns the map unchanged if there are too few such pixels,
+/// if they do not agree, or if the map's values are unknown.
 KnownBackground known_background(const Truth& truth, const OtherMap& other);
 
 }  // namespace fathom::attribution

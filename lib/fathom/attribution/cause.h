@@ -19,8 +19,8 @@ std::string finding_line(const Finding& finding);
 /// found.
 std::string cause_of(const Truth& truth, const OtherMap& other, const Attribution& found);
 
-/// What is to be said first of a map: "failed: the image is mirrored (1 pixel)", or that every
-/// pixel is explained.
+/// First line of a report: "failed: the image is mirrored (1 pixel)", or "every pixel is
+/// explained".
 std::string verdict_text(const Truth& truth, const OtherMap& other, const Attribution& found);
 
 /// A pixel with its depths: "(12, 7): 3.25 instead of 3.21, allowed 3.2099 to 3.2101". Depths are
@@ -28,8 +28,8 @@ std::string verdict_text(const Truth& truth, const OtherMap& other, const Attrib
 std::string pixel_text(const Truth& truth, const OtherMap& other, const Attribution& found,
                        std::size_t pixel);
 
-/// The pixels to look at first, at most `count`: unexplained ones, then those of a convention, then
-/// missed ones, then those with the greatest relative errors of depth. Equal ones are left out.
+/// The pixels to look at first, at most `count`: unexplained pixels, then pixels of a convention,
+/// then missed surfaces, then the greatest relative errors of depth. Equal pixels are left out.
 std::vector<std::size_t> worst_pixels(const Truth& truth, const OtherMap& other,
                                       const Attribution& found, std::size_t count);
 

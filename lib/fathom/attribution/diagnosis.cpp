@@ -20,9 +20,8 @@
 #include "fathom/attribution/faults/triangles_at_fault.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
-// How to read this file: attribute_and_name() at the end. What is wrong is looked for from what
-// needs least to be said to what needs most, and the first that explains nine tenths of what is
-// unexplained is taken.
+// How to read this file: attribute_and_name() at the end. Faults are tried from the simplest to the
+// most complex, and the first fault that explains nine tenths of the unexplained pixels is taken.
 namespace fathom::attribution {
 namespace {
 
@@ -35,7 +34,7 @@ std::vector<std::uint8_t> explained_by(const Attribution& found) {
   return explained;
 }
 
-/// What a hypothesis explains, if nine tenths: `explained` has 1 for each pixel that it does.
+/// A hypothesis that explains nine tenths; `explained` has 1 for each explained pixel.
 struct Trial {
   std::uint64_t left = 0;
   std::vector<std::uint8_t> explained;
@@ -84,14 +83,14 @@ class Search {
   Search(const Truth& truth, const OtherMap& other, const RendererModel& model, Attribution found)
       : truth_(truth), other_(other), model_(model), found_(std::move(found)), searched_(found_) {}
 
-  /// Looks for what is wrong until most is explained.
+  /// Searches for faults until most pixels are explained.
   void run();
   [[nodiscard]] Diagnosis result() && { return {std::move(found_), std::move(put_right_)}; }
 
  private:
   /// Takes a coarse storage for known from here on: that it is coarse is in the values themselves.
   void name_storage();
-  /// Each of these names what it finds and says whether it found something.
+  /// Each of these adds its findings and returns whether it found something.
   bool by_stored_planes();
   bool by_triangles();
   bool by_hypotheses();
@@ -216,7 +215,7 @@ const std::vector<DepthRelation>& Search::relations() {
   return *relations_;
 }
 
-/// One that is gross has one constant at most: then no camera need be doubted.
+/// A gross relation has at most one constant: then the camera is not in doubt.
 bool Search::by_relations(bool gross) {
   BestTrial best(truth_, unexplained());
   for (const DepthRelation& relation : relations()) {
@@ -256,7 +255,7 @@ bool Search::by_pixels() {
   return false;
 }
 
-/// What is off within what roundings allow: on the whole it shows.
+/// Deviations within the roundings of single pixels, which the whole image reveals.
 void Search::name_what_is_within_bounds() {
   if (!found_.bias.is_significant()) return;
   const std::optional<FittedDeviation> fit = fitted_deviation(truth_, other_, model_, searched_);

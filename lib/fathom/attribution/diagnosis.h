@@ -7,19 +7,18 @@
 
 namespace fathom::attribution {
 
-/// What a model makes of a map, and the map with its fault put right, where a fault of the whole
-/// image was found.
+/// Verdict of a model on a map, and the corrected map, if a fault of the whole image was found.
 struct Diagnosis {
   Attribution attribution;
   std::optional<Hypothesis> put_right;
 };
 
-/// The search of attribute_and_name() alone. `found`: what attribute() says of the three.
+/// Only the search of attribute_and_name(). `found`: result of attribute() for the same arguments.
 /// Needs    a map whose background is known (background.h), and the model of as_recorded().
 Diagnosis diagnose(const Truth& truth, const OtherMap& other, const RendererModel& model,
                    Attribution found);
 
-/// The model, with the step of a map of integers as what is recorded.
+/// The model, with the step of a map of integers as the recorded precision.
 RendererModel as_recorded(const RendererModel& model, const OtherMap& other);
 
 }  // namespace fathom::attribution

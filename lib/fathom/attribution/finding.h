@@ -21,14 +21,14 @@ struct Estimate {
 struct Finding {
   /// See docs/validation.md, "Findings".
   std::string kind;
-  /// A clause that says it.
+  /// The finding as a clause.
   std::string text;
   /// How many it explains.
   std::uint64_t pixels = 0;
   std::vector<Estimate> estimates = {};
-  /// Kinds of others that explain the map as well with as many parameters.
+  /// Kinds of alternatives that explain the map equally well with as many parameters.
   std::vector<std::string> alternatives = {};
-  /// What it rests on, a clause each, for lines of their own.
+  /// The evidence, one clause per line of the report.
   std::vector<std::string> evidence = {};
 };
 

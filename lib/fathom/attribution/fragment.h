@@ -31,16 +31,16 @@ struct Fragment {
   /// All values that may be stored for the triangle here. Window depths (raster), depths (ray),
   /// in either case so that the nearer is the less: reversed window depths are negated.
   Interval value;
-  /// What is stored without any rounding.
+  /// The stored value without any rounding.
   double exact = 0;
 };
 
-/// A box of the image plane that grows with what it is to hold, in pixels from the top left.
+/// A growing box of the image plane, in pixels from the top left.
 struct ImageBox {
   double least_x = std::numeric_limits<double>::infinity(), least_y = least_x;
   double greatest_x = -least_x, greatest_y = -least_x;
 
-  /// Takes in a point and what is up to `margin_x`, `margin_y` from it.
+  /// Extends the box to a point and everything up to `margin_x`, `margin_y` from it.
   void add(double x, double y, double margin_x, double margin_y);
 };
 

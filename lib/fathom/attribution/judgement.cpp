@@ -23,8 +23,8 @@ std::uint64_t unexplained(const Judgement& judgement) {
   return judgement.attribution.count(PixelClass::unexplained);
 }
 
-/// A reading of the size that needs another fault beside it, such as a shift by the columns that it
-/// takes for missing at the wrong side, explains less than one that needs none.
+/// A reading of the size that needs a second fault, such as a shift by columns that it assumes
+/// missing at the wrong side, is worse than a reading without a second fault.
 bool explains_more(const Judgement& a, const Judgement& b) {
   const auto faults = [](const Judgement& judgement) {
     return std::pair(unexplained(judgement), judgement.attribution.findings.size());
@@ -96,7 +96,7 @@ Judgement judge_of_camera(const OtherMap& other, const Scene& scene, const Camer
   return judge(std::make_shared<Truth>(make_truth(scene, camera)), other, model);
 }
 
-/// By the named model alone, which is enough to tell readings of a size apart.
+/// Only by the named model, which suffices to distinguish readings of a size.
 Judgement judge_reading(const SizedMap& sized, const Scene& scene,
                         const std::optional<RendererModel>& model) {
   auto truth = std::make_shared<const Truth>(make_truth(scene, sized.camera));

@@ -9,25 +9,25 @@
 #include "fathom/attribution/other_map.h"
 #include "fathom/attribution/truth.h"
 
-/// A map that someone brings, of which nothing is known but the scene and the camera that it is
-/// said to show and perhaps the kind of its renderer.
+/// A map from outside. Only the claimed scene and camera are known, and perhaps the kind of
+/// renderer.
 namespace fathom::attribution {
 
-/// What is found in such a map.
+/// Verdict on such a map.
 struct Judgement {
-  /// The model that it was judged by: the one that was named, unless another explains what that
-  /// leaves open (model_choice.h).
+  /// The judging model: the named model, unless another model explains pixels that it leaves open
+  /// (model_choice.h).
   RendererModel model;
-  /// Of the camera that sees the map: the one that was given unless the map has another size.
+  /// Of the map's camera: the given camera, unless the map has another size.
   std::shared_ptr<const Truth> truth;
   /// As it was compared: its background told from surfaces, of the size that the camera has.
   OtherMap other;
   Attribution attribution;
 };
 
-/// The model of a name, for maps that this camera has seen.
-/// Fails    UsageError (setting `model`) where there is no such model, or where it needs near and
-///          far and the camera has not both.
+/// The model of a name, for maps of this camera.
+/// Fails    UsageError (setting `model`) if the name is unknown, or if the model needs near and far
+///          and the camera lacks one of them.
 RendererModel model_for(const std::string& name, const Camera& camera);
 
 /// Judges by a model, or, without one, by the model that fits best, which is noted. Where the named

@@ -18,7 +18,7 @@
 #include "fathom/text/counted.h"
 
 // How to read this file: chosen_model() and judged_by() at the end. A sample of rows excludes most
-// models; those that are left are asked one by one.
+// models; the remaining models judge all pixels one by one.
 namespace fathom::attribution {
 namespace {
 
@@ -75,7 +75,7 @@ class Candidates {
 
   /// The one with the narrowest bounds that explains the map.
   std::optional<ModelTrial> explaining();
-  /// What is wrong with a map that none explains, by the model that then fits best. After
+  /// Faults of a map that no model explains, by the model that fits best. Call after
   /// explaining().
   std::optional<ModelTrial> at_fault();
   [[nodiscard]] std::vector<std::string> evidence() const;
@@ -144,8 +144,8 @@ double Candidates::left_by(const ModelSurvey& survey) const {
                           : static_cast<double>(unexplained(trial->attribution));
 }
 
-/// Fewest pixels first; of those that leave as many, the one with the widest bounds, which sees a
-/// gross fault alone.
+/// Fewest open pixels first; among equals the widest bounds first, because they leave only gross
+/// faults.
 std::vector<ModelSurvey> Candidates::by_what_they_leave() const {
   std::vector<ModelSurvey> sorted = surveys_;
   std::stable_sort(sorted.begin(), sorted.end(), [&](const ModelSurvey& a, const ModelSurvey& b) {
@@ -221,7 +221,7 @@ std::string Candidates::text_of_others(const RendererModel& chosen) const {
   return names;
 }
 
-/// Not holes alone: whether there is one does not depend on how wide bounds of depths are.
+/// Whether a finding is not a hole: holes do not depend on the width of the bounds.
 bool shows_surfaces_where_open(const Attribution& found, const OtherMap& other) {
   for (std::size_t i = 0; i < found.classes.size(); ++i) {
     if (found.classes[i] == PixelClass::unexplained && std::isfinite(other.depths[i])) return true;
@@ -229,10 +229,10 @@ bool shows_surfaces_where_open(const Attribution& found, const OtherMap& other) 
   return false;
 }
 
-/// How many times as wide as the named model's the bounds of another may be, where that explains
-/// what the named one calls a fault: wide bounds explain much. Faults of where surfaces are seen
-/// have no such limit: if another model explains them, they are as small as the roundings of a
-/// camera.
+/// Greatest ratio of another model's bounds to the named model's bounds with which the other model
+/// may explain a fault that the named model finds: wide bounds explain much. Faults of positions in
+/// the image have no such limit: if another model explains them, they are as small as a camera's
+/// roundings.
 double widest_for(const Attribution& mine, const OtherMap& other) {
   const std::string_view kind = mine.findings.empty() ? "" : mine.findings.front().kind;
   if (kind == "isolated-pixels" && shows_surfaces_where_open(mine, other)) return 10;
@@ -240,7 +240,7 @@ double widest_for(const Attribution& mine, const OtherMap& other) {
   return is_of_depths && unexplained(mine) == 0 ? 2 : std::numeric_limits<double>::infinity();
 }
 
-/// Whether what the named model finds wrong comes before another model, which explains everything.
+/// Whether the named model's findings precede another model that explains everything.
 bool comes_before(const Attribution& mine, const Attribution& right, const OtherMap& other) {
   return right.sharpness.median_relative_width >
          widest_for(mine, other) * mine.sharpness.median_relative_width;
@@ -251,8 +251,8 @@ bool has_storage(const Attribution& found) {
                      [](const Finding& finding) { return finding.kind == "storage"; });
 }
 
-/// Whether a fault and another model say more than what the named model finds: they leave a tenth
-/// of its pixels, or none with fewer findings, where it needs a storage beside the fault.
+/// Whether a fault with another model is better than the named model's findings: it leaves at most
+/// a tenth of the pixels, or no pixel with fewer findings if the named model also needs a storage.
 bool says_more(const Attribution& best, const Attribution& mine) {
   if (unexplained(mine) > 0) return unexplained(best) * 10 <= unexplained(mine);
   return unexplained(best) == 0 && best.findings.size() < mine.findings.size();

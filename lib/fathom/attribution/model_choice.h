@@ -10,35 +10,34 @@
 
 namespace fathom::attribution {
 
-/// What a model makes of a map.
+/// Verdict of a model on a map.
 struct ModelTrial {
   RendererModel model;
   Attribution attribution;
 };
 
-/// The model that fits a map, what it says of it, and why it was chosen.
+/// The model that fits a map, its verdict, and the reason for the choice.
 struct ModelChoice {
   ModelTrial chosen;
-  /// A line for each model that was tried: what it makes of the map, or of a sample of its rows.
+  /// A line for each tried model: its verdict on the map, or on a sample of its rows.
   std::vector<std::string> evidence;
 };
 
-/// Of the named models that mean something for the camera (near and far, where one is needed): the
-/// one with the narrowest bounds that explains every pixel and finds nothing wrong. VTK's are tried
-/// only where none of the others does. Where none does, something is wrong with the map: it is
-/// looked for by the model that leaves the fewest pixels of a sample open, put right, and told by
-/// the narrowest model that then explains the map.
-/// Exact    a sample of rows only excludes models, those that leave a pixel of it open: what is
-///          chosen has been asked of every pixel. The narrowest is that of the sample.
+/// Among the named models that apply to the camera (near and far, if needed): the model with the
+/// narrowest bounds that explains every pixel without a finding. VTK's models are tried last. If no
+/// model explains the map, the map has a fault. The model that leaves the fewest pixels of a sample
+/// open searches for it, and the narrowest model that explains the corrected map names it.
+/// Exact    a sample of rows only excludes models, which leave a pixel of it open. The chosen model
+///          has judged every pixel. Widths of bounds are compared on the sample.
 /// Needs    a map whose background is known.
 ModelChoice chosen_model(const Truth& truth, const OtherMap& other);
 
-/// What the named model makes of a map, or, where it leaves pixels open, another: one that explains
-/// every pixel, or nine tenths of those that are left when the fault is named that was found. Then
-/// a finding of kind `model` says so. A fault of the depths that the named model explains all by
-/// comes before a model whose bounds are more than twice as wide, isolated pixels before one with
-/// ten times as wide bounds.
-/// Needs    a map whose background is known.
+/// Verdict of the named model on a map. If it leaves pixels open, verdict of another model that
+/// explains every pixel, or nine tenths of the pixels that remain after the found fault; a finding
+/// of kind `model` then names it. A fault of the depths with which the named model explains
+/// everything precedes a model whose bounds are more than twice as wide, and isolated pixels
+/// precede a model whose bounds are more than ten times as wide. Needs    a map whose background is
+/// known.
 ModelTrial judged_by(const Truth& truth, const OtherMap& other, const RendererModel& named);
 
 }  // namespace fathom::attribution

@@ -11,11 +11,11 @@
 
 namespace fathom::attribution {
 
-/// What a model makes of a sample of a map's rows.
+/// Verdict of a model on a sample of a map's rows.
 struct ModelSurvey {
   RendererModel model;
-  /// Pixels of the sample that are unexplained; those of the whole map that hold what the model's
-  /// storage cannot.
+  /// Unexplained pixels of the sample; pixels of the whole map with values that the model's storage
+  /// cannot hold.
   std::uint64_t unexplained = 0, foreign = 0;
   /// Part of the bands with surfaces that the sample is.
   double share = 1;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Pixels that show a surface: in the map, in the scene, in either; those where both show about the
-/// same depth; and those that stay unexplained.
+/// Numbers of pixels that show a surface in the map, in the scene, in either; with about the same
+/// depth in both; and unexplained.
 struct Surfaces {
   std::uint64_t in_map = 0, in_scene = 0, in_either = 0, agreeing = 0, unexplained = 0;
 };

@@ -4,11 +4,11 @@
 
 namespace fathom::attribution {
 
-/// Where a map fits its scene nowhere, that is the finding, in place of the triangles that would
-/// have to be missing: the map shows nothing, the scene has nothing in view, or of the pixels that
-/// show a surface in either, nine tenths or more are unexplained and no fault of the whole image
-/// explains them, which is what the map of another scene or camera looks like. Not where nine
-/// tenths of them show about the depth that they should: then it is the scene.
+/// The finding that the map does not show the scene, which replaces findings about missing
+/// triangles: the map is empty, the scene has nothing in view, or at least nine tenths of the
+/// pixels that show a surface in either are unexplained and no fault of the whole image explains
+/// them, as in a map of another scene or camera. No finding if nine tenths of them show about the
+/// right depth.
 void name_other_scene(Judgement& judgement);
 
 }  // namespace fathom::attribution

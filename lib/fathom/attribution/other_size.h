@@ -8,8 +8,8 @@
 
 namespace fathom::attribution {
 
-/// A map that is not of the camera's size, as it may have come about: the camera that sees it, the
-/// map that this camera is to be compared with, and what it is called (kind `size` or `axes`).
+/// A possible origin of a map that differs from the camera's size: the camera of the map, the map
+/// to compare with this camera, and the finding (kind `size` or `axes`).
 struct SizedMap {
   Camera camera;
   OtherMap map;

@@ -19,7 +19,7 @@ std::vector<std::uint32_t> corner_numbers(const WorldMesh& mesh);
 /// two matrices take them to the image. Positions are those in the part's frame.
 std::vector<std::uint32_t> corner_numbers(const std::vector<RasterPart>& parts);
 
-/// The exact map that another is compared with, and what is needed again and again to do so.
+/// The exact map of a comparison, and reusable data for comparing.
 struct Truth {
   WorldMesh mesh;
   /// With the near and far that both renderers cut at.

@@ -14,7 +14,7 @@ namespace fathom::attribution {
 /// All triangles of a scene as one mesh, numbered as in the scene.
 ///
 /// Frame    world, scene units.
-/// Exact    points of objects that are placed as they are; the others are rounded once, to
+/// Exact    points of objects without a transform; points of other objects are rounded once, to
 ///          binary64.
 struct WorldMesh {
   std::vector<std::array<double, 3>> points;

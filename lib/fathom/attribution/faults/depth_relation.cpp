@@ -23,8 +23,8 @@ constexpr double agreement = 1e-4, agreeing_share = 0.8;
 /// How well a constant has to be known to be taken for a round number, relatively.
 constexpr double as_good_as_round = 1e-4;
 
-/// stored = alpha·term(depth) + beta, of the terms of what is stored and of the depth; `free` are
-/// the constants that are estimated, the others are 1 and 0.
+/// term(stored) = alpha·term(depth) + beta; `free` are the estimated constants, the others are 1
+/// and 0.
 struct Form {
   const char *kind, *text;
   DepthTerm stored, depth;
@@ -56,8 +56,8 @@ constexpr std::array forms{
     Form{"decoding", "logarithmic depths that were not decoded: stored = {:.6g}·ln(depth) + {:.6g}",
          DepthTerm::depth, DepthTerm::logarithm}};
 
-/// term(depth) and term(stored) of a pixel, and how well the former knows the latter: the change of
-/// the depth's term by a relative change of the depth.
+/// term(depth) and term(stored) of a pixel, and the change of the depth's term by a relative change
+/// of the depth.
 struct Pair {
   double x, y, slope, depth;
 };
@@ -123,7 +123,7 @@ std::optional<Line> fitted(const std::vector<Pair>& pairs, const Form& form, con
   return line;
 }
 
-/// From the second time on without what is ten times as far off as half of the pixels.
+/// After the first fit without pixels whose residual exceeds ten times the median.
 std::optional<Line> robust_fit(const std::vector<Pair>& pairs, const Form& form) {
   if (pairs.size() < least_pixels) return std::nullopt;
   Line line;
@@ -148,7 +148,7 @@ double rounded_factor(double alpha) {
   return alpha;
 }
 
-/// What the constants are, where near and far tell.
+/// The constants as functions of near and far, if these explain them.
 std::string meaning_of(const Form& form, const Line& line, const Camera& c) {
   const auto is = [&](double alpha, double beta) {
     return std::abs(line.alpha - alpha) <= 1e-3 * std::abs(alpha) &&
@@ -180,8 +180,8 @@ std::string meaning_of(const Form& form, const Line& line, const Camera& c) {
   return "";
 }
 
-/// Codes that all of what is recorded is: whole numbers, or parts of 255, 1023, 4095 or 65535; of
-/// numbers that are at least 16 times as far apart as binary32 resolves them.
+/// Codes that cover all recorded values: whole numbers, or multiples of 1/255, 1/1023, 1/4095 or
+/// 1/65535; codes are at least 16 times as far apart as binary32 resolves.
 void set_codes(RecordedDepth& recorded, const std::vector<Pair>& pairs) {
   for (const double step : {1.0, 1.0 / 255, 1.0 / 1023, 1.0 / 4095, 1.0 / 65535}) {
     const bool all = std::all_of(pairs.begin(), pairs.end(), [&](const Pair& p) {
@@ -209,7 +209,7 @@ std::vector<Line> known_lines(const Form& form, const Camera& c) {
   return {{b, a}, {2 * b, 2 * a - 1}, {-b, 1 - a}, {-2 * b, 1 - 2 * a}};
 }
 
-/// Whether a line says the same as the one that was estimated, as far as codes or roundings tell.
+/// Whether a line equals the estimated line up to codes or roundings.
 bool is_as_good(const std::vector<Pair>& pairs, const Line& line, const Line& fitted, double step) {
   const double typical = pairs[pairs.size() / 2].slope;
   return median_residual(pairs, line) <=

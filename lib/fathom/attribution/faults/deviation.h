@@ -59,7 +59,7 @@ class DepthDeviation {
  public:
   DepthDeviation(const Camera& camera, const RendererModel& model, const Deviation& deviation);
 
-  /// a is 1/D (perspective) or D (orthographic), so is what is returned.
+  /// a and the result are 1/D (perspective) or D (orthographic).
   [[nodiscard]] double of(double a) const;
   /// The derivatives by a and by scale, offset, near, far and bias.
   struct Slopes {
@@ -83,15 +83,15 @@ class DepthDeviation {
   double factor_per_step_ = 0, term_per_step_ = 0;
   double scale_, offset_;
   double first_ = 0, second_ = 1;                  ///< affine values at near and far
-  double read_as_first_ = 0, read_as_second_ = 1;  ///< those that the decoder takes
+  double read_as_first_ = 0, read_as_second_ = 1;  ///< near and far of the decoder
 };
 
 /// Parameters that deviate together: a fault that has a name.
 struct DeviationSet {
   /// As of a Finding.
   const char* kind;
-  /// What is off, for a sentence "… is off"; nothing for a kind that has a sentence of its own:
-  /// bias, shift, decoding.
+  /// The subject of a sentence "… is off"; empty for kinds with a different sentence: bias, shift,
+  /// decoding.
   const char* subject;
   std::span<const Parameter> parameters;
   /// focal_x and focal_y are one.

@@ -10,19 +10,18 @@
 namespace fathom::attribution {
 namespace {
 
-/// A smaller set is as good as a larger one whose cost is not less than this part of its own: a
-/// larger one also follows roundings that corners of a triangle share.
+/// A smaller set is as good as a larger set whose cost is at least this fraction of its own: larger
+/// sets also fit roundings that the corners of a triangle share.
 constexpr double as_good = 0.5;
-/// Residuals of a tenth of what the model allows are its roundings, whatever would follow them.
+/// Residuals below a tenth of the model's half width are roundings, whatever fits them.
 constexpr double roundings = 0.01;
-/// Sets of the same size whose costs are so close cannot be told apart: the first in their order is
+/// Sets of the same size with costs as close as this cannot be distinguished: the first in order is
 /// named, the others are alternatives.
 constexpr double indistinguishable = 1.05;
-/// What the cost has to fall to for anything to be named, and how many standard deviations each
-/// parameter has to be off by, of those that the residuals show. (What corners may be off by is
-/// told as part of the deviation, but it is the most that there may be: a set of six parameters
-/// would have to be far off before each of them were beyond it.) That it then explains the pixels
-/// that were unexplained is for others to see.
+/// Greatest fraction of the cost that may remain for a set to be named, and least deviation of each
+/// parameter in standard deviations of the residuals. (The uncertainty of corners is reported with
+/// the deviation but not required here: it is a maximum, and a set of six parameters would have to
+/// be far off before each exceeded it.) The caller checks that the set explains unexplained pixels.
 constexpr double evidence = 0.99, least_shown = 6;
 
 bool is_significant(const FittedDeviation& fit) {
@@ -93,7 +92,7 @@ std::string amounts(const FittedDeviation& fit) {
   return text;
 }
 
-/// Both planes or the one that is off, told as what the decoder took them for.
+/// The wrong plane or both planes, described as the decoder's values.
 std::string text_of_planes(const Camera& camera, const RendererModel& model,
                            const FittedDeviation& fit) {
   const DepthDeviation depths(camera, model, fit.deviation);
@@ -142,8 +141,8 @@ std::vector<Estimate> estimates_of(const Camera& camera, const RendererModel& mo
   return estimates;
 }
 
-/// Depths that were rounded to steps lie between them once a fault of before is undone: within half
-/// a step, or below by a whole one.
+/// If a fault before the rounding to steps is undone, depths lie between steps: within half a step,
+/// or below by up to a whole step.
 void set_between_steps(std::optional<RecordedDepth>& recorded) {
   using Rounding = RecordedDepth::Rounding;
   if (!recorded || recorded->step == 0) return;
@@ -171,7 +170,7 @@ Hypothesis deviation_hypothesis(const Truth& truth, const OtherMap& other,
     h.truth = seen_by(truth, deviating(truth.camera, fit.deviation));
     h.model.sample.k1 += of(fit.deviation, P::k1);
     h.model.sample.k2 += of(fit.deviation, P::k2);
-    // The matrix that a renderer is known to have used is that of the camera it was given.
+    // The matrix read back from a renderer is the matrix of the camera that it was given.
     if (auto* const raster = std::get_if<RasterModel>(&h.model.kind)) {
       raster->matrix.reset();
       raster->scale = {1, 1, 1};

@@ -9,11 +9,11 @@
 
 namespace fathom::attribution {
 
-/// What is off in a whole image, as it was estimated.
+/// An estimated deviation of a whole image.
 struct FittedDeviation {
   const DeviationSet* set = nullptr;
   Deviation deviation = Deviation::Zero(), standard = Deviation::Zero();
-  /// Of the standard deviations, what the residuals show.
+  /// The part of the standard deviations that the residuals show.
   Deviation shown = Deviation::Zero();
   /// Residuals::cost() without and with it.
   double cost_before = 0, cost = 0;
@@ -21,12 +21,12 @@ struct FittedDeviation {
   std::vector<std::string> alternatives = {};
 };
 
-/// Whether a smaller set of parameters, which leaves `cost`, is as good as one that leaves `least`.
+/// Whether a smaller set of parameters with `cost` is as good as a set with the least cost.
 bool is_as_good(double cost, double least);
 
-/// Of fits, the smallest first, of which the best leaves `least`: the smallest that is as good and
-/// that is more than chance. Of several that cannot be told apart, the first in the order of
-/// deviation_sets(); the others are its alternatives.
+/// From fits, smallest first, whose least cost is `least`: the smallest fit that is as good as the
+/// best and significant. Among indistinguishable fits the first in the order of deviation_sets();
+/// the others are its alternatives.
 std::optional<FittedDeviation> simplest_of(const std::vector<FittedDeviation>& fits, double least);
 
 /// What was fitted as a hypothesis: the truth that the deviating camera sees, the map with the

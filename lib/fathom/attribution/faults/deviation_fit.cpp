@@ -11,8 +11,7 @@
 #include "fathom/failures/errors.h"
 
 // How to read this file: fitted_deviation() at the end. All sets are compared by one linear step,
-// those that are best among sets of their size are fitted, and the smallest that is good enough is
-// taken.
+// the best sets of each size are fitted, and the smallest set that is good enough is taken.
 namespace fathom::attribution {
 namespace {
 
@@ -25,7 +24,7 @@ constexpr int most_rounds = 8;
 /// Sets of one size that are fitted.
 constexpr std::size_t most_of_a_size = 4;
 
-/// Weights that fall with what a residual exceeds the typical ones by.
+/// Weights that decrease with the ratio of a residual to the typical residual.
 /// Source   [GM85].
 VectorXd weights_of(const VectorXd& r) {
   const double scale =
@@ -89,7 +88,7 @@ class Fitting {
   Residuals before_;
 };
 
-/// Those of what the largest sets leave.
+/// Weights from the residuals of the largest sets.
 VectorXd Fitting::robust_weights() const {
   VectorXd weights = weights_of(before_.r);
   const DeviationSet& largest = deviation_sets().back();
@@ -110,7 +109,7 @@ double Fitting::linear_cost(const DeviationSet& set, const VectorXd& weights) co
   return left.dot(weights.asDiagonal() * left) / weights.sum();
 }
 
-/// The smallest first; of each size, those that leave least.
+/// Smallest sets first; for each size, the sets with the least cost.
 std::vector<Candidate> Fitting::candidates() const {
   const VectorXd own = weights_of(before_.r), robust = robust_weights();
   std::vector<Candidate> all;
@@ -178,7 +177,7 @@ std::optional<FittedDeviation> fitted_deviation(const Truth& truth, const OtherM
   double least = infinity;
   for (const Candidate& c : candidates) {
     const bool is_larger = !fits.empty() && fits.back().set->size() < c.set->size();
-    // Residuals of half of what is allowed are explained: larger sets need not be tried.
+    // Residuals below half of the allowed width are explained: larger sets need not be tried.
     if (is_larger && least < 0.25 && is_as_good(least, least_linear)) break;
     fits.push_back(fitting.fitted(*c.set));
     least = std::min(least, fits.back().cost);

@@ -9,11 +9,11 @@
 
 namespace fathom::attribution {
 
-/// The smallest set of parameters that explains the differences as well as any of those that are
-/// tried, by Gauss and Newton's method over the pixels where both show a surface, robust against
-/// those that show others. Nothing where no set makes residuals smaller to speak of.
-/// `found`: what attribute() says of the three.
-/// Exact    derivatives are; estimates are those of least squares in binary64.
+/// The smallest set of parameters that explains the differences as well as any tried set, by the
+/// Gauss-Newton method over the pixels where both maps show a surface, robust against pixels that
+/// show different surfaces. Nothing if no set reduces the residuals noticeably.
+/// `found`: result of attribute() for the same arguments.
+/// Exact    derivatives; estimates are least squares in binary64.
 std::optional<FittedDeviation> fitted_deviation(const Truth& truth, const OtherMap& other,
                                                 const RendererModel& model,
                                                 const Attribution& found);

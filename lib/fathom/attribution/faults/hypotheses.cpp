@@ -27,7 +27,7 @@ struct WholeShift {
   int x = 0, y = 0;
 };
 
-/// How many of some pixels show, that far away, what they should.
+/// Number of pixels whose content at this offset is right.
 std::uint64_t agreeing(const Truth& truth, const OtherMap& other, double agreement,
                        const WholeShift& shift) {
   constexpr int every = 3;  // a prime to what rows and columns repeat by

@@ -15,7 +15,7 @@ struct Hypothesis {
   std::string kind, text;
   RendererModel model;
   OtherMap map;
-  /// Where it is not the one that the map was compared with.
+  /// Set if it differs from the truth of the comparison.
   std::optional<Truth> truth = {};
   /// As of a Finding.
   std::vector<Estimate> estimates = {};
@@ -25,8 +25,8 @@ struct Hypothesis {
 /// Makes it when it is to be tried; nothing where it does not apply.
 using MakeHypothesis = std::function<std::optional<Hypothesis>()>;
 
-/// All that are tried, in this order. The arguments outlive them. `found` is what attribute() says
-/// of them.
+/// All hypotheses, in the order of trial. The arguments outlive them. `found` is the result of
+/// attribute() for them.
 std::vector<MakeHypothesis> hypotheses(const Truth& truth, const OtherMap& other,
                                        const RendererModel& model, const Attribution& found);
 

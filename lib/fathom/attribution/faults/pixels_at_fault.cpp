@@ -73,7 +73,7 @@ Range explained_range(const Truth& truth, const Attribution& found) {
     if (is_seen) depths.push_back(truth.depths[i]);
   }
   if (depths.size() < 64) return {};
-  // Without a thousandth on either side: edges show what is behind them.
+  // Without a thousandth on either side, because pixels at edges show surfaces behind.
   const auto some = static_cast<std::ptrdiff_t>(depths.size() / 1000);
   std::nth_element(depths.begin(), depths.begin() + some, depths.end());
   const double least = depths[static_cast<std::size_t>(some)];
@@ -81,7 +81,7 @@ Range explained_range(const Truth& truth, const Attribution& found) {
   return {least, *(depths.end() - 1 - some)};
 }
 
-/// Rows (or columns) of which nearly all pixels with a surface are unexplained.
+/// Rows (or columns) in which nearly all pixels with a surface are unexplained.
 std::vector<std::uint8_t> lost(const Truth& truth, const Attribution& found, bool rows) {
   const std::uint32_t width = truth.camera.width, height = truth.camera.height;
   std::vector<std::uint64_t> all(rows ? height : width), bad(all.size());
@@ -203,7 +203,8 @@ std::optional<PixelFinding> mixed(const Truth& truth, const OtherMap& other,
     const Range range = range_around(truth, i);
     return range.least < other.depths[i] && other.depths[i] < range.greatest;
   };
-  // What is off by a little lies between neighbours on every slope: only silhouettes tell.
+  // A slightly wrong depth lies between its neighbours on every slope: only silhouettes are
+  // evidence.
   constexpr double jump = 1.05, least_share = 0.05;
   std::uint64_t at_jumps = 0, between = 0;
   for (std::size_t i = 0; i < found.classes.size(); ++i) {

@@ -33,8 +33,8 @@ std::optional<PixelFinding> clipped(const Truth& truth, const OtherMap& other,
 std::optional<PixelFinding> lost_lines(const Truth& truth, const OtherMap& other,
                                        const Attribution& found);
 
-/// `mixed`: pixels at silhouettes hold depths between those of their neighbours, as a filter makes
-/// them that mixes pixels.
+/// `mixed`: pixels at silhouettes hold depths between their neighbours' depths, as after a filter
+/// that mixes pixels.
 std::optional<PixelFinding> mixed(const Truth& truth, const OtherMap& other,
                                   const Attribution& found);
 

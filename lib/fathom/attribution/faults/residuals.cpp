@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 using P = Parameter;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Pixels that are looked at, and those that an estimate has to rest on.
+/// Maximum number of examined pixels, and minimum number for an estimate.
 constexpr std::size_t most_pixels = 30000;
 constexpr Eigen::Index least_pixels = 64;
 
@@ -33,7 +33,7 @@ int index_of(P p) {
 struct Plane {
   Vector3d n;
   double c = 0;
-  Vector3d first, to_second, to_third;  ///< the first corner, and the ways to the others
+  Vector3d first, to_second, to_third;  ///< the first corner, and the vectors to the others
 };
 
 Vector3d corner_parts(const Plane& plane, const Vector3d& point) {
@@ -133,14 +133,14 @@ void set_depth_slopes(const DepthDeviation& depths, double a,
   slopes[index_of(P::bias)] = s.bias;
 }
 
-/// Half a step of what is recorded, relative to the depth.
+/// Half a step of the recorded precision, relative to the depth.
 double half_step(const RecordedDepth& recorded, double depth) {
   const double value = recorded.exact(depth), step = recorded.step_at(value);
   const double width = recorded.to_depth(value + step / 2) - recorded.to_depth(value - step / 2);
   return std::abs(width / depth) / 2;
 }
 
-/// The middle of those that are rounded down to what is recorded for a depth.
+/// The middle of the depths that are rounded down to a recorded depth.
 double middle_of_step(const RecordedDepth& recorded, double depth) {
   if (recorded.rounding != RecordedDepth::Rounding::down) return depth;
   return recorded.to_depth(recorded.exact(depth) + recorded.step / 2);
@@ -195,8 +195,8 @@ bool ResidualSource::has_enough(const Residuals& residuals) const {
   return residuals.r.size() >= least_pixels && typical_width_ < infinity;
 }
 
-/// Half of what the model allows, relative to the depth; never much less than it typically is. What
-/// is expected is not rounded to what is recorded: its step adds to that.
+/// Half width of the model's interval, relative to the depth; never much less than the typical half
+/// width. The expectation is not rounded to the recorded precision, whose step is added.
 double ResidualSource::relative_width(std::size_t pixel) const {
   const double least = found_.least[pixel], greatest = found_.greatest[pixel];
   const double width = (greatest - least) / (greatest + least);

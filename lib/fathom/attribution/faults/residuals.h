@@ -11,11 +11,11 @@
 
 namespace fathom::attribution {
 
-/// How far from what a camera sees another's depths are, pixel by pixel, in half widths of what the
-/// model allows: |r| ≤ 1 is explained.
+/// Difference of another map's depths from a camera's exact depths, pixel by pixel, in half widths
+/// of the model's interval: |r| ≤ 1 is explained.
 struct Residuals {
   Eigen::VectorXd r;
-  /// Derivatives of what is expected by each parameter, in the same unit.
+  /// Derivatives of the expected depth by each parameter, in the same unit.
   Eigen::Matrix<double, Eigen::Dynamic, parameter_count> slopes;
   std::vector<std::uint32_t> triangles;
   /// Barycentric coordinates of what each pixel shows of its triangle.
@@ -30,7 +30,8 @@ struct Residuals {
 /// Makes residuals of a map for cameras that deviate from the truth's.
 class ResidualSource {
  public:
-  /// `found`: what attribute() says of the three; widths come from there. The arguments outlive it.
+  /// `found`: result of attribute() for the same arguments, with the widths. The arguments outlive
+  /// it.
   ResidualSource(const Truth& truth, const OtherMap& other, const RendererModel& model,
                  const Attribution& found);
 

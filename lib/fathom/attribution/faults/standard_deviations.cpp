@@ -9,7 +9,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Of a number between −1 and 1, all of which are as likely.
+/// Standard deviation of a number that is uniform in [−1, 1].
 constexpr double uniform_variance = 1.0 / 3;
 
 /// What one corner does to the parameters.

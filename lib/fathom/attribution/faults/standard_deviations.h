@@ -13,15 +13,16 @@ struct StandardDeviations {
 };
 
 /// Standard deviations of parameters that were fitted to residuals by their columns of derivatives
-/// and weights: infinite where these do not determine them. Two variances add up.
-/// - `shown`, what the residuals show: those of all triangles that share a corner count as one,
-///   since they share its roundings. A triangle then counts with each of its corners, which is to
-///   the safe side.
-/// - What they cannot show, because a fit follows it: a mesh of few triangles has few corners, and
-///   parameters fit their roundings. The model allows each corner to be half a width off, and every
-///   pixel of its triangles by its barycentric part of that; such errors are taken to be
-///   independent and as likely to be of one size as of another.
-/// What all corners share, a matrix that was rounded or a grid that is offset, is not in it.
+/// and weights: infinite if the residuals do not determine a parameter. Two variances add up.
+/// - `shown` is the variance of the residuals. Residuals of all triangles that share a corner count
+///   as one, because they share its roundings. A triangle counts with each of its corners, which is
+///   conservative.
+/// - The second is invisible in residuals, because a fit follows it: a mesh of few triangles has
+/// few
+///   corners, and parameters fit their roundings. The model allows each corner an error of half a
+///   width, and every pixel of its triangles the barycentric part of it. These errors are assumed
+///   independent and uniformly distributed.
+/// Errors that all corners share, such as a rounded matrix or an offset grid, are not included.
 StandardDeviations standard_deviations(const Truth& truth, const Residuals& residuals,
                                        const Eigen::MatrixXd& columns,
                                        const Eigen::VectorXd& weights);

@@ -35,7 +35,7 @@ std::vector<double> distinct_depths(const OtherMap& other) {
   return depths;
 }
 
-/// How far what is recorded may be off for the rounding of the depth to binary32.
+/// Greatest error of a recorded value through the rounding of the depth to binary32.
 double tolerance(const RecordedDepth& r, double depth) {
   const double moved = depth * (1 + 4 * u);
   return std::abs(r.exact(moved) - r.exact(depth)) + 4 * u * std::abs(r.exact(depth));
@@ -102,7 +102,7 @@ std::string text_of_step(double step) {
   return text;
 }
 
-/// A window depth's own step, as a depth; what is recorded has to be coarser by twice that.
+/// A window depth's own step, as a depth; recorded values must be at least twice as coarse.
 double own_coarseness(const Camera& camera, const RendererModel& model, double depth) {
   if (model.recorded) return coarseness(*model.recorded, depth);
   const auto* const raster = std::get_if<RasterModel>(&model.kind);
@@ -116,7 +116,7 @@ double own_coarseness(const Camera& camera, const RendererModel& model, double d
 
 }  // namespace
 
-/// The mean of what is stored less what is exact: none, half a step, or that of another fault.
+/// Mean of stored minus exact values: zero, half a step, or the bias of another fault.
 bool is_rounded_down(const Truth& truth, const OtherMap& other, const RecordedDepth& recorded) {
   double sum = 0, pixels = 0;
   for (std::size_t i = 0; i < truth.depths.size(); ++i) {
@@ -143,8 +143,8 @@ std::optional<double> common_step(const std::vector<double>& values) {
   if (!(least < infinity)) return std::nullopt;
   for (int part = 1; part <= 8; ++part) {
     double step = least / part;
-    // From value to value, each a known multiple of the step by what is known of it so far: first
-    // those from the least value on, which begin with few steps, then the values themselves.
+    // From value to value, each a known multiple of the current estimate of the step: first the
+    // differences from the least value, which begin with few steps, then the values themselves.
     const auto refine = [&step](double multiple) {
       const double k = std::nearbyint(multiple / step);
       if (k > 0 && std::abs(multiple / step - k) < 0.25) step = multiple / k;

@@ -18,11 +18,11 @@ struct CoarseStorage {
   std::string text;
 };
 
-/// Storages, coarser than the model's own, that all surfaces of a map fit in: half floats,
-/// multiples of a common step, codes of depth or window depth between near and far. The coarsest.
-/// Exact    a value fits a storage if it is within four roundings to binary32 of one of its own,
-///          and these are at least 16 times as far apart. All values have to, and so many that
-///          chance gives a map a storage that it has not once in 2²⁰.
+/// The coarsest storage, coarser than the model's own, that fits all surfaces of a map: half
+/// floats, multiples of a common step, codes of depth or window depth between near and far.
+/// Exact    a value fits a storage if it is within four roundings to binary32 of a stored value,
+///          and stored values are at least 16 times as far apart. All values must fit, and there
+///          must be so many that chance suggests a wrong storage at most once in 2²⁰ maps.
 /// Source   16 bits in millimetres and the like: docs/validation.md, "Findings".
 std::optional<CoarseStorage> coarse_storage(const Camera& camera, const OtherMap& other,
                                             const RendererModel& model);

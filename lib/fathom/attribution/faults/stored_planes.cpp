@@ -100,7 +100,7 @@ double rounded_to_digits(double value, int digits) {
   return std::nearbyint(value * unit) / unit;
 }
 
-/// The camera's, then those of one digit, then those of two, beyond all surfaces.
+/// The camera's planes, then planes of one digit, then of two digits, beyond all surfaces.
 std::vector<double> likely_fars(const Camera& camera, double greatest_depth) {
   std::vector<double> fars{camera.far};
   constexpr int decades = 8;

@@ -16,8 +16,8 @@
 namespace fathom::attribution {
 namespace {
 
-/// Pixels that touch and have to be explained by a triangle's absence, or by that of its
-/// neighbours.
+/// Least number of touching pixels that the absence of a triangle, or of its neighbours, must
+/// explain.
 constexpr std::size_t least_pixels = 3;
 /// Missing triangles that are named one by one.
 constexpr std::size_t most_named = 3;
@@ -68,7 +68,7 @@ bool is_turned_away(const Truth& truth, std::uint32_t triangle) {
   return truth.camera.projection == Projection::perspective ? n.dot(a) > 0 : n.z() > 0;
 }
 
-/// Whether surfaces are shown where triangles are missing: what is behind them.
+/// Whether surfaces behind the missing triangles are shown.
 bool shows_what_is_behind(const OtherMap& other, const Attribution& found) {
   std::uint64_t all = 0, surfaces = 0;
   for (std::size_t i = 0; i < found.clues.absent.size(); ++i) {

@@ -8,10 +8,9 @@
 
 namespace fathom::attribution {
 
-/// What is wrong with single triangles: those that are missing, all that are turned away, ties of
-/// equal ones. A triangle is missing where its absence explains three pixels or more that touch and
-/// it is seen nowhere; what a pixel or two show may be chance.
-/// `found`: what attribute() says.
+/// Faults of single triangles: missing triangles, all back faces missing, ties between equal
+/// triangles. A triangle is missing if its absence explains at least three touching pixels and it
+/// is visible nowhere; one or two pixels may be chance. `found`: result of attribute().
 std::vector<Finding> triangles_at_fault(const Truth& truth, const OtherMap& other,
                                         const Attribution& found);
 

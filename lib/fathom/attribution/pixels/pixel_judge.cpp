@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-// How to read this file: judge() at the end. explaining() says what may be stored, classify() why
-// what is stored is.
+// How to read this file: judge() at the end. explaining() computes the allowed values, classify()
+// the class of the stored value.
 namespace fathom::attribution {
 namespace {
 
@@ -53,8 +53,8 @@ bool PixelJudge::loses_to_an_equal(const Pixel& p, const Fragment& f) const {
   });
 }
 
-/// A fragment that may be what is seen here: the visible triangle where it may be, else the one
-/// whose exact value is nearest to what is stored.
+/// A fragment that may be visible here: the visible triangle if possible, else the fragment whose
+/// exact value is nearest to the stored value.
 const Fragment* PixelJudge::explaining(const Pixel& p, double stored) const {
   const double farthest = values_->limit(p.verdict.cap);
   const Fragment* best = nullptr;

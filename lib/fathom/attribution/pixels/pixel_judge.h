@@ -13,7 +13,7 @@
 
 namespace fathom::attribution {
 
-/// What is found at one pixel.
+/// Verdict on one pixel.
 struct PixelResult {
   PixelClass pixel_class = PixelClass::equal;
   /// A triangle may be seen here or not; some triangle is drawn here or may be.
@@ -41,8 +41,8 @@ struct PixelResult {
   std::optional<BiasSteps> bias;
 };
 
-/// Says what may be stored at a pixel, and why what is stored is. Calls may come from several
-/// threads. Truth and map outlive it.
+/// Computes the allowed values of a pixel and the class of its stored value. Thread-safe. Truth and
+/// map outlive it.
 class PixelJudge {
  public:
   PixelJudge(const Truth& truth, const OtherMap& other, const RendererModel& model);
@@ -51,7 +51,7 @@ class PixelJudge {
   [[nodiscard]] PixelResult judge(std::size_t pixel, const std::vector<Fragment>& fragments) const;
 
  private:
-  /// What is asked at one pixel.
+  /// The query at one pixel.
   struct Pixel {
     std::size_t index = 0;
     const std::vector<Fragment>& fragments;

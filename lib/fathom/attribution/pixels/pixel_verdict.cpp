@@ -10,7 +10,7 @@ namespace {
 struct OpenEdge {
   std::uint32_t from = 0, to = 0;
   std::size_t fragment = 0;
-  std::size_t partner = 0;  ///< the fragment on its other side; itself where there is none
+  std::size_t partner = 0;  ///< the fragment on its other side, or itself
 };
 
 std::vector<OpenEdge> open_edges(std::span<const Fragment> fragments,
@@ -31,7 +31,7 @@ std::vector<OpenEdge> open_edges(std::span<const Fragment> fragments,
   return edges;
 }
 
-/// Each edge with the one that runs the other way; edges that three triangles share stay alone.
+/// Pairs edges of opposite direction; edges that three triangles share stay unpaired.
 void pair(std::vector<OpenEdge>& edges) {
   for (OpenEdge& edge : edges) {
     std::size_t opposite = 0, same = 0;
@@ -62,8 +62,8 @@ class Groups {
   std::vector<std::size_t> parent_;
 };
 
-/// The least of the greatest values over groups that are certain to be covered: closed groups, none
-/// of whose open edges is alone, that the exact corners cover.
+/// The minimum, over groups that certainly cover the sample, of the group's greatest value. Such a
+/// group is closed, has no unpaired open edge, and covers the sample with its exact corners.
 double joint_cap(std::span<const Fragment> fragments, std::vector<OpenEdge> edges) {
   pair(edges);
   Groups groups(fragments.size());

@@ -9,7 +9,7 @@
 
 namespace fathom::attribution {
 
-/// What a renderer may store at a sample that meets these fragments.
+/// The allowed values of a sample with these fragments.
 struct PixelVerdict {
   /// Nothing farther than this can be stored; infinite where nothing need be covered.
   double cap = std::numeric_limits<double>::infinity();
@@ -19,8 +19,8 @@ struct PixelVerdict {
   bool must_if_watertight = false;
 };
 
-/// `triangles` and `numbers` of the mesh. Where a renderer is watertight, fragments that share all
-/// edges which the model leaves open count as one that is certain (docs/validation.md, "Together").
+/// `triangles` and `numbers` of the mesh. If a renderer is watertight, fragments that share all
+/// edges that the model leaves open together count as certain (docs/validation.md, "Together").
 PixelVerdict verdict_of(std::span<const Fragment> fragments, bool watertight,
                         std::span<const CornerIndices> triangles,
                         const std::vector<std::uint32_t>& numbers);

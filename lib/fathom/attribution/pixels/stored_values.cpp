@@ -61,7 +61,7 @@ double storage_step(const RasterModel& model, double window) {
 
 namespace {
 
-/// Depths that were written down once more: what a renderer may have made, as it may be read back.
+/// Recorded depths: values that a renderer may have made, as they may be read back.
 class RecordedValues final : public StoredValues {
  public:
   RecordedValues(std::unique_ptr<StoredValues> made, const OtherMap& other,
@@ -101,7 +101,7 @@ class RecordedValues final : public StoredValues {
   }
 
  private:
-  /// From the exact depth, rounded to what is recorded.
+  /// From the exact depth, rounded to the recorded precision.
   [[nodiscard]] double steps_off(std::size_t pixel, double depth) const {
     const double expected = recorded_.rounded(recorded_.exact(depth));
     return std::abs(recorded_.exact(depths_[pixel]) - expected) / recorded_.step_at(expected);

@@ -12,8 +12,8 @@
 
 namespace fathom::attribution {
 
-/// A window depth less what is expected without any rounding, in steps of the storage, and how much
-/// of that roundings may be that all triangles share.
+/// A window depth minus its unrounded expectation, in steps of the storage, and the part of it that
+/// may be roundings shared by all triangles.
 struct BiasSteps {
   double off = 0, shared = 0;
 };
@@ -27,12 +27,12 @@ class StoredValues {
   StoredValues(const StoredValues&) = delete;
   StoredValues& operator=(const StoredValues&) = delete;
 
-  /// All values that may be stored for a fragment, and what is stored without any rounding.
+  /// All values that may be stored for a fragment, and the value without any rounding.
   [[nodiscard]] virtual Interval interval(const Fragment& f) const = 0;
   [[nodiscard]] virtual double exact(const Fragment& f) const = 0;
-  /// A bound on fragments' values as a bound on what is compared.
+  /// A bound on fragments' values as a bound on compared values.
   [[nodiscard]] virtual double limit(double value) const = 0;
-  /// What the other map holds.
+  /// Value of the other map.
   [[nodiscard]] virtual double other(std::size_t pixel) const = 0;
   /// All depths that may be read for a fragment.
   [[nodiscard]] virtual Interval as_depths(const Fragment& f) const = 0;
@@ -52,13 +52,13 @@ class StoredValues {
                                                             const Fragment& f) const = 0;
 };
 
-/// Truth and map outlive what is returned.
+/// Truth and map outlive the result.
 std::unique_ptr<StoredValues> stored_values(const Truth& truth, const OtherMap& other,
                                             const RendererModel& model);
 std::unique_ptr<StoredValues> raster_values(const Truth& truth, const OtherMap& other,
                                             const RasterModel& model);
 std::unique_ptr<StoredValues> ray_values(const OtherMap& other);
-/// Of depths that were written down once more: `made` as of the renderer itself.
+/// For recorded depths: `made` is the renderer's own storage.
 std::unique_ptr<StoredValues> recorded_values(std::unique_ptr<StoredValues> made,
                                               const OtherMap& other, const RecordedDepth& recorded);
 
