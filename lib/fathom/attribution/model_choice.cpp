@@ -221,7 +221,7 @@ std::string Candidates::text_of_others(const RendererModel& chosen) const {
   return names;
 }
 
-/// Whether a finding is not a hole: holes do not depend on the width of the bounds.
+/// Whether a surface is unexplained; holes do not count, because wider bounds do not explain them.
 bool shows_surfaces_where_open(const Attribution& found, const OtherMap& other) {
   for (std::size_t i = 0; i < found.classes.size(); ++i) {
     if (found.classes[i] == PixelClass::unexplained && std::isfinite(other.depths[i])) return true;

@@ -123,7 +123,7 @@ std::optional<Line> fitted(const std::vector<Pair>& pairs, const Form& form, con
   return line;
 }
 
-/// After the first fit without pixels whose residual exceeds ten times the median.
+/// Each fit after the first leaves out pixels whose residual exceeds 3, later 10 times the median.
 std::optional<Line> robust_fit(const std::vector<Pair>& pairs, const Form& form) {
   if (pairs.size() < least_pixels) return std::nullopt;
   Line line;
