@@ -14,7 +14,7 @@ struct RuleCounts {
   std::uint64_t half_open = 0, closed = 0;
 };
 
-/// The demo of the textbooks (studies/course/demo.h): its near and its far triangle.
+/// The demo of the textbooks (study/course/demo.h): its near and its far triangle.
 std::vector<RuleCounts> closed_edges_of_demo();
 
 /// The pixels that the triangles of a scene cover, each triangle counted for itself. Closed edges

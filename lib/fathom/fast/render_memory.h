@@ -5,7 +5,7 @@
 namespace fathom {
 
 /// Memory that the fast engine works with and keeps from one frame to the next
-/// (RenderOptions::kept): what the system has to provide, page by page, is provided once. It is
+/// (RenderContext::kept): what the system has to provide, page by page, is provided once. It is
 /// what the last frame took, and is given back with the object. One frame at a time.
 class RenderMemory {
  public:

@@ -17,9 +17,9 @@ struct StreamLimits {
   /// About what each of them takes in bytes: twice its corners (the next ones are read meanwhile),
   /// their images, and its places in tiles.
   static constexpr std::uint32_t bytes_per_triangle = 300;
-  /// Memory for the tiles of the image in which surfaces were seen, 16 bytes per pixel. If they
-  /// need more, the files are read again for the rest of the image. At least one row of tiles, 64
-  /// rows of pixels, is kept.
+  /// Memory for the tiles of the image in which surfaces were seen, up to 40 bytes per pixel
+  /// (Tile::most_packed_bytes). If they need more, the files are read again for the rest of the
+  /// image. At least one row of tiles, 64 rows of pixels, is kept.
   std::uint64_t tile_bytes = std::uint64_t{1} << 30;
   /// For channel A, memory for the triangles that these tiles need, about 200 bytes each. If there
   /// are more, they wait in a file without a name in the folder that TMPDIR names.
