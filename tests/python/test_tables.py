@@ -5,7 +5,9 @@ import os
 import pathlib
 import re
 import typing
+import warnings
 
+import numpy as np
 import pytest
 
 import fathom
@@ -54,6 +56,31 @@ lists_of_channels = {
 def test_every_channel_is_listed(place):
     # Parts have rows of their own where a table has columns.
     assert missing(channels, re.sub(r"\.[A-Z]\b", "", lists_of_channels[place])) == []
+
+
+def types_and_backgrounds(page):
+    """What the first table of channels in a page says of each: its type, and its value without a surface."""
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in page.splitlines() if line.startswith("| ")]
+    column = rows[0].index("type")
+    return {name: (row[column], row[-1]) for row in rows for name in re.findall(r"`([\w.]+)`", row[0])}
+
+
+@pytest.mark.parametrize("page", [specification, read("docs/reference/channels.md")], ids=["specification", "channels"])
+def test_types_and_backgrounds_are_those_of_a_map_without_surfaces(page):
+    camera = fathom.Camera(1, 1, 1, 1, 0, 0, pixel_centre=0.5)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        empty = fathom.Scene().render(camera, channels=channels)
+    described = types_and_backgrounds(page)
+    names = [f"{name}.{part}" for name in channels for part in maps.parts_of.get(name, "")]
+    names += [name for name in channels if name not in maps.parts_of]
+    assert len(names) >= 24
+    types = {"FLOAT": np.float32, "UINT": np.uint32}
+    for name in names:
+        values = empty[name.partition(".")[0]]
+        type_, background = described[name]
+        assert values.dtype == types[type_], name
+        np.testing.assert_array_equal(values, float(background.replace("∞", "inf")), err_msg=name)
 
 
 def suffixes_of_maps():
