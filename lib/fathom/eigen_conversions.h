@@ -18,13 +18,12 @@
 #include "fathom/numeric/rounding.h"
 
 /// Cameras, points, placements and meshes from and to Eigen. Link fathom::eigen_conversions, which
-/// the package has where Eigen is found. Nothing else of Fathom shows Eigen, so your own may be
-/// compiled with any settings.
+/// the package provides if Eigen is found. No other header of Fathom includes Eigen, so your Eigen
+/// may be compiled with any settings.
 ///
-/// Exact    what is copied, and that is all but what says that it rounds. What Eigen makes of a
-///          matrix or a quaternion before it comes here, and after, is rounded by Eigen: an inverse
-///          or a rotation of a quaternion several times, where ours (camera_to_world(),
-///          import_colmap()) round once.
+/// Exact    numbers are copied, except in functions that say that they round. Eigen's own
+///          functions round: an inverse or the rotation of a quaternion several times, whereas
+///          camera_to_world() and import_colmap() round once.
 namespace fathom {
 
 // Cameras
@@ -34,8 +33,8 @@ using PoseRows = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 static_assert(sizeof(Camera::world_to_camera) == 12 * sizeof(double));
 
 /// [R | t] of a camera. Exact.
-/// Frame    world to camera: x right, y down, z forward; scene units. R need not be a rotation: who
-///          knows that it is may put it into an Isometry3d, whose inverse() transposes R.
+/// Frame    world to camera: x right, y down, z forward; scene units. R need not be a rotation; if
+///          it is, an Isometry3d may hold it, whose inverse() transposes R.
 inline Eigen::Affine3d camera_from_world(const Camera& camera) {
   Eigen::Affine3d pose = Eigen::Affine3d::Identity();
   pose.affine() = Eigen::Map<const PoseRows>(camera.world_to_camera.front().data());
@@ -63,16 +62,16 @@ requires(mode != int{Eigen::Projective}) void set_camera_from_world(
   set_camera_from_world(camera, Eigen::Matrix<double, 3, 4>(pose.affine()));
 }
 
-/// K = [fx skew cx; 0 fy cy; 0 0 1] as the camera's numbers are: cx and cy count from where its
-/// pixel_centre says. Exact.
+/// K = [fx skew cx; 0 fy cy; 0 0 1] with the camera's numbers: its pixel_centre defines the origin
+/// of cx and cy. Exact.
 inline Eigen::Matrix3d intrinsic_matrix(const Camera& camera) {
   Eigen::Matrix3d K;
   K << camera.fx, camera.skew, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1;
   return K;
 }
 
-/// Gives a camera the numbers of K; its pixel_centre stays what it is. Exact.
-/// Fails    InputError where K is not of the form [fx skew cx; 0 fy cy; 0 0 1].
+/// Gives a camera the numbers of K and keeps its pixel_centre. Exact.
+/// Fails    InputError if K does not have the form [fx skew cx; 0 fy cy; 0 0 1].
 inline void set_intrinsic_matrix(Camera& camera, const Eigen::Matrix3d& K) {
   if (K(1, 0) != 0 || K.row(2) != Eigen::RowVector3d(0, 0, 1))
     throw InputError("the intrinsic matrix: expected fx s cx, 0 fy cy, 0 0 1");

@@ -8,8 +8,8 @@
 
 namespace fathom {
 
-/// What a map carries so that it can be computed again: the camera, the sources with their SHA-256
-/// as JSON, the names of the objects and of what other channels number, the engine.
+/// Data of a map that allow recomputing it: the camera, the sources with their SHA-256 as JSON, the
+/// names of the objects and of the numbers in other channels, the engine.
 void describe_map(const Scene& scene, const Camera& camera, std::string_view engine, DepthMap& map);
 
 }  // namespace fathom

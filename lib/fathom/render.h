@@ -16,16 +16,16 @@
 #include "fathom/scene/scene.h"
 #include "fathom/scene/streamed_scene.h"
 
-/// The front door to the exact engines. What a graphics pipeline computes instead is behind
-/// render_by_pipeline.h.
+/// Entry points of the exact engines. render_by_pipeline.h computes the results of a graphics
+/// pipeline instead.
 namespace fathom {
 
-/// Renders `scene` as `camera` sees it. The map carries what is needed to recompute it: camera,
+/// Renders `scene` as seen by `camera`. The map contains the data for recomputing it: camera,
 /// sources, object names, engine.
 /// Exact    every value is the exact number of the specification rounded once (section 6).
 /// Fails    InputError if the scene or the camera has a fault (find_fault) or the image more than
-///          2⁴⁴ pixels; UsageError for options that mean nothing (require_meaningful); OutputError
-///          if a depth does not fit the encoding asked for.
+///          2⁴⁴ pixels; UsageError for meaningless options (require_meaningful); OutputError if a
+///          depth does not fit the requested encoding.
 Rendered render(const Scene& scene, const Camera& camera, const RenderOptions& options = {},
                 const RenderContext& context = {});
 
@@ -37,7 +37,8 @@ void render_into(Rendered& rendered, const Scene& scene, const Camera& camera,
                  const RenderOptions& options = {}, const RenderContext& context = {});
 
 /// The same map of a scene whose meshes stay in their files, by the fast engine.
-/// Fails    also InputError if a file changes meanwhile; UsageError if another engine is asked for.
+/// Fails    also InputError if a file changes meanwhile; UsageError if `options` has another
+///          engine.
 Rendered render(const StreamedScene& scene, const Camera& camera, const RenderOptions& options = {},
                 const StreamLimits& limits = {}, const RenderContext& context = {});
 
@@ -65,10 +66,10 @@ void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,
                      std::optional<Segmentation> by = std::nullopt,
                      const std::function<void(double)>& progress = {});
 
-/// What it adds. `share`: the rows that are looked at; pixels of other rows show nothing. The names
-/// are those of all segments, and the empty one, last, where a pixel of these rows shows a triangle
+/// The added channels. `share`: the computed rows; pixels of other rows are empty. The names are
+/// the names of all segments, followed by the empty name if a pixel of these rows shows a triangle
 /// without a name.
-/// Fails    as add_cryptomatte(), but for faults of the map.
+/// Fails    as add_cryptomatte(), except for faults of the map.
 Mattes find_mattes(const Scene& scene, const Camera& camera, const RenderOptions& options,
                    std::optional<Segmentation> by, const RowShare& share = {},
                    const std::function<void(double)>& progress = {});

@@ -17,24 +17,24 @@
 /// The front door to the pipeline of the textbooks.
 namespace fathom {
 
-/// What a pipeline's depth buffer holds at the end, pixel by pixel, row by row from the top.
+/// Final content of a pipeline's depth buffer, pixel by pixel, row by row from the top.
 struct PipelineDepthBuffer {
   DepthFormat format;                       ///< with the near and far that were clipped with
   std::array<double, 2> depth_range{0, 1};  ///< what near and far become
   /// With an orthographic camera the matrices of standard, opengl and reversed make a window depth
   /// that is affine in the depth: (D − near)/(far − near), reversed 1 minus that.
   bool orthographic = false;
-  std::vector<StoredDepth> stored;  ///< where nothing was written: what it was cleared to
+  std::vector<StoredDepth> stored;  ///< the cleared value where nothing was written
   std::vector<bool> written;
   /// Empty where no object has a stencil state.
   std::vector<std::uint8_t> stencil;
 };
 
-/// What a graphics pipeline computes of the scene, as a map and a picture.
+/// Result of a graphics pipeline for a scene: a map and a picture.
 struct PipelineRendering {
-  /// Channels Z, id, face and object, those that are asked for. Lines and points are numbered on
-  /// after all triangles, object by object, lines first; they are of no face. Its camera has the
-  /// near and far that the pipeline clipped with, so that an exact map can be made for it.
+  /// The requested channels of Z, id, face and object. Lines and points are numbered after all
+  /// triangles, object by object, lines first, and belong to no face. The map's camera has the near
+  /// and far with which the pipeline clipped, so that an exact map can be made for it.
   DepthMap map;
   RgbImage picture;  ///< empty where it is not asked for
   pipeline::PipelineStatistics statistics;
@@ -54,22 +54,22 @@ PipelineRendering render_by_pipeline(const Scene& scene, const Camera& camera,
                                      const pipeline::PipelineOptions& options,
                                      const std::vector<Channel>& channels, bool with_picture);
 
-/// The same of a scene that moves while the shutter is open; the map is that of the time at which
-/// it
-/// closes. Fails    also as pipeline::render_moving.
+/// The same for a scene that moves while the shutter is open; the map shows the time at which the
+/// shutter closes.
+/// Fails    also as pipeline::render_moving.
 PipelineRendering render_by_pipeline(MovingScene& scene, const Camera& camera,
                                      const pipeline::PipelineOptions& options,
                                      const pipeline::Shutter& shutter,
                                      const std::vector<Channel>& channels, bool with_picture);
 
-/// Adds what the depth buffer holds as channels: `Zwindow`, or `Zwindow.high` and `Zwindow.low`, as
-/// depth_buffer/depth_buffer.h stores them; `Zdecoded`, the depth that the stored value means, in
-/// scene units, +∞ where nothing was written; `stencil` (UINT), if there is one.
+/// Adds the content of the depth buffer as channels: `Zwindow`, or `Zwindow.high` and
+/// `Zwindow.low`, as depth_buffer/depth_buffer.h stores them; `Zdecoded`, the depth of the stored
+/// value in scene units, +∞ where nothing was written; `stencil` (UINT), if the pipeline used one.
 ///
 /// Exact    Zdecoded: the depth range, then the format, are inverted exactly, and the result is
-///          rounded once. What polygon offset has moved beyond near or far is decoded as near or
-///          far.
-/// Fails    UsageError where near and far have the same window depth, so that none can be decoded.
+///          rounded once. Values that polygon offset moved beyond near or far are decoded as near
+///          or far.
+/// Fails    UsageError if near and far have the same window depth, so that decoding is impossible.
 void add_depth_buffer(DepthMap& map, const PipelineDepthBuffer& buffer);
 
 }  // namespace fathom

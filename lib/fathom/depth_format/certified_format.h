@@ -6,10 +6,10 @@
 #include "fathom/depth_format/stored_depth.h"
 #include "fathom/numeric/certified_value.h"
 
-/// encode() and decode() in floating point, with proved bounds: they return what exact arithmetic
-/// gives, and nothing where a bound does not settle it. Binary64 first, then double-words; only the
-/// latter for logarithms (numeric/certified_logarithm.h).
-/// Needs    StandardArithmetic in the thread that calls it: it is asked once a pixel, and has none.
+/// encode() and decode() in floating point, with proved bounds: they return the exact result, or
+/// nothing if a bound does not settle it. Binary64 first, then double-words; only double-words for
+/// logarithms (numeric/certified_logarithm.h).
+/// Needs    StandardArithmetic in the calling thread, because it is called once for each pixel.
 namespace fathom {
 
 /// A value of either width as a pair of words.
@@ -39,7 +39,7 @@ class CertifiedFormat {
 
   [[nodiscard]] const DepthFormat& format() const { return constants_.format; }
 
-  /// What the constructor works out, and arithmetic with or without fused multiply-adds, which give
+  /// Constants from the constructor, and arithmetic with or without fused multiply-adds, which give
   /// the same results.
   struct Constants {
     DepthFormat format;

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-/// What a depth buffer stores: a map from depth to [0, 1], rounded to a storage type
+/// Content of a depth buffer: a map from depth to [0, 1], rounded to a storage type
 /// (specification, section 9).
 namespace fathom {
 
@@ -46,12 +46,12 @@ struct DepthFormat {
   double c = 1;
 };
 
-/// Refuses a format that means nothing; the functions of this room expect one that has passed.
-/// Fails    UsageError, naming the value and the combinations that exist.
+/// Refuses a meaningless format; the functions of this module expect a checked format.
+/// Fails    UsageError, naming the value and the existing combinations.
 void require_meaningful(const DepthFormat& format);
 
-/// The names used in the specification. Fails with UnknownName, which names those that
-/// exist.
+/// The names used in the specification. Fails with UnknownName, which lists the existing
+/// names.
 std::string_view name_of(Mapping mapping);
 std::string_view name_of(Storage storage);
 Mapping mapping_named(std::string_view name);
@@ -81,7 +81,7 @@ constexpr int bits_of(Storage storage) {
 constexpr std::uint32_t greatest_code(Storage storage) {
   return static_cast<std::uint32_t>((std::uint64_t{1} << bits_of(storage)) - 1);
 }
-/// The exponent of the least normal number of a float storage. That of a number is kept with
+/// The exponent of the least normal number of a float storage. A number's exponent is stored with
 /// 1 − least_exponent() added to it.
 constexpr int least_exponent(Storage storage) {
   return storage == Storage::float16 ? -14 : storage == Storage::float32 ? -126 : -1022;

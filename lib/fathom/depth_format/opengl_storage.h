@@ -7,15 +7,15 @@
 /// Depth buffers as OpenGL describes and reads them.
 namespace fathom {
 
-/// What an attachment stores of which OpenGL says that it has so many bits per depth, of
-/// floating-point numbers or not.
+/// The storage of an attachment for which OpenGL reports so many bits per depth, as integers or
+/// floating-point numbers.
 ///
-/// Fails    InputError if it is none of 16, 24, 32 bits and binary32.
+/// Fails    InputError unless it has 16, 24 or 32 bits or is binary32.
 Storage storage_of_attachment(int bits, bool is_floating_point);
 
-/// The window depth, 0 to 1, of an integer as glReadPixels returns it for a unorm storage: of 16
-/// bits as GL_UNSIGNED_SHORT, of others as GL_UNSIGNED_INT, in which OpenGL puts 24 bits into the
-/// upper ones.
+/// The window depth, 0 to 1, of an integer as glReadPixels returns it for a unorm storage: 16 bits
+/// as GL_UNSIGNED_SHORT, otherwise GL_UNSIGNED_INT, in which OpenGL puts 24 bits into the upper
+/// bits.
 ///
 /// Exact    rounded once.
 double window_depth_of_pixel(Storage storage, std::uint32_t pixel);

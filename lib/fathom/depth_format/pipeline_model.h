@@ -4,10 +4,10 @@
 
 #include "fathom/depth_format/stored_depth.h"
 
-/// What a graphics pipeline makes of a depth before it is stored: matrices, transform, division and
-/// interpolation in binary32, each operation rounded (specification, section 9). Every source of
-/// error can be switched off; what is switched off is computed exactly. So a study can separate
-/// them, and with all of them off the model is the ideal one.
+/// A graphics pipeline's computation of a depth before it is stored: matrices, transform, division
+/// and interpolation in binary32, each operation rounded (specification, section 9). Every source
+/// of error can be switched off and is then computed exactly. So a study can separate the sources;
+/// with all of them off the model is ideal.
 ///
 /// Depth is along the view, z forward, as in Direct3D and Vulkan; OpenGL's z, which points
 /// backward, only changes signs, which do not affect rounding to nearest.
@@ -51,8 +51,8 @@ Ratio window_depth(const PipelineModel& model, const Vertex& vertex);
 Ratio interpolated_window_depth(const PipelineModel& model, const Vertex& a, const Vertex& b,
                                 const Ratio& t);
 
-/// What is stored for a window depth, limited to [0, 1]: a number that can be compared with others
-/// of the same model, and is in the same order as the window depths.
+/// The stored value of a window depth, limited to [0, 1]: a number that can be compared with other
+/// numbers of the same model, in the order of the window depths.
 Ratio stored_number(const PipelineModel& model, const Ratio& window_depth);
 
 }  // namespace fathom

@@ -10,16 +10,16 @@
 /// Fails    all: InputError if a depth asked about is not between near and far.
 namespace fathom {
 
-/// The distances from the depth that the code of D means to those that its neighbouring codes mean.
-/// nullopt if there is no such code; +∞ if it means infinity.
+/// The distances from the depth of D's code to the depths of its neighbouring codes. nullopt if a
+/// neighbour does not exist; +∞ if its depth is infinite.
 struct Resolution {
   StoredDepth stored;
   std::optional<double> to_nearer, to_farther;
 };
 Resolution resolution(const DepthFormat& format, const Ratio& depth);
 
-/// The number of different values as which depths from `nearest` to `farthest`, both included, are
-/// stored; f is continuous, so none between those of the ends is left out.
+/// The number of different stored values of depths from `nearest` to `farthest`, both included; f
+/// is continuous, so every value between the values of the ends occurs.
 std::uint64_t codes_between(const DepthFormat& format, const Ratio& nearest, const Ratio& farthest);
 
 /// How far behind D a surface has to be to be distinguished from it: the least s such that every

@@ -9,22 +9,22 @@
 /// The value that stands for "no surface" in the depth channels of a map.
 namespace fathom {
 
-/// What a map says of its own background, in its text background_text (map_texts.h): "0", "nan", or
-/// the shortest decimal text of a number, where it is not +∞ (of codes: 0); +∞ is taken too. EXR
-/// and NPZ hold the text, PFM and NPY have no place for it.
+/// The background that a map declares in its text background_text (map_texts.h): "0", "nan", or the
+/// shortest decimal text of a number, if it is not +∞ (for codes: 0); +∞ is accepted too. EXR and
+/// NPZ contain the text, PFM and NPY cannot.
 /// Fails    InputError if the text is neither a number nor "nan" nor "inf".
 std::optional<double> declared_background(const DepthMap& map);
 
-/// Sets what a map says of its own background; +∞ needs no text.
+/// Sets the background that a map declares; +∞ needs no text.
 void declare_background(DepthMap& map, double value);
 
 /// The map with `value` wherever a depth channel (Z, distance, disparity, Zdecoded, …) shows no
-/// surface, and the text that says so (none for +∞). Where there is no surface is as surface_mask()
-/// tells it: by identifiers, where the map has them, else by the background that it has: `now`, and
-/// that alone, where it is given (of a map that was rendered, +∞), else what background_of() finds.
-///   +∞, NaN     any surface keeps its bits; an overflowed depth is +∞ as well, so that with +∞
-///               only an identifier channel tells it from background, and with NaN it is told in
-///               any case
+/// surface, and with the text that declares it (no text for +∞). surface_mask() decides where a
+/// surface is: by identifiers if the map has them, else by the current background: only `now` if it
+/// is given (+∞ for a rendered map), else the result of background_of().
+///   +∞, NaN     any surface keeps its bits. An overflowed depth is +∞ as well, so with +∞ only an
+///               identifier channel distinguishes it from background; with NaN it is always
+///               distinguishable
 ///   finite      likewise, but no surface may have this value
 /// Exact    `value` is rounded to the type of the channel, to nearest even.
 /// Fails    UsageError if `value` is −∞, or does not fit the type, or the map has codes (their

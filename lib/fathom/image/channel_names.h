@@ -10,7 +10,7 @@
 /// channels R, G, B and Y.
 namespace fathom {
 
-/// A channel of a map, and what it is called in the file: {"Z", "Y"}.
+/// A channel of a map and its name in the file: {"Z", "Y"}.
 struct ChannelName {
   std::string channel, in_file;
 };
@@ -24,7 +24,7 @@ struct ChannelName {
 DepthMap with_channel_names(DepthMap map, const std::vector<ChannelName>& names);
 
 /// The map with the names that its channels had before with_channel_names(), and without that text.
-/// A text that says nothing of the kind is left as it is: it is another program's.
+/// A text of another form is left unchanged: another program wrote it.
 DepthMap with_own_channel_names(DepthMap map);
 
 }  // namespace fathom

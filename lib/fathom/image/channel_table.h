@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-/// The channels that an exact map can have (specification, section 6): the one place that says what
-/// each is called, holds and means.
+/// The channels of exact maps (specification, section 6): the only place that defines their names,
+/// types and meanings.
 namespace fathom {
 
 enum class Channel {
@@ -30,7 +30,7 @@ enum class Channel {
   Ns
 };
 
-/// What a channel's values mean, which decides what value says "no surface".
+/// Quantity of a channel, which decides its value for "no surface".
 enum class ChannelKind {
   depth,       ///< Z, distance, disparity, Zdecoded: background +∞ (of codes and
                ///< disparities 0), or what the map says (background.h)
@@ -40,7 +40,7 @@ enum class ChannelKind {
   quantity     ///< everything else (A, Zlow, other programs' channels): 0, which is a value too
 };
 
-/// What a channel is stored as.
+/// Stored type of a channel.
 enum class ChannelType {
   encoded,    ///< binary32, binary64 or 16-bit codes, as asked for (DepthEncoding)
   binary32,   ///< binary32
@@ -97,8 +97,8 @@ std::optional<Channel> channel_named(std::string_view name);
 /// The names of its parts, "N.X", "N.Y" and "N.Z"; for a single channel, its own name.
 std::vector<std::string> part_names(Channel channel);
 
-/// Whether a channel has no_segment where a surface is visible that has none: those of materials,
-/// groups, parts and labels.
+/// Whether a channel has no_segment where a surface without a segment is visible: channels of
+/// materials, groups, parts and labels.
 bool shows_segments(std::string_view channel);
 
 /// "Z, A, Zlow, … and bary"

@@ -66,7 +66,7 @@ struct ChannelComparison {
   /// Where CompareOptions::metrics asks for them, of channels of depth: either of the two.
   std::optional<DepthMetrics> depth_metrics;
   std::optional<DisparityMetrics> disparity_metrics;
-  /// What the reader should know, a line each: a background that was guessed, types that differ, …
+  /// Notes for the reader, one per line: a guessed background, different types, …
   std::vector<std::string> notes;
 
   [[nodiscard]] bool within_tolerance() const {
@@ -88,22 +88,23 @@ struct MapComparison {
 /// Which figures of benchmarks are computed of channels of depth (error_metrics.h).
 enum class Metrics {
   none,
-  by_channel,  ///< DisparityMetrics of channels that are called `disparity`, DepthMetrics of others
-  of_disparity  ///< DisparityMetrics of all: PFM does not say what it holds
+  by_channel,   ///< DisparityMetrics of channels called `disparity`, DepthMetrics of other channels
+  of_disparity  ///< DisparityMetrics of all channels, because a PFM does not name its quantity
 };
 
 struct CompareOptions {
-  /// Two numbers agree where one of the three tolerances allows it: so many ulps, an absolute
-  /// difference in the unit of the channel, a relative one (ChannelComparison says what is
-  /// measured).
+  /// Two numbers agree if one of three tolerances allows it: a number of ulps, an absolute
+  /// difference in the unit of the channel, or a relative difference (ChannelComparison defines
+  /// them).
   double tolerance_ulp = 0;
   /// Compare this channel only; empty: all that both have. If they have no name in common, a depth
   /// channel of each is compared (`ViewLayer.Depth.Z`), with a note.
   std::string channel;
   /// Its name in the other map, if that differs.
   std::string other_channel;
-  /// The value that means background in depth channels (NaN and infinities do as well); if empty,
-  /// it is what the map says (background.h), or else detected (surface.h) and noted.
+  /// The value of the background in depth channels, in addition to NaN and infinities. If empty,
+  /// the value that the map declares (background.h), or else the detected value (surface.h), with a
+  /// note.
   std::optional<double> truth_background, other_background;
   double tolerance_absolute = 0;
   double tolerance_relative = 0;
@@ -117,14 +118,14 @@ struct CompareOptions {
 MapComparison compare_maps(const DepthMap& truth, const DepthMap& other,
                            const CompareOptions& options = {});
 
-/// What the colours of draw_differences() measure; ChannelComparison defines each.
+/// Measure for the colours of draw_differences(); ChannelComparison defines each.
 enum class DifferenceMeasure { absolute, relative, ulp };
 
-/// A picture of the differences in one channel (empty: of those that compare_maps() compares Z,
-/// else the first of depths, else the first): equal pixels dark, differing ones coloured by the
-/// logarithm of their difference; surfaces in only one map, and values that cannot be compared,
-/// have colours of their own. With a legend, in which the colours of absolute and relative
-/// differences begin at a millionth of the greatest.
+/// A picture of the differences in one channel (empty: among the compared channels Z, else the
+/// first depth channel, else the first): equal pixels are dark, different pixels are coloured by
+/// the logarithm of their difference. Surfaces in only one map and values that cannot be compared
+/// have separate colours. In the legend, the colours of absolute and relative differences begin at
+/// a millionth of the greatest difference.
 /// Fails    as compare_maps(); OutputError if the font is missing.
 RgbImage draw_differences(const DepthMap& truth, const DepthMap& other,
                           const CompareOptions& options = {},

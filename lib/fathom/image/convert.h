@@ -33,17 +33,17 @@ struct StereoRig {
 };
 
 /// Returns a map with one channel: `to`, computed from the map's channel `from`, of the same type,
-/// with the map's texts. What shows no surface (surface_mask()) becomes `background`; so does what
-/// has no number: NaN, and a depth of +∞, which overflowed. Without `background`, that is 0 for
-/// disparity, as most data sets have it; for the others what the map says (background.h), or +∞.
-/// With +∞, a disparity is Middlebury's "unknown" there.
+/// with the map's texts. Pixels without a surface (surface_mask()) become `background`; so do NaN
+/// and overflowed depths (+∞). The default background is 0 for disparity, as in most data sets, and
+/// otherwise the background that the map declares (background.h), or +∞. A disparity of +∞ is
+/// Middlebury's "unknown".
 ///   ray distance   Z·√(1 + x'² + y'²) with x', y' as in point_at() (Z itself if orthographic)
-/// Fails    UsageError if the channel `from` is missing or holds codes, or if disparity is asked
-///          for without a rig, with baseline ≤ 0, or with an orthographic camera, or for a
-///          background that is none (with_background); InputError if the map or the camera has a
-///          fault, and, naming the pixel, if a disparity plus doffs is negative (no point has it);
-///          OutputError, naming the pixel, if a surface has the value of the background: with doffs
-///          or in binary32, a disparity can be 0.
+/// Fails    UsageError if the channel `from` is missing or holds codes, if disparity is requested
+///          without a rig, with baseline ≤ 0, or with an orthographic camera, or if the background
+///          is invalid (with_background); InputError if the map or the camera has a fault, and,
+///          naming the pixel, if a disparity plus doffs is negative (no point has it); OutputError,
+///          naming the pixel, if a surface has the value of the background: with doffs or in
+///          binary32, a disparity can be 0.
 DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity to,
                           const Camera& camera, const std::optional<StereoRig>& rig = std::nullopt,
                           std::optional<double> background = std::nullopt);

@@ -26,9 +26,9 @@ struct ImageChannel {
       values;
 };
 
-/// A rendered map: named channels of one size, and what is needed to compute it again. Values are
-/// those of the specification, section 6, with their units, already rounded. Not its task: to look
-/// at the scene.
+/// A rendered map: named channels of one size, and the data for computing it again. Values and
+/// units are defined in the specification, section 6, and already rounded. A map does not access
+/// the scene.
 struct DepthMap {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
@@ -42,14 +42,14 @@ struct DepthMap {
 
   /// Names of the objects that channel `object` numbers.
   std::vector<std::string> object_names;
-  /// What the numbers in other channels stand for: tables["material"][n] is the name of material n.
+  /// Names for the numbers in other channels: tables["material"][n] is the name of material n.
   std::map<std::string, std::vector<std::string>> tables;
   /// Attributes as they are in the file: `fathom.sources`, `fathom.engine`, … (`fathom.camera` is
   /// made from camera, `fathom.objects` from object_names, `fathom.materials` and the like from
   /// tables).
   std::map<std::string, std::string> texts;
-  /// What it was rendered with; files are told of it as they need it, `fathom.camera` among their
-  /// texts. None in a map that was read: camera_of() finds it in the texts.
+  /// The camera of a rendered map, which files store as they need it, e.g. as text `fathom.camera`.
+  /// Empty in a map that was read: camera_of() finds the camera in the texts.
   std::optional<Camera> camera;
   /// Attributes of an EXR that was read, as they are in it: `worldToCamera` and `worldToNDC`, row
   /// by row, `pixelAspectRatio`, `screenWindowCenter` and `screenWindowWidth`. An EXR of a map
@@ -72,13 +72,13 @@ struct DepthMap {
   }
 };
 
-/// What is wrong with a map, in one line, or nothing if it has pixels and channels; these have
-/// names of their own, without NUL, and a value for each pixel; and the scale of codes is a
-/// positive number.
+/// The fault of a map, in one line. Nothing if the map has pixels and channels, the channels have
+/// different names without NUL and a value for each pixel, and the scale of codes is a positive
+/// number.
 std::optional<std::string> find_fault(const DepthMap& map);
 
 /// Refuses a map that is not valid.
-/// Fails    InputError, "map: " and what find_fault() says.
+/// Fails    InputError: "map: " and the fault from find_fault().
 void require_valid(const DepthMap& map);
 
 /// The camera that a map carries: its own, or the one in its text `fathom.camera`; nullopt if it

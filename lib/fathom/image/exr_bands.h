@@ -9,22 +9,22 @@
 #include "fathom/image/depth_map.h"
 #include "fathom/image/map_files.h"
 
-/// An EXR that is put together from bands of rows, each of which is compressed where it is: the
-/// same bytes as write_map() writes of the whole map, which need not be in one place.
+/// An EXR that is assembled from bands of rows, each compressed separately, e.g. in different
+/// processes: the same bytes as write_map() writes for the whole map.
 ///
 ///   beginning, with a table of as many zeros as there are chunks, eight bytes each, at its end
 ///   for each chunk  the number of its first row, its size, four bytes each, and its bytes
 ///
-/// The entry of a chunk in the table is where in the file it begins. Numbers are little-endian.
+/// The entry of a chunk in the table is its offset in the file. Numbers are little-endian.
 namespace fathom {
 
 /// How many rows a chunk has, the last one fewer; nullopt for what cannot be written in bands: all
 /// but ZIP and ZIPS.
 std::optional<std::uint32_t> rows_of_exr_chunk(Compression compression);
 
-/// What comes before the chunks of a map of this height, of which `band` has the width, the
-/// channels and all that the file says of it.
-/// Fails    as write_map(); `name` is the file's for messages.
+/// The bytes before the chunks of a map of this height; `band` has the map's width, channels and
+/// header data.
+/// Fails    as write_map(); `name` is the file's name for messages.
 std::vector<std::byte> exr_beginning(const DepthMap& band, std::uint32_t height,
                                      Compression compression, const std::string& name);
 

@@ -37,18 +37,18 @@ struct WriteOptions {
   /// The channel to write as PFM, PNG, NPY or for COLMAP; if empty, the map's only channel. As NPY
   /// also a channel of several parts, "N" for N.X, N.Y and N.Z; for COLMAP "Nc".
   std::string channel;
-  /// What says where in the world a GeoTIFF is; nullopt: the camera that the map carries.
+  /// The camera that places a GeoTIFF in the world; nullopt: the map's camera.
   std::optional<Camera> camera;
 };
 
-/// How many bytes encode_map() takes at least beside a map of so many: for an EXR that is
-/// compressed what a chunk of its rows needs, which is all of a map with few rows; for PNG and
-/// GeoTIFF, whose rows are compressed a few at a time, nothing; for others a file as large as the
-/// map.
+/// Least number of bytes that encode_map() takes in addition to a map of so many bytes: for a
+/// compressed EXR the memory of a chunk of rows, which is the whole map if it has few rows; for PNG
+/// and GeoTIFF, whose rows are compressed a few at a time, 0; for other formats a file as large as
+/// the map.
 double memory_to_encode(MapFormat format, Compression compression, std::uint32_t height,
                         double bytes_of_map);
 
-/// Writes a map to `path` itself, in place; writing elsewhere and renaming is up to the caller.
+/// Writes a map directly to `path`. The caller may write to another path first and rename the file.
 ///   EXR   every channel, all attributes (docs/reading-maps.md).
 ///   PFM   one binary32 channel, bottom row first, little endian, scale −1.
 ///   PNG   one channel of 16-bit codes, big endian as always in PNG, with the scale as text chunk
@@ -59,21 +59,21 @@ double memory_to_encode(MapFormat format, Compression compression, std::uint32_t
 ///         GiB; the texts and the names of objects as a JSON object in an array `fathom` that is a
 ///         text.
 ///   COLMAP  a dense map: Z, 0 where no surface is; or Nc; both binary32 (files/colmap_file.cpp).
-///   TIFF  a GeoTIFF of less than 4 GiB, for others to read: a band of binary32 for every channel,
+///   TIFF  a GeoTIFF of less than 4 GiB, for other programs: a band of binary32 for every channel,
 ///         with DEFLATE, and its place in the world, by a camera that require_place_in_world()
 ///         takes (files/geotiff_write.cpp).
-/// Fails    OutputError: "PATH: why" (disk full, not writable), or if the format cannot hold what
-///          the map has; InputError where the map has a fault (find_fault); UsageError if the
-///          channel is missing or ambiguous, or the number of threads is out of range.
+/// Fails    OutputError: "PATH: why" (disk full, not writable), or if the format cannot hold the
+///          map; InputError if the map has a fault (find_fault); UsageError if the channel is
+///          missing or ambiguous, or the number of threads is out of range.
 void write_map(const DepthMap& map, const std::filesystem::path& path, MapFormat format,
                const WriteOptions& options = {});
 /// The bytes of such a file; `name` is its name for messages.
-/// Fails    as write_map(), but for the disk.
+/// Fails    as write_map(), except for the disk.
 std::vector<std::byte> encode_map(const DepthMap& map, const std::string& name, MapFormat format,
                                   const WriteOptions& options = {});
 
-/// What a map may take in memory when it is read. A constant image is compressed a thousandfold, so
-/// what a small file unpacks to says nothing against it; but it is more than its reader may expect.
+/// Memory limit for reading a map. A constant image is compressed a thousandfold, so a small file
+/// may legitimately unpack to far more memory than its reader expects.
 struct MapMemory {
   MemoryAllowance allowance = available_memory();
   /// A file that unpacks to more than so many times its size is a small one.
@@ -83,23 +83,23 @@ struct MapMemory {
       MemoryAllowance{std::uint64_t{1} << 29, "such a small file may unpack to", ""};
 };
 
-/// Reads a map back, recognising its format by content. Channels have their own names, whatever
-/// with_channel_names() has called them. Parts of an array of pixels with several are called as
-/// those of the channel of its name, or NAME.0, NAME.1, …; an NPY has no names: "Z", "id" (32-bit
-/// integers) or "vector"; a map of COLMAP's "Z", +∞ where it has 0, or "Nc". Also EXR files of
-/// other programs: HALF channels are widened to binary32; a layered name is kept in full. Nothing
-/// is allocated for a size that the file cannot fill, or that takes more than `memory`. "-" is
-/// standard input.
-/// Fails    InputError: "PATH: what is wrong and what was expected".
+/// Reads a map and recognizes its format by content. Channels get their own names back if
+/// with_channel_names() renamed them. The parts of an array with several values per pixel are named
+/// like the parts of the channel of that name, or NAME.0, NAME.1, …. An NPY has no names: its
+/// channel is "Z", "id" (32-bit integers) or "vector". A COLMAP map has "Z", with +∞ for 0, or
+/// "Nc". EXR files of other programs are read too: HALF channels are widened to binary32; a layered
+/// name is kept in full. Sizes that the file cannot fill or that exceed `memory` are refused before
+/// allocation. "-" is standard input.
+/// Fails    InputError: "PATH: the fault and the expectation".
 DepthMap read_map(const std::filesystem::path& path, const MapMemory& memory = {});
 /// The same of a file that has been read already; `name` is its name for messages.
 DepthMap read_map(std::span<const std::byte> bytes, const std::string& name,
                   const MapMemory& memory = {});
 
-/// One array of an NPZ, as read_map() reads an NPY, whatever the others are like: `array` is its
-/// name; empty: there is only one.
-/// Fails    InputError as read_map(), and where there is no such array or, without a name, more
-///          than one.
+/// One array of an NPZ, as read_map() reads an NPY, regardless of the other arrays. `array` is its
+/// name; it may be empty if the file has only one array.
+/// Fails    InputError as read_map(), and if the array does not exist or, without a name, if the
+///          file has several arrays.
 DepthMap read_npz_array(const std::filesystem::path& path, const std::string& array,
                         const MapMemory& memory = {});
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-/// The formats of map files: the only place that states what each is called and what it holds.
-/// Help, messages and tests of the pages take names and suffixes from this table; map_files.cpp has
-/// a codec for each row.
+/// The formats of map files: the only place that defines their names and contents. Help, messages
+/// and tests of the pages take names and suffixes from this table; map_files.cpp has a codec for
+/// each row.
 namespace fathom {
 
 enum class MapFormat { exr, pfm, png, npy, npz, colmap, tiff };
@@ -41,7 +41,7 @@ struct MapFormatDescription {
   std::uint32_t greatest_side = any_side;
   /// As many pixels do not fit, of 4 bytes each at least.
   std::uint64_t pixels_beyond = any_pixels;
-  /// What is wrong with a larger image, for messages; empty: any image fits.
+  /// The reason for refusing a larger image, for messages; empty: any image fits.
   std::string_view limit = {};
 };
 
@@ -90,13 +90,13 @@ constexpr const MapFormatDescription& description_of(MapFormat format) {
   return map_format_table[static_cast<std::size_t>(format)];
 }
 
-/// Whether files of the format hold all channels of a map and all of its texts; the others hold one
+/// Whether files of the format hold all channels and texts of a map; other formats hold one
 /// channel.
 constexpr bool holds_all_channels(MapFormat format) {
   return description_of(format).channels == HeldChannels::all;
 }
 
-/// Whether read_map() gives them back under their names; a GeoTIFF is for other programs alone.
+/// Whether read_map() returns them under their names; it does not read GeoTIFF.
 constexpr bool keeps_all_channels(MapFormat format) {
   return holds_all_channels(format) && description_of(format).is_read;
 }

@@ -10,7 +10,7 @@
 namespace fathom {
 
 /// A mask as the bytes of a PNG of one 8-bit grey channel, 255 where the mask is not 0 and else 0,
-/// as the data sets of BOP have in mask/ and mask_visib/. The same mask gives the same bytes.
+/// as in mask/ and mask_visib/ of BOP data sets. The same mask gives the same bytes.
 ///   mask    height × width values, row by row from the top
 ///   name    the file's name for messages
 /// Fails    InputError if the mask has no pixel, or not as many as the size says, or the size is

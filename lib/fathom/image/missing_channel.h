@@ -6,8 +6,8 @@
 #include "fathom/failures/unknown_name.h"
 #include "fathom/image/depth_map.h"
 
-/// Errors about names of channels: they carry the names that there are, and ask for the one that
-/// may be meant, also where a name is a word that other programs use ("depth" for Z).
+/// Errors about names of channels. They contain the existing names and suggest the intended one,
+/// also for words of other programs ("depth" for Z).
 namespace fathom {
 
 /// The names of all channels that can be rendered, in the order of channel_table.
@@ -31,9 +31,8 @@ std::string text_of_parts(const DepthMap& map, const std::string& name);
 UsageError missing_channel(const DepthMap& map, const std::string& name,
                            const std::string& which = "the map");
 
-/// The channels of which one has to be chosen, as an error about the setting `channel`: "this
-/// format holds one channel, and the map has Z, N; name the one to write". `refusal` is its
-/// beginning.
+/// Error about an ambiguous setting `channel`, with the channels to choose from: "this format holds
+/// one channel, and the map has Z, N; name the one to write". `refusal` is its beginning.
 UsageError ambiguous_channel(const std::vector<std::string>& names, const std::string& refusal,
                              const std::string& use);
 

@@ -6,9 +6,9 @@ class vtkRenderer;
 
 namespace fathom::vtk {
 
-/// The renderer's camera, from the matrices in binary64 that VTK's mappers get of it, near and far
-/// those of the matrices, too.
-/// Fails    InputError if no Camera has such matrices, or it is none of VTK's OpenGL.
+/// The renderer's camera, including near and far, from the binary64 matrices that VTK's mappers
+/// get.
+/// Fails    InputError if no Camera has such matrices, or if the camera is not of VTK's OpenGL.
 Camera camera_of(vtkRenderer& renderer);
 
 }  // namespace fathom::vtk

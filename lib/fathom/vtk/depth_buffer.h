@@ -16,8 +16,8 @@ struct WindowPart {
 
 /// What OpenGL holds after a frame.
 struct DepthBuffer {
-  /// Window depths exactly as stored, rows from the top; of several samples, those of the first, as
-  /// binary32.
+  /// Window depths exactly as stored, rows from the top; with several samples, the depths of the
+  /// first sample, as binary32.
   std::vector<double> windows;
   Storage storage = Storage::unorm24;
   int subpixel_bits = 8;

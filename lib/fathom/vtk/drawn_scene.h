@@ -14,7 +14,7 @@ class vtkRenderer;
 
 namespace fathom::vtk {
 
-/// What a renderer shows, as far as it is opaque triangles.
+/// The opaque triangles that a renderer shows.
 struct DrawnScene {
   /// An object for each actor that is drawn, its mesh in the actor's own frame.
   Scene scene;
@@ -22,7 +22,7 @@ struct DrawnScene {
   /// are known once it has drawn.
   std::vector<attribution::RasterPart> parts;
   std::vector<vtkSmartPointer<vtkOpenGLPolyDataMapper>> mappers;
-  /// What is visible and not in the scene.
+  /// Visible props that are not in the scene.
   std::vector<LeftOut> left_out;
   std::vector<vtkSmartPointer<vtkProp>> to_hide;
 };

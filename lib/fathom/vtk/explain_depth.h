@@ -27,14 +27,14 @@ struct LeftOut {
 
 /// What explain_depth() found out.
 struct DepthVerdict {
-  /// Depths that VTK drew, what is assumed of it, the exact map, and why they differ. Rows from the
+  /// VTK's depths, the assumed model, the exact map, and the causes of differences. Rows from the
   /// top; depths in scene units.
   attribution::OtherMap map;
   attribution::RendererModel model;
   attribution::Truth truth;
   attribution::Attribution attribution;
   std::vector<LeftOut> left_out;
-  /// What is wrong, in one line; empty if every pixel is explained and no fault was found.
+  /// The fault, in one line; empty if every pixel is explained and no fault was found.
   std::string cause;
 
   [[nodiscard]] bool is_good() const { return cause.empty(); }
@@ -44,26 +44,25 @@ struct DepthVerdict {
 /// each.
 std::ostream& operator<<(std::ostream& out, const DepthVerdict& verdict);
 
-/// Renders the window and compares the depth buffer with the exact depths of what its renderer
-/// shows.
+/// Renders the window and compares the depth buffer with the exact depths of its renderer's scene.
 ///
 /// Takes       from VTK itself: polygons and triangle strips of the actors (also in assemblies)
 ///             that a vtkPolyDataMapper draws, their matrices, the camera's matrices, viewport,
 ///             depth buffer and its type, sample position, and how mappers shift and scale
-///             coordinates. A polygon of more than three corners is the fan from its first one, as
-///             VTK draws it.
-/// Checks too  that the camera's matrices are those of its position, focal point, view up, view
-///             angle or parallel scale, window centre and clipping range (cameras that have a
-///             transform of the user's or an explicit projection are taken as they are).
-/// Leaves out  what is not opaque triangles alone, each named in the verdict: translucent actors,
-///             actors with clipping planes, visible edges, culled faces, lines, vertices,
-///             wireframes or points, shaders of the user's, polygon offsets, hidden cells; glyphs,
+///             coordinates. A polygon of more than three corners is the fan from its first corner,
+///             as VTK draws it.
+/// Checks too  that the camera's matrices follow from its position, focal point, view up, view
+///             angle or parallel scale, window centre and clipping range (cameras with a user
+///             transform or an explicit projection are trusted).
+/// Leaves out  everything but opaque triangles, each omission named in the verdict: translucent
+///             actors, actors with clipping planes, visible edges, culled faces, lines, vertices,
+///             wireframes or points, user shaders, polygon offsets, hidden cells; glyphs,
 ///             composite mappers, volumes, annotations and other props. They are hidden for this
 ///             one Render() and shown again afterwards.
 /// Exact       the truth and the bounds, as attribute_and_name().
-/// Fails       InputError, one line: where nothing is left to compare, VTK has no OpenGL, stereo or
+/// Fails       InputError, one line: if nothing is left to compare, VTK has no OpenGL, stereo or
 ///             more than one layer is drawn, or the camera cannot be expressed.
-/// Threads     the one that the window's context belongs to.
+/// Threads     call it in the thread of the window's context.
 DepthVerdict explain_depth(vtkRenderWindow& window, vtkRenderer& renderer);
 
 }  // namespace fathom::vtk
