@@ -31,16 +31,16 @@ struct Camera {
   /// The range of planar depth that counts.
   double near = 0;
   double far = std::numeric_limits<double>::infinity();
-  /// What its image is called, in UTF-8; empty: it has no name. Says nothing about what is seen.
+  /// Name of its image in UTF-8; may be empty. Does not affect the map.
   std::string name;
 };
 
-/// What is wrong with a camera, in one line, or nothing if width and height are at least 1, all
-/// numbers are finite (far may be +∞), det R ≠ 0 exactly, fx and fy ≠ 0, near ≥ 0 and far > near.
+/// The fault of a camera, in one line, or nothing if width and height are at least 1, all numbers
+/// are finite (far may be +∞), det R ≠ 0 exactly, fx and fy ≠ 0, near ≥ 0 and far > near.
 std::optional<std::string> find_fault(const Camera& camera);
 
 /// Refuses a camera that is not valid.
-/// Fails    InputError, "camera: " and what find_fault() says.
+/// Fails    InputError: "camera: " and the fault from find_fault().
 void require_valid(const Camera& camera);
 
 /// det R, exactly.

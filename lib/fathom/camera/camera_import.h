@@ -9,15 +9,15 @@
 #include "fathom/camera/camera.h"
 #include "fathom/failures/warnings.h"
 
-/// Cameras of other programs, converted to ours; docs/conventions.md has the formulas. Ours has no
-/// lens distortion: what an import leaves out of a lens it says, unless all its parameters are
-/// exactly 0. Entries that follow from a formula (quaternions, inverses, projection matrices, focal
-/// lengths of angles) are the exact numbers, rounded to binary64 once
+/// Cameras of other programs, converted to Fathom's; docs/conventions.md has the formulas. Fathom
+/// has no lens distortion: an import reports distortion that it leaves out, unless all its
+/// parameters are exactly 0. Entries that follow from a formula (quaternions, inverses, projection
+/// matrices, focal lengths of angles) are the exact numbers, rounded to binary64 once
 /// (docs/conventions.md#rounding).
 ///
-/// All fail with InputError, one line that names the file and the line or key, where the file as a
-/// whole cannot be followed. What is wrong with one camera is part of it: only who asks for that
-/// camera need know (chosen_cameras()).
+/// All fail with InputError, one line that names the file and the line or key, if the file as a
+/// whole is invalid. The fault of a single camera is stored with that camera, so that it matters
+/// only if that camera is chosen (chosen_cameras()).
 namespace fathom {
 
 struct ImportedCamera {
@@ -34,17 +34,17 @@ struct ImportedCamera {
 };
 
 struct CameraChoice {
-  /// Only that of this image; empty: all of them.
+  /// Only the camera of this image; empty: all cameras.
   std::string image;
   /// Takes the pinhole part of lenses with distortion.
   bool ignore_distortion = false;
 };
 
-/// The cameras that are asked for, in their order. Those with distortion are left out with a
-/// warning that counts them, unless they are taken without it, and so are images without a camera.
-/// `input` is the file's name for messages.
-/// Fails    InputError where one has a fault; where the image that is asked for is not there, has
-///          no camera, or its lens has distortion; and where no camera is left.
+/// The chosen cameras, in order. Cameras with distortion are left out with a warning that counts
+/// them, unless distortion is ignored; so are images without a camera. `input` is the file's name
+/// for messages.
+/// Fails    InputError if a chosen camera has a fault, if the chosen image is missing, has no
+///          camera or a lens with distortion, or if no camera is left.
 std::vector<Camera> chosen_cameras(const std::vector<ImportedCamera>& imported,
                                    const std::string& input, const CameraChoice& choice,
                                    Warnings& warnings);
@@ -67,18 +67,18 @@ std::vector<ImportedCamera> import_nerf(const std::filesystem::path& file, std::
                                         std::uint32_t height, Warnings& warnings);
 
 /// BOP's scene_camera.json, or the folder of a scene with it, in the order of image ids. A BOP data
-/// set keeps the image size in the camera.json of its root: it is looked for beside the file and in
+/// set keeps the image size in the camera.json of its root: it is searched next to the file and in
 /// the two folders above, unless the caller gives a size (0: none). Without cam_R_w2c and cam_t_w2c
-/// the world is the camera frame, in which scene_gt.json gives its poses. Lengths are as in the
-/// file (millimetres).
+/// the world is the camera frame, which is the frame of the poses in scene_gt.json. Lengths are as
+/// in the file (millimetres).
 std::vector<ImportedCamera> import_bop(const std::filesystem::path& input, std::uint32_t width,
                                        std::uint32_t height);
 
 /// The cameras of a glTF scene (.gltf, .glb), one for each node that has one, in the order of the
-/// nodes; called by the node's name, else the camera's. glTF has no image size; where a camera has
-/// an aspect ratio, the size must have it. The node's transform is that of the meshes on it
-/// (gltf/); its scale is ignored, as glTF says: the axes are scaled to length 1. Each entry of the
-/// inverse is rounded once. Lengths are as in the file (metres).
+/// nodes, with the node's name, else the camera's. glTF has no image size; if a camera has an
+/// aspect ratio, the size must have the same ratio. Cameras use the same node transforms as meshes
+/// (gltf/); the scale is ignored, as glTF requires: the axes are scaled to length 1. Each entry of
+/// the inverse is rounded once. Lengths are as in the file (metres).
 std::vector<ImportedCamera> import_gltf(const std::filesystem::path& file, std::uint32_t width,
                                         std::uint32_t height);
 

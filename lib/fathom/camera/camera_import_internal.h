@@ -27,8 +27,8 @@ struct NamedStream {
   std::string name;
 };
 
-/// A camera as `read` fills it in; where that fails, with its fault. `where` is the place of what
-/// is wrong with the camera as a whole.
+/// A camera as `read` fills it in, or with a fault if `read` fails. `where` is the place for faults
+/// of the camera as a whole.
 template <class Read>
 ImportedCamera imported_camera(std::string name, const std::string& where, const Read& read) {
   ImportedCamera result;
@@ -58,7 +58,7 @@ std::vector<ImportedCamera> parse_bop(const text::JsonValue& root, std::uint32_t
 std::vector<ImportedCamera> parse_opengl(std::string_view text, const std::string& name);
 std::vector<ImportedCamera> parse_gltf_cameras(std::string_view bytes, const std::string& name,
                                                std::uint32_t width, std::uint32_t height);
-/// The scene_camera.json of the folder of a scene. Fails with InputError where there is none.
+/// The scene_camera.json of the folder of a scene. Fails with InputError if it is missing.
 std::filesystem::path bop_camera_file(const std::filesystem::path& folder);
 /// The image size of the scenes in a folder, as the camera.json of their data set has it, unless
 /// one is given. Fails with InputError.
@@ -68,7 +68,7 @@ std::pair<std::uint32_t, std::uint32_t> bop_image_size(const std::filesystem::pa
 std::pair<std::uint32_t, std::uint32_t> parse_bop_size(std::string_view text,
                                                        const std::string& name);
 
-// Those of data_set_cameras.h. A file that is optional there is an empty text here.
+// Imports of data_set_cameras.h. A file that is optional there is an empty text here.
 
 /// `stem` is the name of the pose of a file with a single one.
 std::vector<NamedPose> parse_poses(std::string_view text, const std::string& name,
@@ -88,7 +88,7 @@ std::vector<ImportedCamera> parse_tum(const NamedText& trajectory,
 /// A frame of 7-Scenes.
 ImportedCamera parse_7scenes(const NamedText& pose, const std::string& frame,
                              const GivenLens& given);
-/// ScanNet's matrix of a stream, of which the upper left 3×3 is K.
+/// ScanNet's matrix of a stream, whose upper left 3×3 part is K.
 IntrinsicMatrix parse_scannet_intrinsics(const NamedText& file);
 /// A frame of ScanNet.
 ImportedCamera parse_scannet(const NamedText& pose, const std::string& frame, const Camera& lens);

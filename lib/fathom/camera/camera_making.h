@@ -9,8 +9,8 @@
 
 #include "fathom/camera/camera.h"
 
-/// Cameras made from a description. What comes out is rounded to binary64 and from then on *is*
-/// the camera: the rotation is orthonormal only up to that rounding.
+/// Cameras made from a description. The result is rounded to binary64, and the rounded numbers
+/// *are* the camera: the rotation is orthonormal only up to that rounding.
 namespace fathom {
 
 /// Image size and angle of view. Square pixels, the principal point in the middle of the image,
@@ -41,13 +41,13 @@ using Vector3 = std::array<double, 3>;
 ///          tested exactly), if a number is not finite, or if the lens is not valid.
 Camera look_at(const Vector3& eye, const Vector3& target, const Vector3& up, const Lens& lens = {});
 
-/// The direction in which an eye lies, as seen from what it looks at; in degrees.
+/// The direction of an eye, seen from the point that it looks at; in degrees.
 ///
 /// elevation  angle above the horizontal plane, −90 (from below) to 90 (from above).
 /// azimuth    angle around the up direction, counter-clockwise as seen from above. At 0 the image's
-///            right is +x without its part along `up`, or +y where `up` is along x: the eye is on
-///            the +z side (y up), the −y side (z up) or the −z side (x up). At 90 it is on the side
-///            that was right.
+///            right is +x without its part along `up`, or +y if `up` is along x: the eye is on the
+///            +z side (y up), the −y side (z up) or the −z side (x up). At 90 it is on the side
+///            that is right in the image at 0.
 /// up         the direction of the world that points up, of any length but 0.
 struct View {
   double azimuth = 35;
@@ -56,12 +56,11 @@ struct View {
 };
 
 /// The camera at `distance` (scene units) from the world point `centre` in the direction of `view`,
-/// looking at `centre`. The eye may be straight above or below; the azimuth then says how the image
-/// is turned.
+/// looking at `centre`. The eye may be straight above or below; the azimuth then turns the image.
 ///
-/// Exact    where `up` is along an axis, each entry of R is a sine, a cosine or the product of two
-///          of them: the exact one, rounded once. Elsewhere the frame of `up` is rounded as
-///          look_at() does, and R, the product of the rounded ones, once more.
+/// Exact    if `up` is along an axis, each entry of R is a sine, a cosine or a product of two of
+///          them, rounded once. Otherwise the frame of `up` is rounded as in look_at(), and R, the
+///          product of the rounded matrices, is rounded again.
 ///          t = (0, 0, distance) − R·centre is computed exactly from the rounded R and rounded
 ///          once.
 /// Fails    UsageError if distance ≤ 0, elevation is outside [−90, 90], `up` is zero, a number is
@@ -70,7 +69,8 @@ Camera look_from(const View& view, const Vector3& centre, double distance, const
 
 /// A camera path of `count` views around `centre`, the first at `first`, the others at azimuths
 /// 360°/count apart, each azimuth rounded once.
-/// progress, if given, hears after each camera which part is done; what it throws ends the call.
+/// progress, if given, is called after each camera with the fraction done; an exception ends the
+/// call.
 /// Fails    UsageError as look_from(), and if count is 0 or above 1,000,000.
 std::vector<Camera> orbit(const View& first, std::uint32_t count, const Vector3& centre,
                           double distance, const Lens& lens = {},

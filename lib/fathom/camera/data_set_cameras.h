@@ -9,12 +9,12 @@
 
 #include "fathom/camera/camera_import.h"
 
-/// The cameras of data sets, by the layouts in which these are handed out; docs/data-sets.md has
-/// the conventions and their sources. What holds for camera_import.h holds here: exact rationals,
-/// rounded once; what is wrong with one camera is part of it.
+/// The cameras of data sets in their published layouts; docs/data-sets.md has the conventions and
+/// their sources. The rules of camera_import.h apply: exact rationals, rounded once; the fault of a
+/// single camera is stored with that camera.
 ///
-/// All fail with InputError, one line that names the file and the line or key, where the files as a
-/// whole cannot be followed, and where two images have one name.
+/// All fail with InputError, one line that names the file and the line or key, if the files as a
+/// whole are invalid or two images have the same name.
 namespace fathom {
 
 /// Which way a matrix leads.
@@ -23,7 +23,7 @@ enum class PoseDirection { world_to_camera, camera_to_world };
 /// x right in both; y down and z forward (OpenCV), or y up and z backward (OpenGL).
 enum class CameraAxes { opencv, opengl };
 
-/// What a list of matrices does not say.
+/// Conventions that a list of matrices does not contain.
 struct MatrixConvention {
   PoseDirection direction;
   CameraAxes axes;
@@ -34,7 +34,7 @@ struct MatrixConvention {
 /// [fx s cx; 0 fy cy; 0 0 1], row by row, in pixels.
 using IntrinsicMatrix = std::array<double, 9>;
 
-/// What is given beside the files, in the place of what a data set has.
+/// Values from the caller that replace values of the data set.
 struct GivenLens {
   /// Of the images, in pixels; 0: as the data set has it.
   std::uint32_t width = 0, height = 0;
@@ -65,18 +65,17 @@ std::vector<NamedPose> read_poses(const std::filesystem::path& file_or_folder);
 std::vector<IntrinsicMatrix> read_intrinsic_matrices(const std::filesystem::path& file);
 
 /// Poses of the TUM RGB-D benchmark: a trajectory, "time tx ty tz qx qy qz qw" on each line, or the
-/// folder with its groundtruth.txt. Camera to world, in metres. They are called by their times as
-/// the file writes them; with a list of images (rgb.txt, depth.txt: "time file") by the images'
-/// files, each with the pose nearest to it in time: one with none within 0.02 s is absent.
-/// `lens` is that of tum_lens(), or a given one (640×480 and pixel centre 0 where they are not
-/// given).
+/// folder with its groundtruth.txt. Camera to world, in metres. Cameras are named by the times in
+/// the file. With a list of images (rgb.txt, depth.txt: "time file") they are named by the image
+/// files, and each gets the pose nearest in time; images without a pose within 0.02 s are absent.
+/// `lens` is from tum_lens() or from the caller (default 640×480 and pixel centre 0).
 std::vector<ImportedCamera> import_tum(const std::filesystem::path& trajectory,
                                        const std::optional<std::filesystem::path>& images,
                                        const ImportedCamera& lens);
 
-/// The published lenses of TUM's Kinects by name: "ros" (what the registered depth images are meant
-/// for), "freiburg1", "freiburg2", "freiburg3"; the lenses of the first two have distortion.
-/// Nothing for another name.
+/// The published lenses of TUM's Kinects by name: "ros" (for the registered depth images),
+/// "freiburg1", "freiburg2", "freiburg3"; freiburg1 and freiburg2 have distortion. Nothing for
+/// another name.
 std::optional<ImportedCamera> tum_lens(const std::string& name);
 /// A given lens in their place. Fails    UsageError where K is not given.
 ImportedCamera tum_lens(const GivenLens& given);
@@ -103,27 +102,27 @@ std::vector<ImportedCamera> import_scannetpp(const std::filesystem::path& file,
                                              const GivenLens& given);
 
 /// Replica as rendered for iMAP and NICE-SLAM: a folder with traj.txt, a 4×4 matrix on each line,
-/// camera to world, in metres; and, beside it or in the folder above, cam_params.json. Called
-/// "frame000000", …. Pixel centre 0 where none is given.
+/// camera to world, in metres; and, next to it or in the folder above, cam_params.json. Named
+/// "frame000000", …. The default pixel centre is 0.
 std::vector<ImportedCamera> import_replica(const std::filesystem::path& folder,
                                            const GivenLens& given);
 
-/// KITTI's rectified cameras, of calib.txt (odometry: P0 to P3) or calib_cam_to_cam.txt (raw:
-/// P_rect_00 to P_rect_03 and their sizes S_rect). P = K·[I | t], so that camera i stands beside
+/// KITTI's rectified cameras, from calib.txt (odometry: P0 to P3) or calib_cam_to_cam.txt (raw:
+/// P_rect_00 to P_rect_03 and their sizes S_rect). P = K·[I | t], so camera i is displaced from
 /// camera 0 by t, in metres.
-/// Without poses these cameras themselves in the frame of rectified camera 0, called "image_0" or
-/// "image_00", as their folders; with poses (3×4 on each line: camera 0 to world) camera `number`
-/// of each frame, called "000000", …. Pixel centre 0 where none is given.
-/// Fails    UsageError where the image size is neither given nor in the file, and where there are
-///          poses and no number.
+/// Without poses, returns these cameras in the frame of rectified camera 0, named "image_0" or
+/// "image_00" like their folders. With poses (3×4 on each line: camera 0 to world), returns camera
+/// `number` of each frame, named "000000", …. The default pixel centre is 0.
+/// Fails    UsageError if the image size is neither given nor in the file, or if there are poses
+///          but no number.
 std::vector<ImportedCamera> import_kitti(const std::filesystem::path& calibration,
                                          const std::optional<std::filesystem::path>& poses,
                                          std::optional<std::uint32_t> number,
                                          const GivenLens& given);
 
 /// AliceVision's (Meshroom's) sfmData as JSON (.sfm, .json), of version 1.0 to 1.2, in the order of
-/// its views; called by their paths below the folder that all have in common. Views without a pose
-/// are absent; those of rigs and lenses that have no pinhole part have a fault. Pixel centre 0.
+/// its views, named by their paths below the common folder. Views without a pose are absent; views
+/// of rigs and of lenses without a pinhole part have a fault. Pixel centre 0.
 std::vector<ImportedCamera> import_sfm_data(const std::filesystem::path& file);
 
 }  // namespace fathom

@@ -17,8 +17,8 @@ void set_intrinsics(Camera& camera, const IntrinsicMatrix& K, const std::string&
 /// The intrinsic matrix of four numbers.
 IntrinsicMatrix intrinsic_matrix(double fx, double fy, double cx, double cy);
 
-/// A camera at the world's origin: what is given, and of the rest what the data set has. A size
-/// that neither has is 0.
+/// A camera at the world's origin from the caller's values and, for the rest, the data set's
+/// values. An unknown size is 0.
 Camera lens_of(const GivenLens& given, const GivenLens& data_set, const std::string& where);
 
 /// World to camera, in our axes, of a pose [A | b]: exact, or each entry of the inverse rounded
@@ -26,7 +26,7 @@ Camera lens_of(const GivenLens& given, const GivenLens& data_set, const std::str
 Matrix34 camera_from_world(const Matrix34& pose, PoseDirection direction, CameraAxes axes,
                            const std::string& where);
 
-/// A lens in its place; what is wrong with either is its fault.
+/// A lens with a pose; a fault of either is the camera's fault.
 ImportedCamera placed(const ImportedCamera& lens, const NamedPose& pose, PoseDirection direction,
                       CameraAxes axes, const std::string& where);
 
@@ -40,7 +40,7 @@ Matrix34 pose_of_numbers(const std::vector<double>& numbers, const std::string& 
 /// A text with one matrix of 3 or 4 lines of 4 numbers. `name` is the file's.
 Matrix34 parse_pose(std::string_view text, const std::string& name);
 
-/// The files of a folder whose names end with `suffix`, by name. Fails where there is none.
+/// The files of a folder whose names end with `suffix`, by name. Fails if there is no such file.
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder,
                                             const std::string& suffix);
 

@@ -16,8 +16,8 @@ inline double length(const Vector& v) {
   return std::sqrt(dot(v, v));
 }
 
-/// What the distance of an exact point from an exact triangle lies between, in the unit of the
-/// triangles; `lower` may be below 0.
+/// Bounds of the distance of an exact point from an exact triangle, in the unit of the triangles;
+/// `lower` may be below 0.
 struct DistanceBounds {
   double lower = 0, upper = 0;
 };

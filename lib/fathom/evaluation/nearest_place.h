@@ -6,8 +6,8 @@
 
 namespace fathom::evaluation {
 
-/// About the place of the nearest point of a triangle, as A + v·(B − A) + w·(C − A). Not
-/// bounded: what it is for holds for any v and w, and is tight for good ones.
+/// Approximate nearest point of a triangle, as A + v·(B − A) + w·(C − A). Has no error bound: its
+/// users are right for any v and w, and tight for good values.
 /// Source   [Eri05] 5.1.5
 inline std::pair<double, double> nearest_place(const PlacedTriangles::Corners& corners,
                                                const Vector& p) {

@@ -12,15 +12,15 @@
 
 namespace fathom::evaluation {
 
-/// Which points of a surface a camera sees. The scene and its parts must outlive it.
+/// Decides which points of a surface a camera sees. The scene and its parts must outlive it.
 ///
 /// A camera sees a point of a triangle that it does not see edge on and that culling keeps if the
 /// point's image lies in the closed rectangle of the image, its depth is above 0 and from near to
 /// far, and no other such triangle, its edges included, has a smaller depth in that range there.
-/// This is the specification's rule for a sample, but for edges, which hide on both sides: a point
-/// is not on a grid, and nothing has to be covered just once.
-/// Exact    every decision: by binary64 with bounds, and by exact numbers where these do not settle
-///          it.
+/// This is the specification's rule for a sample, except that edges hide on both sides: points are
+/// not on a grid, so nothing has to be covered exactly once.
+/// Exact    every decision: by binary64 with bounds, and by exact numbers if the bounds do not
+///          settle it.
 class PointSight {
  public:
   PointSight(const TriangleSource& source, const PlacedTriangles& triangles,

@@ -13,8 +13,7 @@ namespace fathom {
 
 /// How far the points of one surface are from another, over the points that count.
 struct SurfaceDistances {
-  /// Points that were put on the surface, and those of them that count: the ones that a camera
-  /// sees.
+  /// Points on the surface, and the number of counted points, which a camera sees.
   std::uint64_t points = 0, seen = 0;
   /// Scene units; all 0 if no point counts.
   double mean = 0, rms = 0;
@@ -44,7 +43,7 @@ struct SurfaceComparisonOptions {
 ///          cannot be asked for.
 void require_meaningful(const SurfaceComparisonOptions& options);
 
-/// The figures by which reconstructions are ranked beside Depth L1.
+/// The figures, in addition to Depth L1, by which reconstructions are ranked.
 struct SurfaceComparison {
   /// From the reconstruction to the truth; `shares` are known as precision.
   SurfaceDistances accuracy;
@@ -54,17 +53,16 @@ struct SurfaceComparison {
   std::vector<double> f_scores;
 };
 
-/// Compares two surfaces in the same world. Points stand on each of them in proportion to area,
-/// always the same ones for the same surface; of these, those count that one of `cameras` sees
-/// of the surface on which they are, whatever the other is like; all of them if there are no
-/// cameras. A distance is that from the nearest point of the whole other surface, not from points
-/// on it.
+/// Compares two surfaces in the same world. Points lie on each surface in proportion to area, and
+/// the same surface always gets the same points. A point counts if one of `cameras` sees it on its
+/// own surface, regardless of the other surface; without cameras all points count. A distance is
+/// measured to the nearest point of the whole other surface, not to points on it.
 ///
-/// Exact    what is seen, each distance (rounded once to binary64), and which are below a
+/// Exact    visibility, each distance (rounded once to binary64), and the comparison with a
 ///          threshold. Means are sums in binary64 in the order of the points. The same on every
 ///          machine.
-/// Fails    InputError where a scene or a camera has a fault (find_fault), or a surface has no
-///          area, or memory does not hold so many points;
+/// Fails    InputError if a scene or a camera has a fault (find_fault), a surface has no area, or
+///          memory does not hold so many points;
 ///          UsageError as require_meaningful().
 /// Source   [KPZK17] for precision, recall and F-score
 SurfaceComparison compare_surfaces(const Scene& reconstruction, const Scene& truth,

@@ -27,7 +27,7 @@ class TriangleTree {
     /// that are next in nodes(), and at `first`.
     std::uint32_t first = 0, count = 0;
   };
-  /// The root is the first; none of a surface without triangles.
+  /// The root comes first; empty for a surface without triangles.
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
   /// Numbers of triangles.
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }

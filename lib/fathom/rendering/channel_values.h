@@ -18,8 +18,8 @@ struct Backgrounds {
   static constexpr float other = 0;
 };
 
-/// Where the values of a channel that is stored as DepthEncoding says are kept: one pointer is not
-/// null, or none if the channel was not asked for.
+/// Memory of a channel that is stored as a DepthEncoding: one pointer is not null, or all are null
+/// if the channel was not requested.
 struct EncodedValues {
   float* binary32 = nullptr;
   double* binary64 = nullptr;
@@ -28,7 +28,7 @@ struct EncodedValues {
   [[nodiscard]] bool wanted() const { return binary32 || binary64 || codes; }
 };
 
-/// What the channels that tell where a triangle comes from have of it, where they were asked for.
+/// Values of the requested channels about the origin of triangles.
 struct OriginNumbers {
   std::uint32_t face = 0, object = 0;
   /// In the order of Segmentation.

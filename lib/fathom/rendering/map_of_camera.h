@@ -13,9 +13,9 @@
 /// A camera's map before anything is drawn, and the check that a map is a camera's.
 namespace fathom::rendering {
 
-/// The map of a scene without a visible surface: every channel asked for, once, with its
-/// background (specification, section 6), in the encoding asked for. Channels of `before` that have
-/// the same name, type and size lend their memory for good.
+/// The map of a scene without a visible surface: every requested channel, once, with its background
+/// (specification, section 6), in the requested encoding. Takes the memory of channels of `before`
+/// that have the same name, type and size.
 DepthMap make_background(const Camera& camera, const RenderOptions& options,
                          const RenderContext& context = {}, DepthMap before = {});
 

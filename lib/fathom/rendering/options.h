@@ -16,8 +16,8 @@ enum class Engine { reference, fast };
 /// "reference" or "fast".
 std::string_view name_of(Engine engine);
 
-/// Which triangles are left out: none, the back-facing or the front-facing ones. Facing is decided
-/// exactly; the pipeline of the textbooks has a choice of its own, since it decides after rounding.
+/// Which triangles are left out: none, or back-facing or front-facing triangles. Facing is decided
+/// exactly; the graphics pipeline has a separate option, because it decides after rounding.
 enum class Cull { none, back, front };
 
 /// How Z and distance are rounded: once from the exact number, whatever the file format.
@@ -34,11 +34,11 @@ struct DepthEncoding {
   double divisor = 1;
 };
 
-/// What the fast engine may leave out or do more carefully: this changes its time, never its map.
+/// Switches of the fast engine's optimisations: they change its time, never its map.
 struct FastSwitches {
   /// Test blocks of samples before single samples.
   bool hierarchy = true;
-  /// Skip blocks that are behind what is already drawn.
+  /// Skip blocks that are behind surfaces already drawn.
   bool early_rejection = true;
   /// The factor by which bounds on edge functions, q and areas are widened; at least 1.
   double widening = 1;
@@ -58,10 +58,10 @@ struct RenderOptions {
   int threads = 0;
 };
 
-/// What a render works with. The map does not depend on it.
+/// Environment of a render. The map does not depend on it.
 struct RenderContext {
-  /// If set, asked for the memory of each channel of the map, by its name: width × height values of
-  /// its type, which outlive the map, and of which all are written. nullptr: memory of its own.
+  /// If set, returns the memory for a channel of the map, by its name: width × height values of its
+  /// type, which outlive the map and are all written. nullptr: the map allocates its own memory.
   std::function<void*(const std::string& channel)> memory;
   /// If set, the fast engine keeps memory that it works with there, from one frame to the next; one
   /// frame at a time.
@@ -71,9 +71,9 @@ struct RenderContext {
   std::function<void(double)> progress;
 };
 
-/// Refuses options that mean nothing: no channel, a scale, a divisor or their quotient that is not
-/// a positive number for scaled_unorm16, a widening that is not a number from 1 on, a negative
-/// number of threads.
+/// Refuses meaningless options: no channel; for scaled_unorm16 a scale, a divisor or their quotient
+/// that is not a positive number; a widening that is not a number of at least 1; a negative number
+/// of threads.
 /// Fails    UsageError.
 void require_meaningful(const RenderOptions& options);
 

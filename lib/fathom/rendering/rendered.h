@@ -9,9 +9,9 @@
 
 namespace fathom {
 
-/// How decisions were made. The fast engine asks fewer questions: triangles that reach behind the
-/// camera and miss the image are not counted as degenerate or culled, and samples are counted as
-/// covered only where the triangle is not behind one that was drawn before.
+/// Counts of decisions by arithmetic. The fast engine makes fewer decisions: it does not count
+/// triangles that reach behind the camera and miss the image as degenerate or culled, and counts a
+/// sample as covered only if the triangle is not behind an already drawn triangle.
 struct RenderStatistics {
   std::uint64_t triangles = 0;
   std::uint64_t degenerate_triangles = 0;  // Δ = 0, seen edge on
@@ -28,7 +28,7 @@ struct RenderStatistics {
   TierCounts coverage_rounding;
   /// Values rounded from an interval, and values written from exact numbers.
   TierCounts rounding;
-  /// Those of rounding.interval that binary64 did not settle, but double-words did.
+  /// Part of rounding.interval: settled by double-words, not by binary64.
   std::uint64_t double_word_roundings = 0;
   /// Areas that needed the ends of edges from exact numbers; coverage_rounding counts them, too.
   std::uint64_t areas_with_exact_ends = 0;
@@ -37,17 +37,17 @@ struct RenderStatistics {
   /// How often a triangle was set up from exact numbers or double-words: once for each tile that it
   /// meets, and once to find them.
   std::uint64_t exact_setups = 0;
-  /// Those of visibility.exact that were settled because both triangles lie in one plane.
+  /// Part of visibility.exact: settled because both triangles lie in one plane.
   std::uint64_t same_plane = 0;
-  /// Those of edges.exact, visibility.exact and range.exact that were settled by double-words.
+  /// Part of edges.exact, visibility.exact and range.exact: settled by double-words.
   std::uint64_t double_words = 0;
   /// How often, once for each tile, a triangle was set up with corners exactly on the grid on which
   /// edge functions have no error.
   std::uint64_t grid_setups = 0;
 };
 
-/// Calls visit(name, &RenderStatistics::member) for each of the counts: whole numbers first, then
-/// those of the decisions.
+/// Calls visit(name, &RenderStatistics::member) for each count: whole numbers first, then counts of
+/// decisions.
 template <class Visit>
 constexpr void for_each_count(const Visit& visit) {
   using S = RenderStatistics;

@@ -18,15 +18,15 @@ inline Channel channel_of(Segmentation by) {
   return segment_channels[static_cast<std::size_t>(by)];
 }
 
-/// What a channel shows; nullopt of those that show no segments.
+/// The segmentation that a channel shows; nullopt for other channels.
 inline std::optional<Segmentation> segmentation_of(Channel channel) {
   for (const Segmentation by : all_segmentations)
     if (channel_of(by) == channel) return by;
   return std::nullopt;
 }
 
-/// Those that are needed for these channels: a scene must have been read with
-/// ReadOptions::segments where there is one.
+/// The segmentations that these channels need; if there are any, the scene must have been read with
+/// ReadOptions::segments.
 inline std::vector<Segmentation> segmentations_of(const std::vector<Channel>& channels) {
   std::vector<Segmentation> result;
   for (const Channel channel : channels)

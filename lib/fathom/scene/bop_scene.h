@@ -31,9 +31,9 @@ struct BopImage {
   std::vector<BopInstance> instances;
 };
 
-/// The images of scene_camera.json and scene_gt.json in a folder, in the order of their ids; those
-/// that one of the files lacks are not there.
-/// `width` and `height` are in pixels; 0: those of the data set's camera.json (import_bop()).
+/// The images that are in both scene_camera.json and scene_gt.json of a folder, in the order of
+/// their ids. `width` and `height` are in pixels; 0: the size in the data set's camera.json
+/// (import_bop()).
 /// Fails    InputError, one line that names the file and the key.
 std::vector<BopImage> read_bop_images(const std::filesystem::path& folder, std::uint32_t width,
                                       std::uint32_t height);

@@ -15,11 +15,11 @@ struct WorldBounds {
 };
 
 /// The smallest box of binary64 numbers in the world that contains every corner of every triangle,
-/// line and point; vertices that none of them uses do not count. nullopt if there is none.
+/// line and point; unused vertices do not count. nullopt for an empty scene.
 ///
 /// Exact    corners are placed exactly; the exact extremes are rounded outwards, once. An end
 ///          beyond the largest binary64 number is infinite.
-/// Fails    InputError where the scene has a fault (find_fault).
+/// Fails    InputError if the scene has a fault (find_fault).
 std::optional<WorldBounds> world_bounds(const Scene& scene);
 
 }  // namespace fathom

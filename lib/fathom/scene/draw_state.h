@@ -5,10 +5,10 @@
 #include <string>
 
 /// How a graphics pipeline draws an object: the state that OpenGL, Vulkan and Direct3D keep for a
-/// draw. Only the pipeline of the textbooks looks at it; what is visible does not depend on it.
+/// draw. Only the pipeline uses it; the exact engines ignore it.
 namespace fathom {
 
-/// How a fragment's value is compared with the one that is stored.
+/// How a fragment's value is compared with the stored value.
 /// Source   [GL46] 17.3.3, 17.3.4
 enum class Comparison { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
 
@@ -46,18 +46,18 @@ struct DrawState {
   std::optional<Comparison> depth_test;
   bool depth_write = true;
   bool colour_write = true;
-  /// None: the one that holds for the whole scene.
+  /// Empty: the setting of the whole scene.
   std::optional<PolygonOffset> polygon_offset;
   /// Opacity, 0 to 1: fragments that pass are blended over the picture. None: they replace it.
   std::optional<double> alpha;
   std::optional<StencilState> stencil;
 };
 
-/// Whether it says nothing.
+/// Whether every setting is the default.
 bool is_default(const DrawState& state);
 
-/// What is wrong with one that somebody filled in: numbers that are not finite, an opacity beyond 0
-/// to 1.
+/// The fault of a state that a caller filled in: numbers that are not finite, or an opacity outside
+/// [0, 1].
 std::optional<std::string> find_fault(const DrawState& state);
 
 }  // namespace fathom

@@ -32,12 +32,12 @@ struct ElementFault : std::exception {
   [[nodiscard]] const char* what() const noexcept override { return "a mesh is not valid"; }
 };
 
-/// What is wrong with a scene in which there is an ElementFault.
+/// Throws the fault of a scene that contains an ElementFault.
 /// Fails    InputError.
 [[noreturn]] void fail_of_elements(const TriangleSource& triangles);
 
-/// work(), which looks at elements after require_valid(…, LookAtElements::later): an ElementFault
-/// becomes what require_valid() says of the whole scene.
+/// Calls work(), which checks elements after require_valid(…, LookAtElements::later): an
+/// ElementFault becomes the exception of require_valid() for the whole scene.
 template <class Work>
 auto explaining_faults(const TriangleSource& triangles, const Work& work) {
   try {
@@ -47,7 +47,7 @@ auto explaining_faults(const TriangleSource& triangles, const Work& work) {
   }
 }
 
-/// Number i of those that elements consist of.
+/// Number i of the components of an element.
 template <class Number, class T>
 Number number_at(std::span<const T> elements, std::size_t i) {
   static_assert(sizeof(T) % sizeof(Number) == 0 && std::is_trivially_copyable_v<T>);

@@ -21,8 +21,8 @@ namespace fathom {
 Camera frame(const WorldBounds& bounds, const View& view = {}, const Lens& lens = {});
 
 /// A camera path around `bounds`: each camera looks at their middle, from the same distance, chosen
-/// so that every camera sees all of them. progress, if given, hears now and then which part is
-/// done; what it throws ends the call.
+/// so that every camera sees all of them. progress, if given, is called now and then with the
+/// fraction done; an exception from it ends the call.
 /// Fails    UsageError as frame(), and if count is 0 or above 1,000,000; InputError as frame().
 std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBounds& bounds,
                           const Lens& lens = {}, const std::function<void(double)>& progress = {});

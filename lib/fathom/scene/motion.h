@@ -36,11 +36,11 @@ struct Motion {
 Motion read_motion(std::string_view text, const std::filesystem::path& path);
 
 /// The transform of a motion at a time.
-/// Exact    but for the share of the time between two keyframes, which is rounded to binary64; at a
-///          keyframe it is the keyframe's.
+/// Exact    except for the share of the time between two keyframes, which is rounded to binary64;
+///          at a keyframe it is the keyframe's transform.
 WorldFromMesh transform_at(const ObjectMotion& motion, double time);
 
-/// A scene whose objects are placed anew for each time that is asked for.
+/// A scene whose objects are placed again for each requested time.
 class MovingScene {
  public:
   /// Fails    InputError where no object has a name of the motion's, keyframes are missing or their

@@ -11,9 +11,9 @@
 namespace fathom {
 
 /// Reads meshes (OBJ, PLY, STL, OFF, glTF/GLB) and scene files (JSON) in the order given into one
-/// scene. A format is recognised by content even where the suffix says otherwise. "-" is standard
-/// input.
-/// Fails    InputError: one line, "FILE: line N: what is wrong and what was expected" (text), or
+/// scene. Formats are recognised by content, whatever the suffix is. "-" is standard input.
+///
+/// Fails    InputError: one line, "FILE: line N: the fault and the expectation" (text), or
 ///          "FILE: byte N: …" (binary). More than 2³² − 2 triangles in all are an error.
 ///          UsageError for a number of threads that is out of range.
 Scene read_scene(const std::vector<std::filesystem::path>& files, const ReadOptions& options,

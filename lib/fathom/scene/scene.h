@@ -10,7 +10,7 @@
 
 namespace fathom {
 
-/// Everything that is rendered. Anybody may fill it in; find_fault() says whether it is valid.
+/// Everything that is rendered. Callers may fill it in; find_fault() checks whether it is valid.
 /// Triangles are numbered from 0 over all objects in order (specification, section 3), at most
 /// 2³² − 2 in all.
 struct Scene {
@@ -36,8 +36,8 @@ struct TriangleOrigin {
   /// The number of its face within its file.
   std::uint32_t face = 0;
 };
-/// Cost     that of a TriangleSource, which is made once to ask for many.
-/// Fails    std::out_of_range where `number` is not below triangle_count().
+/// Cost     constructs a TriangleSource; for many triangles construct it once yourself.
+/// Fails    std::out_of_range unless `number` is below triangle_count().
 TriangleOrigin origin_of(const Scene& scene, std::uint32_t number);
 
 }  // namespace fathom

@@ -8,28 +8,28 @@
 #include "fathom/scene/streamed_scene.h"
 #include "fathom/scene/triangle_source.h"
 
-/// Whether a scene that anybody may have filled in is one, as find_fault() of a camera says whether
-/// that is a camera. Every function that takes a scene asks, once per call.
+/// Checks of scenes that callers filled in, like find_fault() for cameras. Every function that
+/// takes a scene checks it, once per call.
 namespace fathom {
 
-/// What is wrong with a scene, in one line, or nothing if
-///   objects      name meshes of the scene; one that is placed as it is has the identity as its
-///                transform; no transform is beyond what object.h allows; faces are numbered below
-///                2³² − 1
+/// The fault of a scene, in one line, or nothing if
+///   objects      name meshes of the scene; an unplaced object has the identity as its transform;
+///                no transform exceeds the limits of object.h;
+///                faces are numbered below 2³² − 1
 ///   meshes       have at most 2³² − 2 vertices and triangles; all coordinates are finite; corners
 ///                are numbers of vertices; face_of_triangle is empty or as long as `triangles`
-///   attributes   are finite; those of vertices are as many as these; texture_triangles and
-///                normal_triangles are empty or as long as `triangles`, of numbers of the list that
-///                they are for, or no_index
+///   attributes   are finite; attributes of vertices are as many as the vertices; texture_triangles
+///                and normal_triangles are empty or as long as `triangles`, and contain indices of
+///                their lists or no_index
 ///   segments     are at most one list for each segmentation, of one number or one for each
 ///                triangle; a number has a name, a label is below 2³² − 2, or it is `unsegmented`
 ///   in all       there are at most 2³² − 2 triangles.
 /// A transform may be singular, a mesh empty or placed by no object.
-/// Cost     one look at every number, by all threads of with_threads().
+/// Cost     reads every number once, with all threads of with_threads().
 std::optional<std::string> find_fault(const Scene& scene);
 
-/// The same of its objects; that streams are there. What is in the files was checked when they were
-/// opened.
+/// The same checks of objects, and that streams exist. The content of the files was checked when
+/// they were opened.
 std::optional<std::string> find_fault(const StreamedScene& scene);
 
 /// When the vertices and triangles of placed meshes are looked at: at once, or by a caller that
@@ -37,11 +37,11 @@ std::optional<std::string> find_fault(const StreamedScene& scene);
 enum class LookAtElements { now, later };
 
 /// Refuses a scene, in memory or in files, that is not valid.
-/// Fails    InputError, "scene: " and what find_fault() says.
+/// Fails    InputError: "scene: " and the fault from find_fault().
 void require_valid(const TriangleSource& triangles, LookAtElements when = LookAtElements::now);
 
-/// What every way to render asks of what it is given.
-/// Fails    InputError where scene or camera has a fault, or the image has more than 2⁴⁴ pixels.
+/// Checks the arguments of every render function.
+/// Fails    InputError if scene or camera has a fault, or the image has more than 2⁴⁴ pixels.
 void require_renderable(const TriangleSource& triangles, const Camera& camera,
                         LookAtElements when = LookAtElements::now);
 

@@ -26,7 +26,7 @@ struct PlacedFile {
   std::optional<std::string> name;
   std::optional<WorldFromMesh> transform;
   DrawState draw;
-  /// Of all its triangles, whatever the file says of them.
+  /// For all its triangles; overrides the mesh file.
   std::optional<std::string> material;
   std::optional<std::uint32_t> label;
 };

@@ -9,8 +9,8 @@
 #include "fathom/camera/pose.h"
 #include "fathom/scene/scene.h"
 
-/// What a camera sees of the corners of a scene, in binary64: good for a warning, not for a
-/// decision about a pixel. Only for .cpp files of this room.
+/// Visibility of a scene's corners in binary64: good for a warning, not for a decision about a
+/// pixel. Only for .cpp files of this module.
 namespace fathom::scene {
 
 using Vector = std::array<double, 3>;
@@ -21,7 +21,7 @@ Vector applied(const camera::Matrix34& map, const Vector& X);
 /// An object's transform, each entry rounded.
 camera::Matrix34 rounded_placement(const Object& object);
 
-/// What a camera sees of points.
+/// Counts of points by their visibility for a camera.
 struct Sight {
   std::uint64_t points = 0, in_front = 0, in_image = 0;
   /// The box of all points in the world.
@@ -34,8 +34,7 @@ struct Sight {
   [[nodiscard]] Vector middle() const;
 };
 
-/// A camera with a pose of its own, of a scene that is made `scale` times as large about the
-/// world's origin.
+/// A camera with another pose, for the scene scaled by `scale` about the world's origin.
 class ApproximateCamera {
  public:
   ApproximateCamera(const Camera& camera, const camera::Matrix34& pose, double scale = 1);
@@ -45,8 +44,8 @@ class ApproximateCamera {
   [[nodiscard]] std::array<double, 2> image_point(const Vector& p) const;
   /// How far from the middle of the image a point is seen: 1 at its sides; infinite behind.
   [[nodiscard]] double distance_from_middle(const Vector& X) const;
-  /// Of every `step`-th triangle. A mesh of two vertices is the outline of one that stays in its
-  /// file: the corners of its box count.
+  /// Counts the corners of every `step`-th triangle. A mesh of two vertices is the outline of a
+  /// streamed mesh: the corners of its box count.
   [[nodiscard]] Sight sight_of(const Scene& scene, std::size_t step = 1) const;
 
  private:

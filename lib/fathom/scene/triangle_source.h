@@ -11,10 +11,10 @@
 namespace fathom {
 
 /// Triangles by number, whether the scene is in memory or in files. A view: the scene must outlive
-/// it unchanged. Several threads may ask at the same time.
-/// Fails    std::out_of_range where `number` is not below count(); InputError where a file of a
-///          StreamedScene has changed or cannot be read any more, and where a triangle that is
-///          asked for has a fault. The whole scene is looked at by require_valid() (scene_fault.h).
+/// it unchanged. Thread-safe.
+/// Fails    std::out_of_range unless `number` is below count(); InputError if a file of a
+///          StreamedScene has changed or cannot be read any more, or if the requested triangle has
+///          a fault. require_valid() (scene_fault.h) checks the whole scene.
 class TriangleSource {
  public:
   /// Fails    InputError if an object names no mesh, or there are more than 2³² − 2 triangles: one
@@ -40,8 +40,8 @@ class TriangleSource {
     std::array<MeshPoint, 3> corners;
   };
   [[nodiscard]] Triangle triangle(std::uint32_t number) const;
-  /// The label that a triangle of a StreamedScene carries in its file, or `unsegmented`.
-  /// (SceneSegments has those of any scene.)
+  /// The label of a triangle of a StreamedScene in its file, or `unsegmented`. (SceneSegments has
+  /// the labels of any scene.)
   [[nodiscard]] std::uint32_t label(const TriangleOrigin& origin) const;
   /// The corners in the world, exactly.
   [[nodiscard]] std::array<WorldPoint, 3> world_corners(std::uint32_t number) const;

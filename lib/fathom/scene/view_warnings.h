@@ -16,8 +16,8 @@
 /// Exact    nothing: all is judged in binary64, by the thresholds below.
 namespace fathom {
 
-/// Entries of RᵀR may be so far from those of the identity: what float32 (10⁻⁶) and six printed
-/// decimals (2·10⁻⁶) cause is well below.
+/// Tolerance of the entries of RᵀR against the identity. float32 (10⁻⁶) and six printed decimals
+/// (2·10⁻⁶) cause much smaller errors.
 inline constexpr double rotation_tolerance = 1e-5;
 /// The least number of turns of an object's surface around an eye that is inside: of a closed one
 /// it is exactly 1.
@@ -44,11 +44,11 @@ struct ViewWarning {
   std::string text;
 };
 
-/// Of the camera alone: a 3×3 part of world_to_camera that is no rotation, but scaled, mirrored
+/// Warnings about a camera by itself: a 3×3 part of world_to_camera that is scaled, mirrored
 /// (unless fx or fy mirrors it back) or skewed; a principal point of a perspective camera outside
-/// of the middle half of the image, or in the middle of one whose width and height are exchanged.
-/// Cost     none to speak of.
-/// Fails    never; nothing is said of a camera with a fault (find_fault).
+/// the middle half of the image, or in the middle of an image with exchanged width and height.
+/// Cost     negligible.
+/// Fails    never; a camera with a fault (find_fault) gets no warning.
 std::vector<ViewWarning> warnings_of_camera(const Camera& camera);
 
 /// Of a camera that looks at a scene, given how many pixels of its map show it:

@@ -14,9 +14,9 @@ namespace fathom::scene {
 ///          (tan(Ω/2) = det(a, b, c) / (|a||b||c| + …)), over 4π.
 double winding_number(const Mesh& mesh, const std::array<double, 3>& eye);
 
-/// How many more triangles the ray from `eye` along +x leaves through than it enters by: the
-/// winding number of a closed surface, as that of one ray, which is far cheaper.
-/// Fails    ElementFault where a triangle has a corner beyond the vertices.
+/// Number of triangles through which the ray from `eye` along +x leaves, minus the number through
+/// which it enters: the winding number of a closed surface, computed cheaply from one ray.
+/// Fails    ElementFault if a triangle has a corner beyond the vertices.
 int crossings_along_x(const Mesh& mesh, const std::array<double, 3>& eye);
 
 }  // namespace fathom::scene
