@@ -39,7 +39,7 @@ bool masked_occlusion_culling_is_built() {
 
 std::vector<Measurement> measure_masked_occlusion_culling(BenchScene&& bench, const Plan& plan,
                                                           std::uint64_t idle_bytes) {
-  if (bench.camera.projection != Projection::perspective) return {};
+  if (!is_perspective(bench.camera.projection)) return {};
   attribution::WorldMesh mesh = attribution::world_mesh(bench.scene);
   bench.scene = {};
   MaskedBuffer buffer(mesh, bench.camera, fastest_way(mesh, bench.camera));

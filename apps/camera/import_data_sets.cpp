@@ -115,7 +115,7 @@ Cameras read_tum(const ImportArguments& a, Warnings&) {
   if (!lens) return import_tum(a.input, path_if(a.images), tum_lens(given_lens(a)));
   if (a.size)
     std::tie(lens->camera.width, lens->camera.height) = std::pair((*a.size)[0], (*a.size)[1]);
-  if (a.pixel_centre) lens->camera.pixel_centre = *a.pixel_centre;
+  if (a.pixel_centre) lens->camera.projection.pixel_centre = *a.pixel_centre;
   return import_tum(a.input, path_if(a.images), *lens);
 }
 

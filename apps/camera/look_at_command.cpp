@@ -15,7 +15,7 @@ namespace {
 
 struct LookAtArguments {
   Vector3 eye{}, target{}, up{0, 1, 0};
-  Lens lens;
+  LensChoice lens;
   std::string output = "-";
 };
 

@@ -23,7 +23,7 @@ struct OrbitArguments {
   View first;
   std::optional<Vector3> centre;
   std::optional<double> distance;
-  Lens lens;
+  LensChoice lens;
   std::string output = "-";
 };
 

@@ -79,11 +79,12 @@ Camera around(const Camera& camera) {
     throw InputError(fmt::format("image {}: an image of {}x{} pixels is too large for masks",
                                  camera.name, camera.width, camera.height));
   Camera wide = camera;
-  wide.fx = wide.fy = 1;
-  wide.skew = 0;
-  wide.world_to_camera = {{{camera.fx, camera.skew, static_cast<double>(camera.width), 0},
-                           {0, camera.fy, static_cast<double>(camera.height), 0},
-                           {0, 0, 1, 0}}};
+  wide.projection.fx = wide.projection.fy = 1;
+  wide.projection.skew = 0;
+  wide.world_to_camera = {
+      {{camera.projection.fx, camera.projection.skew, static_cast<double>(camera.width), 0},
+       {0, camera.projection.fy, static_cast<double>(camera.height), 0},
+       {0, 0, 1, 0}}};
   wide.width *= 3;
   wide.height *= 3;
   return wide;

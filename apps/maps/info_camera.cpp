@@ -21,7 +21,7 @@ struct Pose {
 };
 
 Pose pose_of(const Camera& camera) {
-  const auto world_from_camera = camera_to_world(camera);
+  const auto world_from_camera = camera_to_world(camera.world_to_camera);
   Pose pose;
   for (int i = 0; i < 3; ++i) {
     pose.eye[i] = world_from_camera[i][3];
@@ -39,16 +39,16 @@ Json describe(const Camera& camera) {
   const Pose pose = pose_of(camera);
   answer["eye"] = pose.eye;
   answer["forward"] = pose.forward;
-  if (camera.projection == Projection::perspective) {
-    answer["fov_degrees"] = {degrees_of(camera.width, camera.fx),
-                             degrees_of(camera.height, camera.fy)};
+  if (is_perspective(camera.projection)) {
+    answer["fov_degrees"] = {degrees_of(camera.width, camera.projection.fx),
+                             degrees_of(camera.height, camera.projection.fy)};
   }
   return answer;
 }
 
 std::string describe_as_text(const Camera& camera) {
   const Pose pose = pose_of(camera);
-  const bool perspective = camera.projection == Projection::perspective;
+  const bool perspective = is_perspective(camera.projection);
   std::string lines =
       fmt::format("  {} camera of {}x{} pixels\n", perspective ? "perspective" : "orthographic",
                   camera.width, camera.height);
@@ -58,10 +58,12 @@ std::string describe_as_text(const Camera& camera) {
       "    fx, fy        {}, {}\n    cx, cy        {}, {}   (the centre of the top left pixel is "
       "{})\n"
       "    skew          {}\n",
-      camera.fx, camera.fy, camera.cx, camera.cy, camera.pixel_centre, camera.skew);
+      camera.projection.fx, camera.projection.fy, camera.projection.cx, camera.projection.cy,
+      camera.projection.pixel_centre, camera.projection.skew);
   if (perspective) {
     lines += fmt::format("    field of view {:.4f} x {:.4f} degrees\n",
-                         degrees_of(camera.width, camera.fx), degrees_of(camera.height, camera.fy));
+                         degrees_of(camera.width, camera.projection.fx),
+                         degrees_of(camera.height, camera.projection.fy));
   }
   const auto vector = [](const std::array<double, 3>& v) {
     return fmt::format("({}, {}, {})", v[0], v[1], v[2]);

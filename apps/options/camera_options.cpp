@@ -36,7 +36,7 @@ Vector3 parse_up(const std::string& text) {
 }
 
 /// The camera that frames the scene.
-Camera framing_camera(const Scene& scene, const View& view, const Lens& lens) {
+Camera framing_camera(const Scene& scene, const View& view, const LensChoice& lens) {
   const std::string file = scene.sources.empty() ? "scene" : scene.sources.back().path;
   const auto is_empty = [&](const Object& object) { return scene.meshes[object.mesh].is_empty(); };
   if (std::ranges::all_of(scene.objects, is_empty)) {
@@ -76,7 +76,7 @@ std::array<Option, 2> add_view_options(Command& command, View& view) {
   return {direction, add_up_option(command, view.up)};
 }
 
-std::vector<Option> add_lens_options(Command& command, Lens& lens) {
+std::vector<Option> add_lens_options(Command& command, LensChoice& lens) {
   const Option size = command.option(
       "--size", "WxH",
       [&lens](const std::string& text) {
@@ -92,7 +92,7 @@ std::vector<Option> add_lens_options(Command& command, Lens& lens) {
   const Option parallel = command.option(
       "--orthographic", "HEIGHT",
       [&lens](const std::string& text) {
-        lens.projection = Projection::orthographic;
+        lens.model = ProjectionModel::orthographic;
         lens.vertical_extent = parse_number(text);
       },
       "Parallel projection; height of the image in scene units");

@@ -20,7 +20,7 @@ Option add_up_option(Command& command, Vector3& up);
 
 /// `--size --fov --focal --orthographic --near --far`: the lens of a camera that is made;
 /// `--fov` is the vertical angle.
-std::vector<Option> add_lens_options(Command& command, Lens& lens);
+std::vector<Option> add_lens_options(Command& command, LensChoice& lens);
 
 /// `--camera FILE`, or the camera that frames the scene with
 /// `--view --up --size --fov --focal --orthographic --near --far`.
@@ -39,7 +39,7 @@ class CameraOptions {
  private:
   std::string file_;
   View view_;
-  Lens lens_;
+  LensChoice lens_;
 };
 
 /// The cameras of a camera file, or the camera that a map carries, each without fault; warnings go

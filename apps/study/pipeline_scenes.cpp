@@ -30,9 +30,9 @@ Camera front_camera(std::uint32_t width, std::uint32_t height, double near, doub
   Camera camera;
   camera.width = width;
   camera.height = height;
-  camera.fx = camera.fy = width;
-  camera.cx = width / 2.0;
-  camera.cy = height / 2.0;
+  camera.projection.fx = camera.projection.fy = width;
+  camera.projection.cx = width / 2.0;
+  camera.projection.cy = height / 2.0;
   camera.near = near;
   camera.far = far;
   return camera;
@@ -42,7 +42,7 @@ Camera window_camera(std::uint32_t width, std::uint32_t height) {
   Camera camera;
   camera.width = width;
   camera.height = height;
-  camera.projection = Projection::orthographic;
+  camera.projection.model = ProjectionModel::orthographic;
   camera.near = 0.125;
   camera.far = 1;
   return camera;

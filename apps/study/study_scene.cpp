@@ -60,9 +60,9 @@ SceneView panels_with_decals() {
   Camera& camera = view.camera;
   camera.width = 640;
   camera.height = 360;
-  camera.fx = camera.fy = 300;
-  camera.cx = 320;
-  camera.cy = 180;
+  camera.projection.fx = camera.projection.fy = 300;
+  camera.projection.cx = 320;
+  camera.projection.cy = 180;
   camera.near = 0.01;
   camera.far = 1000;
   return view;
@@ -92,8 +92,8 @@ SceneView wheel() {
   view.scene.objects = {{.name = "wheel"}};
   Camera& camera = view.camera;
   camera.width = camera.height = 320;
-  camera.fx = camera.fy = 160;
-  camera.cx = camera.cy = 160;
+  camera.projection.fx = camera.projection.fy = 160;
+  camera.projection.cx = camera.projection.cy = 160;
   return view;
 }
 

@@ -103,13 +103,14 @@ Camera camera_of(const fathom_camera* given) {
   Camera camera;
   camera.width = given->width;
   camera.height = given->height;
-  camera.projection = given->orthographic ? Projection::orthographic : Projection::perspective;
-  camera.fx = given->fx;
-  camera.fy = given->fy;
-  camera.cx = given->cx;
-  camera.cy = given->cy;
-  camera.skew = given->skew;
-  camera.pixel_centre = given->pixel_centre;
+  camera.projection.model =
+      given->orthographic ? ProjectionModel::orthographic : ProjectionModel::perspective;
+  camera.projection.fx = given->fx;
+  camera.projection.fy = given->fy;
+  camera.projection.cx = given->cx;
+  camera.projection.cy = given->cy;
+  camera.projection.skew = given->skew;
+  camera.projection.pixel_centre = given->pixel_centre;
   for (std::size_t i = 0; i < 3; ++i)
     std::copy_n(given->world_to_camera[i], 4, camera.world_to_camera[i].begin());
   camera.near = given->near_depth;
@@ -121,21 +122,21 @@ void give(const Camera& camera, fathom_camera* given) {
   require(given, "camera: NULL");
   given->width = camera.width;
   given->height = camera.height;
-  given->orthographic = camera.projection == Projection::orthographic;
-  given->fx = camera.fx;
-  given->fy = camera.fy;
-  given->cx = camera.cx;
-  given->cy = camera.cy;
-  given->skew = camera.skew;
-  given->pixel_centre = camera.pixel_centre;
+  given->orthographic = is_orthographic(camera.projection);
+  given->fx = camera.projection.fx;
+  given->fy = camera.projection.fy;
+  given->cx = camera.projection.cx;
+  given->cy = camera.projection.cy;
+  given->skew = camera.projection.skew;
+  given->pixel_centre = camera.projection.pixel_centre;
   for (std::size_t i = 0; i < 3; ++i)
     std::copy_n(camera.world_to_camera[i].begin(), 4, given->world_to_camera[i]);
   given->near_depth = camera.near;
   given->far_depth = camera.far;
 }
 
-Lens lens_of(std::uint32_t width, std::uint32_t height, double fov) {
-  Lens lens;
+LensChoice lens_of(std::uint32_t width, std::uint32_t height, double fov) {
+  LensChoice lens;
   lens.width = width;
   lens.height = height;
   lens.vertical_fov = fov;

@@ -44,7 +44,7 @@ inline Eigen::Affine3d camera_from_world(const Camera& camera) {
 /// Its inverse, each entry rounded once (camera_to_world()).
 /// Fails    InputError where R is singular.
 inline Eigen::Affine3d world_from_camera(const Camera& camera) {
-  const auto rows = camera_to_world(camera);
+  const auto rows = camera_to_world(camera.world_to_camera);
   Eigen::Affine3d pose = Eigen::Affine3d::Identity();
   pose.affine() = Eigen::Map<const PoseRows>(rows.front().data());
   return pose;
@@ -66,7 +66,8 @@ requires(mode != int{Eigen::Projective}) void set_camera_from_world(
 /// of cx and cy. Exact.
 inline Eigen::Matrix3d intrinsic_matrix(const Camera& camera) {
   Eigen::Matrix3d K;
-  K << camera.fx, camera.skew, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1;
+  K << camera.projection.fx, camera.projection.skew, camera.projection.cx, 0, camera.projection.fy,
+      camera.projection.cy, 0, 0, 1;
   return K;
 }
 
@@ -75,11 +76,11 @@ inline Eigen::Matrix3d intrinsic_matrix(const Camera& camera) {
 inline void set_intrinsic_matrix(Camera& camera, const Eigen::Matrix3d& K) {
   if (K(1, 0) != 0 || K.row(2) != Eigen::RowVector3d(0, 0, 1))
     throw InputError("the intrinsic matrix: expected fx s cx, 0 fy cy, 0 0 1");
-  camera.fx = K(0, 0);
-  camera.skew = K(0, 1);
-  camera.cx = K(0, 2);
-  camera.fy = K(1, 1);
-  camera.cy = K(1, 2);
+  camera.projection.fx = K(0, 0);
+  camera.projection.skew = K(0, 1);
+  camera.projection.cx = K(0, 2);
+  camera.projection.fy = K(1, 1);
+  camera.projection.cy = K(1, 2);
 }
 
 // Points and placements

@@ -110,7 +110,7 @@ PipelineDepthBuffer depth_buffer_of(const Scene& scene, const Camera& camera,
                                     pipeline::PipelineFrame& frame) {
   PipelineDepthBuffer buffer{options.depth_format,
                              options.depth_range,
-                             camera.projection == Projection::orthographic,
+                             is_orthographic(camera.projection),
                              std::move(frame.stored),
                              std::move(frame.depth_written),
                              {}};

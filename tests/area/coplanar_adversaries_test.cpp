@@ -70,7 +70,7 @@ std::vector<Behind> truth_of(const Case& c, Cull cull) {
   // v grows downwards: a front, which turns against the clock, has a negative area.
   const int way = cull == Cull::back ? -1 : cull == Cull::front ? 1 : 0;
   std::vector<Behind> all = oracle::behind_visible(
-      testing::areas_at(c.scene, c.camera), c.camera.projection == Projection::perspective,
+      testing::areas_at(c.scene, c.camera), is_perspective(c.camera.projection),
       static_cast<int>(c.camera.width), static_cast<int>(c.camera.height), way);
   std::erase_if(all, [&](const Behind& pair) {
     return share_a_corner(triangles, pair.visible, pair.behind);

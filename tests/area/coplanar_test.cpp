@@ -16,8 +16,8 @@ using testing::scene_of;
 
 Camera orthographic(std::uint32_t width, std::uint32_t height) {
   Camera camera = camera_of(width, height, 1);
-  camera.projection = Projection::orthographic;
-  camera.cx = camera.cy = 0;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.cx = camera.projection.cy = 0;
   return camera;
 }
 
@@ -83,7 +83,8 @@ double depth_at(const std::array<MeshPoint, 3>& t, const Camera& camera, double 
   const double e[] = {b.x - a.x, b.y - a.y, b.z - a.z}, f[] = {c.x - a.x, c.y - a.y, c.z - a.z};
   const double n[] = {e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2],
                       e[0] * f[1] - e[1] * f[0]};
-  const double ray[] = {(u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1};
+  const double ray[] = {(u - camera.projection.cx) / camera.projection.fx,
+                        (v - camera.projection.cy) / camera.projection.fy, 1};
   return (n[0] * a.x + n[1] * a.y + n[2] * a.z) / (n[0] * ray[0] + n[1] * ray[1] + n[2] * ray[2]);
 }
 
@@ -93,8 +94,8 @@ double depth_at(const std::array<MeshPoint, 3>& t, const Camera& camera, double 
 TEST(Coplanar, TheLeastSeparationUnderPerspectiveIsFoundBetweenCorners) {
   const Camera camera = camera_of(16, 12, 16);
   const auto point = [&](double u, double v, double depth) {
-    return MeshPoint{(u - camera.cx) / camera.fx * depth, (v - camera.cy) / camera.fy * depth,
-                     depth};
+    return MeshPoint{(u - camera.projection.cx) / camera.projection.fx * depth,
+                     (v - camera.projection.cy) / camera.projection.fy * depth, depth};
   };
   const std::array<MeshPoint, 3> front{point(1, 1, 2), point(15, 1, 4), point(1, 11, 2)};
   const std::array<MeshPoint, 3> behind{point(1, 1, 2.75), point(15, 1, 4.5), point(1, 11, 2.5)};

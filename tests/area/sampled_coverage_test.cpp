@@ -83,8 +83,8 @@ TEST(SampledCoverage, IsTheShareOfSamplesThatCount) {
 /// right edge, not.
 TEST(SampledCoverage, OfAnUprightEdge) {
   Camera camera = testing::camera_of(4, 4, 1);
-  camera.projection = Projection::orthographic;
-  camera.cx = camera.cy = 0;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.cx = camera.projection.cy = 0;
   const Scene scene = testing::scene_of({{-9, -9, 1}, {2.375, -9, 1}, {2.375, 99, 1}, {-9, 99, 1}},
                                         {{0, 1, 2}, {0, 2, 3}});
   const auto share = [&](const std::string& pattern) {

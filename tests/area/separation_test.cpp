@@ -85,7 +85,7 @@ TEST(Separation, OfSlantedPlanesIsLeastInACorner) {
 /// On the rays (u, v, 1): 4/(4 − u) in front, 2/(1 + u) behind.
 TEST(Separation, InPerspectiveIsThatOfQuotients) {
   Camera camera = testing::camera_of(1, 1, 1);
-  camera.cx = camera.cy = 0;
+  camera.projection.cx = camera.projection.cy = 0;
   // z·(1 − u/4) = 1 with u = x/z is the plane z = 1 + x/4, z·(1 + u) = 2 the plane z = 2 − x.
   const Scene scene = scene_of({{-0.5, -4, 0.875},
                                 {3, -4, 1.75},

@@ -36,8 +36,8 @@ inline std::vector<area::SurfaceRegion> surfaces_of(const Scene& scene, const Ca
 /// An orthographic camera that leaves x, y and z as u, v and D.
 inline Camera plain_camera(std::uint32_t width, std::uint32_t height) {
   Camera camera = camera_of(width, height, 1);
-  camera.projection = Projection::orthographic;
-  camera.cx = camera.cy = 0;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.cx = camera.projection.cy = 0;
   return camera;
 }
 

@@ -106,8 +106,8 @@ TEST(VisibleAreas, AreTheOraclesSumsRoundedOnce) {
 // no binary fractions, their sum w lies in the middle between two binary64 numbers.
 TEST(VisibleAreas, SumsInTheMiddleAreRoundedToEven) {
   Camera camera = testing::camera_of(2, 1, 1);
-  camera.projection = Projection::orthographic;
-  camera.cx = camera.cy = 0;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.cx = camera.projection.cy = 0;
   const double left = 0x1p-53;
   for (const auto& [right, expected] : {std::pair(1 + 0x1p-52, 1.0),  // w = 1 + 2⁻⁵³
                                         std::pair(1 + 0x1p-51, 1 + 0x1p-51)}) {  // 1 + 3·2⁻⁵³

@@ -196,8 +196,8 @@ TEST(VisibleFragments, DivisionChangesNothing) {
 TEST(VisibleFragments, DepthsAreThoseOfTheVisiblePartAlone) {
   // Orthographic, D = 2 + u over the pixel; its left half is hidden by a nearer square.
   Camera camera = camera_of(1, 1, 1);
-  camera.projection = Projection::orthographic;
-  camera.cx = camera.cy = 0;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.cx = camera.projection.cy = 0;
   const Scene scene = scene_of({{-4, -4, -2},
                                 {8, -4, 10},
                                 {-4, 8, -2},  //

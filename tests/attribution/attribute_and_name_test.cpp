@@ -39,7 +39,7 @@ Scene sphere_and_sheets() {
 RendererModel model_of(Storage storage, Mapping mapping = Mapping::opengl,
                        std::optional<Mapping> written = {}) {
   RasterModel model{.mapping = mapping, .storage = storage, .depth_before_snap = true};
-  if (written) model.written = written_depth(Projection::perspective, *written, 0.5, 20);
+  if (written) model.written = written_depth(ProjectionModel::perspective, *written, 0.5, 20);
   model.matrix = clip_from_held(sphere_camera(), model);
   return {.name = "test", .equal_depths = EqualDepths::first_wins, .kind = model};
 }
@@ -199,8 +199,10 @@ TEST_P(WrongFormula, IsNamed) {
   const Camera& camera = truth.camera;
   for (std::size_t i = 0; i < map.depths.size(); ++i) {
     if (std::isinf(map.depths[i])) continue;
-    const double x = (static_cast<double>(i % camera.width) + 0.5 - camera.cx) / camera.fx;
-    const double y = (static_cast<double>(i / camera.width) + 0.5 - camera.cy) / camera.fy;
+    const double x =
+        (static_cast<double>(i % camera.width) + 0.5 - camera.projection.cx) / camera.projection.fx;
+    const double y =
+        (static_cast<double>(i / camera.width) + 0.5 - camera.projection.cy) / camera.projection.fy;
     map.depths[i] =
         static_cast<float>(GetParam().depth(map.depths[i], std::sqrt(1 + x * x + y * y)));
   }
@@ -249,9 +251,9 @@ TEST(RayModel, ExplainsMoellerTrumboreAndCatchesFaults) {
   Camera camera = sphere_camera();
   camera.width = 80;
   camera.height = 60;
-  camera.fx = camera.fy = camera.fx * 0.4;
-  camera.cx = 40;
-  camera.cy = 30;
+  camera.projection.fx = camera.projection.fy = camera.projection.fx * 0.4;
+  camera.projection.cx = 40;
+  camera.projection.cy = 30;
   const Truth truth = make_truth(sphere_and_sheets(), camera);
   const RendererModel model{.name = "rays", .watertight = false, .kind = RayModel{}};
   const auto judged = [&](const Fault& fault) {
@@ -269,10 +271,10 @@ TEST(RayModel, ExplainsMoellerTrumboreAndCatchesFaults) {
 
 // Depth 4, but 160 units across: a millionth of a radian moves depths by far more than roundings.
 TEST(RayModel, TheRotationOfBlendersCameraIsKnownUpToItsRoundings) {
-  Camera camera{.width = 40, .height = 30, .projection = Projection::orthographic};
-  camera.fx = camera.fy = 0.125;
-  camera.cx = 20;
-  camera.cy = 15;
+  Camera camera{.width = 40, .height = 30, .projection = {.model = ProjectionModel::orthographic}};
+  camera.projection.fx = camera.projection.fy = 0.125;
+  camera.projection.cx = 20;
+  camera.projection.cy = 15;
   Mesh sheet;
   sheet.vertices = {{-190, -150, 4}, {190, -150, 4}, {190, 150, 4}, {-190, 150, 4}};
   sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -293,7 +295,7 @@ TEST(Codes, RoundedDownAreExplainedWhereTheNearestIsNotPromised) {
   const Truth truth = make_truth(sphere_and_sheets(), sphere_camera());
   const RendererModel exact = model_of(Storage::float32);
   OtherMap map = draw_in_binary32(truth.mesh, truth.camera, exact, {});
-  const WindowDepth window = window_depth(Projection::perspective, Mapping::opengl, 0.5, 20);
+  const WindowDepth window = window_depth(ProjectionModel::perspective, Mapping::opengl, 0.5, 20);
   for (std::size_t i = 0; i < map.windows.size(); ++i) {
     if (map.windows[i] == 1) continue;
     map.windows[i] = std::floor(map.windows[i] * 65535) / 65535;

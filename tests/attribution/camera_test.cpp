@@ -9,14 +9,14 @@
 namespace fathom::attribution {
 namespace {
 
-Camera odd_camera(Projection projection) {
-  Camera camera{.width = 160, .height = 90, .projection = projection};
-  camera.fx = 150;
-  camera.fy = -130;  // mirrored
-  camera.cx = 70.25;
-  camera.cy = 48.5;
-  camera.skew = 12;
-  camera.pixel_centre = 0;
+Camera odd_camera(ProjectionModel projection) {
+  Camera camera{.width = 160, .height = 90, .projection = {.model = projection}};
+  camera.projection.fx = 150;
+  camera.projection.fy = -130;  // mirrored
+  camera.projection.cx = 70.25;
+  camera.projection.cy = 48.5;
+  camera.projection.skew = 12;
+  camera.projection.pixel_centre = 0;
   camera.world_to_camera = {{{0.9, 0.1, -0.2, 0.1}, {-0.1, 1.1, 0.3, -0.2}, {0.2, -0.3, 0.8, 4}}};
   return camera;
 }
@@ -29,7 +29,7 @@ std::array<double, 4> product(const Matrix4& m, const std::array<double, 4>& p) 
   return result;
 }
 
-class OddCamera : public testing::TestWithParam<Projection> {};
+class OddCamera : public testing::TestWithParam<ProjectionModel> {};
 
 TEST_P(OddCamera, RaysAreSeenWhereTheyComeFrom) {
   const Camera camera = odd_camera(GetParam());
@@ -60,10 +60,11 @@ TEST_P(OddCamera, RaysAreSeenWhereTheyComeFrom) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, OddCamera,
-                         testing::Values(Projection::perspective, Projection::orthographic),
+                         testing::Values(ProjectionModel::perspective,
+                                         ProjectionModel::orthographic),
                          [](const auto& projection) {
-                           return projection.param == Projection::perspective ? "Perspective"
-                                                                              : "Orthographic";
+                           return projection.param == ProjectionModel::perspective ? "Perspective"
+                                                                                   : "Orthographic";
                          });
 
 TEST(ClipRange, IsTheCamerasOrJustOutsideTheCorners) {

@@ -19,13 +19,13 @@ Deviation with(std::initializer_list<std::pair<P, double>> values) {
   return d;
 }
 
-Camera skewed_camera(Projection projection) {
-  Camera camera{.width = 60, .height = 40, .projection = projection};
-  camera.fx = 50;
-  camera.fy = -55;
-  camera.cx = 27.5;
-  camera.cy = 21;
-  camera.skew = 3;
+Camera skewed_camera(ProjectionModel projection) {
+  Camera camera{.width = 60, .height = 40, .projection = {.model = projection}};
+  camera.projection.fx = 50;
+  camera.projection.fy = -55;
+  camera.projection.cx = 27.5;
+  camera.projection.cy = 21;
+  camera.projection.skew = 3;
   camera.near = 0.5;
   camera.far = 20;
   camera.world_to_camera = {{{0.9, 0.1, -0.2, 0.1}, {-0.1, 1.1, 0.3, -0.2}, {0.2, -0.3, 0.8, 4}}};
@@ -53,7 +53,7 @@ Point turned(const Point& p, std::size_t axis, double angle) {
 }
 
 TEST(DeviatingCamera, IsTurnedAboutItsOwnAxesAndThenMoved) {
-  const Camera camera = skewed_camera(Projection::perspective);
+  const Camera camera = skewed_camera(ProjectionModel::perspective);
   const Point p{0.3, -0.7, 1.1};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Deviation d = with({{P::move_x, 0.5}, {P::move_y, -0.25}, {P::move_z, 2}});
@@ -67,34 +67,34 @@ TEST(DeviatingCamera, IsTurnedAboutItsOwnAxesAndThenMoved) {
 }
 
 TEST(DeviatingCamera, HasOtherIntrinsicParameters) {
-  const Camera camera = skewed_camera(Projection::perspective);
+  const Camera camera = skewed_camera(ProjectionModel::perspective);
   const Camera other = deviating(camera, with({{P::focal_x, 0.5},
                                                {P::focal_y, -0.25},
                                                {P::centre_x, 1.5},
                                                {P::centre_y, -2},
                                                {P::skew, 0.125}}));
-  EXPECT_EQ(other.fx, 75);
-  EXPECT_EQ(other.fy, -41.25);
-  EXPECT_EQ(other.cx, 29);
-  EXPECT_EQ(other.cy, 19);
-  EXPECT_EQ(other.skew, 3.125);
+  EXPECT_EQ(other.projection.fx, 75);
+  EXPECT_EQ(other.projection.fy, -41.25);
+  EXPECT_EQ(other.projection.cx, 29);
+  EXPECT_EQ(other.projection.cy, 19);
+  EXPECT_EQ(other.projection.skew, 3.125);
   EXPECT_EQ(other.world_to_camera, camera.world_to_camera);
   // What concerns depths and the lens is not the camera's.
   const Camera same = deviating(camera, with({{P::k1, 1}, {P::scale, 1}, {P::near, 1}}));
-  EXPECT_EQ(same.fx, camera.fx);
+  EXPECT_EQ(same.projection.fx, camera.projection.fx);
   EXPECT_EQ(same.near, camera.near);
   EXPECT_EQ(same.world_to_camera, camera.world_to_camera);
 }
 
 RendererModel logarithmic_model() {
   RasterModel raster;
-  raster.written = written_depth(Projection::perspective, Mapping::log_ulrich, 0.5, 20);
+  raster.written = written_depth(ProjectionModel::perspective, Mapping::log_ulrich, 0.5, 20);
   return {.name = "logarithmic", .kind = raster};
 }
 
 struct Case {
   std::string name;
-  Projection projection;
+  ProjectionModel projection;
   RendererModel model;
 };
 
@@ -105,7 +105,7 @@ void PrintTo(const Case& c, std::ostream* stream) {
 class Depths : public testing::TestWithParam<Case> {
  protected:
   [[nodiscard]] bool is_perspective() const {
-    return GetParam().projection == Projection::perspective;
+    return GetParam().projection == ProjectionModel::perspective;
   }
   [[nodiscard]] double affine(double depth) const { return is_perspective() ? 1 / depth : depth; }
   [[nodiscard]] DepthDeviation deviation(const Deviation& d) const {
@@ -135,7 +135,7 @@ TEST_P(Depths, BecomeWhatAnotherDecoderMakesOfThem) {
       const double window = steps->window.of_depth(expected) + 3 * steps->step;
       WindowDepth reading = steps->window;
       if (decodes()) {
-        reading = window_depth(camera.projection,
+        reading = window_depth(camera.projection.model,
                                std::get<RasterModel>(GetParam().model.kind).stored_mapping(),
                                deviated.near(), deviated.far());
       }
@@ -186,11 +186,12 @@ TEST_P(Depths, SlopesAreDerivatives) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, Depths,
-    testing::Values(Case{"Perspective", Projection::perspective, model_named("gl-unorm24")},
-                    Case{"Reversed", Projection::perspective, model_named("gl-float32-reversed")},
-                    Case{"Orthographic", Projection::orthographic, model_named("gl-unorm16")},
-                    Case{"Rays", Projection::perspective, model_named("float32-ray")},
-                    Case{"Logarithmic", Projection::perspective, logarithmic_model()}),
+    testing::Values(Case{"Perspective", ProjectionModel::perspective, model_named("gl-unorm24")},
+                    Case{"Reversed", ProjectionModel::perspective,
+                         model_named("gl-float32-reversed")},
+                    Case{"Orthographic", ProjectionModel::orthographic, model_named("gl-unorm16")},
+                    Case{"Rays", ProjectionModel::perspective, model_named("float32-ray")},
+                    Case{"Logarithmic", ProjectionModel::perspective, logarithmic_model()}),
     [](const auto& c) { return c.param.name; });
 
 TEST(DeviationSets, TheSmallestAreFirst) {

@@ -74,8 +74,9 @@ bool covers(const std::array<Corner, 3>& t, std::int64_t x, std::int64_t y) {
 /// Where an ideal lens shows what a distorting one shows at (x, y), in pixels: by bisection.
 std::array<double, 2> without_lens(const Camera& c, const Fault& fault, double x, double y) {
   if (fault.k1 == 0 && fault.k2 == 0) return {x, y};
-  const auto [cx, cy] = principal_point(c);
-  const double b = (y - cy) / c.fy, a = (x - cx - c.skew * b) / c.fx;
+  const auto [cx, cy] = principal_point(c.projection);
+  const double b = (y - cy) / c.projection.fy,
+               a = (x - cx - c.projection.skew * b) / c.projection.fx;
   double low = 0, high = 2;  // times as far from the centre
   for (int i = 0; i < 60; ++i) {
     const double middle = (low + high) / 2, q = middle * middle * (a * a + b * b);
@@ -89,10 +90,10 @@ std::array<double, 2> without_lens(const Camera& c, const Fault& fault, double x
 OtherMap draw_in_binary32(const WorldMesh& mesh, const Camera& camera,
                           const RendererModel& renderer, const Fault& fault) {
   const auto& model = std::get<RasterModel>(renderer.kind);
-  const WindowDepth window =
-      attribution::window_depth(camera.projection, model.stored_mapping(), camera.near, camera.far);
+  const WindowDepth window = attribution::window_depth(
+      camera.projection.model, model.stored_mapping(), camera.near, camera.far);
   const WindowDepth cut =
-      attribution::window_depth(camera.projection, model.mapping, camera.near, camera.far);
+      attribution::window_depth(camera.projection.model, model.mapping, camera.near, camera.far);
   const std::size_t count = std::size_t{camera.width} * camera.height;
   const double cleared = window.reversed() ? 0 : 1;
   OtherMap map{camera.width,

@@ -130,8 +130,11 @@ const std::vector<Injected> of_the_camera{
     {"FocalLength",
      "focal-length",
      {{"focal length x", 1e-3}, {"focal length y", 1e-3}},
-     [](Camera& c) { c.fx *= 1.001, c.fy *= 1.001; }},
-    {"FocalLengthAcross", "aspect", {{"focal length x", -2e-3}}, [](Camera& c) { c.fx *= 0.998; }},
+     [](Camera& c) { c.projection.fx *= 1.001, c.projection.fy *= 1.001; }},
+    {"FocalLengthAcross",
+     "aspect",
+     {{"focal length x", -2e-3}},
+     [](Camera& c) { c.projection.fx *= 0.998; }},
     {"Pitch", "rotation", {{"turn about x", 1e-3}}, [](Camera& c) { turn(c, 0, 1e-3); }},
     {"Yaw", "rotation", {{"turn about y", -1e-3}}, [](Camera& c) { turn(c, 1, -1e-3); }},
     {"Roll", "rotation", {{"turn about z", 2e-3}}, [](Camera& c) { turn(c, 2, 2e-3); }},
@@ -162,9 +165,9 @@ const std::vector<Injected> of_the_camera{
        c.world_to_camera[1][3] += 0.015;
        c.world_to_camera[2][3] += 0.03;
      }},
-    {"Skew", "skew", {{"skew", 0.2}}, [](Camera& c) { c.skew += 0.2; }},
+    {"Skew", "skew", {{"skew", 0.2}}, [](Camera& c) { c.projection.skew += 0.2; }},
     {"Shift", "shift", {{"centre x", 0.3}, {"centre y", -0.1}}, [](Camera& c) {
-       c.cx += 0.3, c.cy -= 0.1;
+       c.projection.cx += 0.3, c.projection.cy -= 0.1;
      }}};
 
 const std::vector<Injected> of_depths{

@@ -64,8 +64,8 @@ TEST(Judgement, ARightMapOfAnotherModelBlamesTheModelAlone) {
 TEST(Judgement, AShiftIsFoundThoughTheModelIsWrong) {
   const auto truth = sphere_seen_by(sphere_camera(0.01, 20));
   Camera aside = truth->camera;
-  aside.cx += 0.125;
-  aside.cy += 0.375;
+  aside.projection.cx += 0.125;
+  aside.projection.cy += 0.375;
   const Truth drawn = seen_by(*truth, aside);
   const Judgement found = judged(truth, in_codes(drawn, 24, 0.01, 20), "float32-ray");
   ASSERT_EQ(kinds(found), (std::vector<std::string>{"shift", "model"}))
@@ -128,8 +128,8 @@ TEST(Judgement, ASceneWithNoiseIsNoOtherScene) {
 TEST(Judgement, AnotherSceneIsCalledSo) {
   const auto truth = sphere_seen_by(sphere_camera(0.5, 20));
   Camera elsewhere = truth->camera;
-  elsewhere.fx /= 3;
-  elsewhere.fy /= 5;
+  elsewhere.projection.fx /= 3;
+  elsewhere.projection.fy /= 5;
   const Judgement found = judged(truth, in_binary32(seen_by(*truth, elsewhere)), "gl-unorm24");
   EXPECT_TRUE(kinds(found) == std::vector<std::string>{"other-scene"} ||
               found.attribution.count(PixelClass::convention) > 0)

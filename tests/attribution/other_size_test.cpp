@@ -12,12 +12,12 @@ namespace {
 
 Camera camera_of(std::uint32_t width, std::uint32_t height) {
   Camera camera{.width = width, .height = height};
-  camera.fx = 100;
-  camera.fy = 90;
-  camera.cx = 31;
-  camera.cy = 22;
-  camera.skew = 4;
-  camera.pixel_centre = 0;
+  camera.projection.fx = 100;
+  camera.projection.fy = 90;
+  camera.projection.cx = 31;
+  camera.projection.cy = 22;
+  camera.projection.skew = 4;
+  camera.projection.pixel_centre = 0;
   return camera;
 }
 
@@ -31,8 +31,9 @@ OtherMap map_of(std::uint32_t width, std::uint32_t height) {
 
 /// Where a camera point is seen, in pixels from the image's top left corner.
 std::array<double, 2> seen(const Camera& c, double x, double y, double z) {
-  const double half = 0.5 - c.pixel_centre;
-  return {(c.fx * x + c.skew * y) / z + c.cx + half, c.fy * y / z + c.cy + half};
+  const double half = 0.5 - c.projection.pixel_centre;
+  return {(c.projection.fx * x + c.projection.skew * y) / z + c.projection.cx + half,
+          c.projection.fy * y / z + c.projection.cy + half};
 }
 
 const SizedMap* with_text(const std::vector<SizedMap>& readings, const std::string& text) {
@@ -55,7 +56,7 @@ TEST(OtherSize, RowsAndColumnsExchanged) {
   EXPECT_EQ(first.finding.text,
             "the map has 48x64 pixels, the camera 64x48: its rows and columns are exchanged");
   EXPECT_EQ(first.camera.width, 64U);
-  EXPECT_EQ(first.camera.cx, camera.cx);
+  EXPECT_EQ(first.camera.projection.cx, camera.projection.cx);
   ASSERT_EQ(first.map.width, 64U);
   ASSERT_EQ(first.map.height, 48U);
   for (std::uint32_t row = 0; row < 48; ++row) {

@@ -46,8 +46,8 @@ Matrix as_matrix(const Rows& rows) {
 /// OpenGL's projection of the camera, near 1 and far 20.
 Matrix projection(const Camera& c) {
   const double w = c.width, h = c.height, n = c.near, f = c.far;
-  return {{{2 * c.fx / w, 2 * c.skew / w, 2 * c.cx / w - 1, 0},
-           {0, -2 * c.fy / h, 1 - 2 * c.cy / h, 0},
+  return {{{2 * c.projection.fx / w, 2 * c.projection.skew / w, 2 * c.projection.cx / w - 1, 0},
+           {0, -2 * c.projection.fy / h, 1 - 2 * c.projection.cy / h, 0},
            {0, 0, (f + n) / (f - n), -2 * f * n / (f - n)},
            {0, 0, 1, 0}}};
 }
@@ -78,7 +78,7 @@ std::array<double, 4> exact_clip(const Camera& c, const RasterPart& part, const 
   for (std::size_t r = 0; r < 3; ++r) {
     for (std::size_t k = 0; k < 4; ++k) placement.rows[r][k] = part.world_from_part[r][k];
   }
-  const CameraPoint at = to_camera(c, placement(MeshPoint{p[0], p[1], p[2]}));
+  const CameraPoint at = to_camera(c.world_to_camera, placement(MeshPoint{p[0], p[1], p[2]}));
   const std::array<double, 4> v{round_to_binary64(at.x), round_to_binary64(at.y),
                                 round_to_binary64(at.z), 1};
   std::array<double, 4> clip{};
@@ -121,11 +121,11 @@ class Draws {
   }
   Camera camera() {
     Camera camera{.width = 160, .height = 90};
-    camera.fx = 150;
-    camera.fy = 130;
-    camera.cx = 70 + draw(20);
-    camera.cy = 45 + draw(20);
-    camera.skew = draw(10);
+    camera.projection.fx = 150;
+    camera.projection.fy = 130;
+    camera.projection.cx = 70 + draw(20);
+    camera.projection.cy = 45 + draw(20);
+    camera.projection.skew = draw(10);
     camera.near = 1;
     camera.far = 20;
     for (auto& row : camera.world_to_camera) row = {draw(1), draw(1), draw(1), draw(3)};

@@ -58,16 +58,16 @@ double depth_at(const Camera& c, const Lens& lens, std::size_t pixel) {
   const Vector3d n = (corner(c, 1) - a).cross(corner(c, 2) - a);
   const double u = static_cast<double>(pixel % c.width) + 0.5;
   const double v = static_cast<double>(pixel / c.width) + 0.5;
-  const double y = (v - c.cy) / c.fy, x = (u - c.cx - c.skew * y) / c.fx;
+  const double y = (v - c.projection.cy) / c.projection.fy,
+               x = (u - c.projection.cx - c.projection.skew * y) / c.projection.fx;
   const Vector3d ray = without_lens(x, y, lens);
-  return c.projection == Projection::perspective
-             ? n.dot(a) / n.dot(ray)
-             : (n.dot(a) - n.x() * ray.x() - n.y() * ray.y()) / n.z();
+  return is_perspective(c.projection) ? n.dot(a) / n.dot(ray)
+                                      : (n.dot(a) - n.x() * ray.x() - n.y() * ray.y()) / n.z();
 }
 
 struct Case {
   std::string name;
-  Projection projection;
+  ProjectionModel projection;
   double skew = 0;
   Lens lens = {};
   const char* model = "float32-ray";
@@ -78,13 +78,13 @@ void PrintTo(const Case& c, std::ostream* stream) {
 }
 
 Camera camera_of(const Case& c) {
-  Camera camera{.width = 24, .height = 16, .projection = c.projection};
-  const bool perspective = c.projection == Projection::perspective;
-  camera.fx = perspective ? 20 : 4;
-  camera.fy = perspective ? 21 : 4.5;
-  camera.cx = 11;
-  camera.cy = 8.5;
-  camera.skew = c.skew;
+  Camera camera{.width = 24, .height = 16, .projection = {.model = c.projection}};
+  const bool perspective = c.projection == ProjectionModel::perspective;
+  camera.projection.fx = perspective ? 20 : 4;
+  camera.projection.fy = perspective ? 21 : 4.5;
+  camera.projection.cx = 11;
+  camera.projection.cy = 8.5;
+  camera.projection.skew = c.skew;
   camera.near = 0.5;
   camera.far = 100;
   camera.world_to_camera = {
@@ -95,7 +95,7 @@ Camera camera_of(const Case& c) {
 class OfASheet : public testing::TestWithParam<Case> {
  protected:
   [[nodiscard]] bool is_perspective() const {
-    return GetParam().projection == Projection::perspective;
+    return GetParam().projection == ProjectionModel::perspective;
   }
   [[nodiscard]] double affine(double depth) const { return is_perspective() ? 1 / depth : depth; }
 
@@ -171,14 +171,14 @@ TEST_P(OfASheet, SlopesAreDerivatives) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, OfASheet,
-    testing::Values(Case{"Perspective", Projection::perspective},
-                    Case{"Orthographic", Projection::orthographic},
-                    Case{"Skewed", Projection::perspective, 2},
-                    Case{"SkewedOrthographic", Projection::orthographic, 0.5},
-                    Case{"Lens", Projection::perspective, 0, {0.05, 0.02}},
-                    Case{"SkewedLens", Projection::perspective, 2, {0.05, -0.02}},
-                    Case{"Window", Projection::perspective, 1, {}, "gl-unorm24"},
-                    Case{"WindowOrthographic", Projection::orthographic, 0, {}, "gl-float32"}),
+    testing::Values(Case{"Perspective", ProjectionModel::perspective},
+                    Case{"Orthographic", ProjectionModel::orthographic},
+                    Case{"Skewed", ProjectionModel::perspective, 2},
+                    Case{"SkewedOrthographic", ProjectionModel::orthographic, 0.5},
+                    Case{"Lens", ProjectionModel::perspective, 0, {0.05, 0.02}},
+                    Case{"SkewedLens", ProjectionModel::perspective, 2, {0.05, -0.02}},
+                    Case{"Window", ProjectionModel::perspective, 1, {}, "gl-unorm24"},
+                    Case{"WindowOrthographic", ProjectionModel::orthographic, 0, {}, "gl-float32"}),
     [](const auto& c) { return c.param.name; });
 
 TEST(Residuals, TheirCostLeavesOutTheWorst) {

@@ -21,12 +21,12 @@ Point distorted(double x, double y, double k1, double k2) {
 
 Camera skewed_camera() {
   Camera camera{.width = 60, .height = 40};
-  camera.fx = 50;
-  camera.fy = 55;
-  camera.cx = 27.5;
-  camera.cy = 21;
-  camera.skew = 3;
-  camera.pixel_centre = 0;
+  camera.projection.fx = 50;
+  camera.projection.fy = 55;
+  camera.projection.cx = 27.5;
+  camera.projection.cy = 21;
+  camera.projection.skew = 3;
+  camera.projection.pixel_centre = 0;
   return camera;
 }
 
@@ -65,15 +65,17 @@ TEST(SampleGrid, TheLensShowsTheSampleThere) {
   for (const double k1 : {0.15, -0.15}) {
     const SamplePosition sample{.x = 0.25, .y = 0.75, .k1 = k1, .k2 = -k1 / 3};
     const SampleGrid grid(camera, sample);
-    const double centre_x = camera.cx + 0.5, centre_y = camera.cy + 0.5;  // pixel_centre is 0
+    const double centre_x = camera.projection.cx + 0.5,
+                 centre_y = camera.projection.cy + 0.5;  // pixel_centre is 0
     for (std::uint32_t row = 0; row < camera.height; ++row) {
       for (std::uint32_t column = 0; column < camera.width; ++column) {
         const auto [u, v] = grid.at(column, row);
-        const double y = (v - centre_y) / camera.fy;
-        const double x = (u - centre_x - camera.skew * y) / camera.fx;
+        const double y = (v - centre_y) / camera.projection.fy;
+        const double x = (u - centre_x - camera.projection.skew * y) / camera.projection.fx;
         const Point shown = distorted(x, y, sample.k1, sample.k2);
-        ASSERT_NEAR(camera.fx * shown.x + camera.skew * shown.y + centre_x, column + 0.25, 1e-11);
-        ASSERT_NEAR(camera.fy * shown.y + centre_y, row + 0.75, 1e-11);
+        ASSERT_NEAR(camera.projection.fx * shown.x + camera.projection.skew * shown.y + centre_x,
+                    column + 0.25, 1e-11);
+        ASSERT_NEAR(camera.projection.fy * shown.y + centre_y, row + 0.75, 1e-11);
         ASSERT_LE(std::abs(u - column - 0.25), grid.reach());
         ASSERT_LE(std::abs(v - row - 0.75), grid.reach());
       }

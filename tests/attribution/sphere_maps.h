@@ -40,7 +40,7 @@ inline attribution::OtherMap in_binary32(const attribution::Truth& truth) {
 inline attribution::OtherMap in_codes(const attribution::Truth& truth, int bits, double near,
                                       double far) {
   const attribution::WindowDepth window =
-      attribution::window_depth(truth.camera.projection, Mapping::opengl, near, far);
+      attribution::window_depth(truth.camera.projection.model, Mapping::opengl, near, far);
   const double greatest = std::exp2(bits) - 1;
   attribution::OtherMap map = in_binary32(truth);
   for (std::size_t i = 0; i < map.depths.size(); ++i) {

@@ -21,7 +21,7 @@ namespace fathom::attribution {
 namespace {
 
 Camera small_camera() {
-  Camera camera{.width = 64, .height = 48, .fx = 60, .fy = 60, .cx = 32, .cy = 24};
+  Camera camera{.width = 64, .height = 48, .projection = {.fx = 60, .fy = 60, .cx = 32, .cy = 24}};
   camera.near = 0.5;
   camera.far = 20;
   return camera;

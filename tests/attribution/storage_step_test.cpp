@@ -26,7 +26,7 @@ TEST(StorageStep, IsNoFinerThanTheArithmetic) {
   const RasterModel model{.mapping = Mapping::opengl, .storage = Storage::float32};
   EXPECT_EQ(storage_step(model, 0.01), 0x1p-24);
   RasterModel written{.storage = Storage::float32};
-  written.written = written_depth(Projection::perspective, Mapping::log_ulrich, 0.5, 20);
+  written.written = written_depth(ProjectionModel::perspective, Mapping::log_ulrich, 0.5, 20);
   EXPECT_GT(storage_step(written, 0.75), 0x1p-24);
 }
 

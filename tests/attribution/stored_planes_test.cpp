@@ -91,7 +91,7 @@ TEST(StoredPlanes, AreAPossibleCauseWhereTheyCannotBeRead) {
 TEST(StoredPlanes, AreNotBlamedForAnotherScene) {
   const auto truth = sphere_seen_by(sphere_camera(0.1, 100));
   Camera elsewhere = truth->camera;
-  elsewhere.fx /= 3;
+  elsewhere.projection.fx /= 3;
   const OtherMap map = in_codes(seen_by(*truth, elsewhere), 24, 0.001, 100);
   const Judgement found = judge(truth, map, model_named("gl-unorm24"));
   for (const Finding& finding : found.attribution.findings) EXPECT_NE(finding.kind, "clip-planes");

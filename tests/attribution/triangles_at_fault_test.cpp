@@ -104,12 +104,12 @@ TEST(MissingTriangle, ManyAreNamedTogether) {
   EXPECT_EQ(findings[0].pixels, 36U);
 }
 
-class Culling : public testing::TestWithParam<Projection> {};
+class Culling : public testing::TestWithParam<ProjectionModel> {};
 
 TEST_P(Culling, OfEitherWay) {
   for (const bool facing : {true, false}) {
     Wall wall;
-    wall.truth.camera.projection = GetParam();
+    wall.truth.camera.projection.model = GetParam();
     for (std::uint32_t t = 0; t < 100; ++t) {
       if (Wall::faces(t) == facing) wall.remove(t);
     }
@@ -124,10 +124,11 @@ TEST_P(Culling, OfEitherWay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Culling,
-                         testing::Values(Projection::perspective, Projection::orthographic),
+                         testing::Values(ProjectionModel::perspective,
+                                         ProjectionModel::orthographic),
                          [](const auto& projection) {
-                           return projection.param == Projection::perspective ? "Perspective"
-                                                                              : "Orthographic";
+                           return projection.param == ProjectionModel::perspective ? "Perspective"
+                                                                                   : "Orthographic";
                          });
 
 TEST(CullingOfSome, IsNone) {

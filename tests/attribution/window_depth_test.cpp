@@ -13,7 +13,7 @@ constexpr double near = 0.5, far = 20, infinity = std::numeric_limits<double>::i
 /// What a mapping makes of near and far.
 struct Ends {
   std::string name;
-  Projection projection;
+  ProjectionModel projection;
   Mapping mapping;
   double at_near, at_far;
 };
@@ -37,26 +37,27 @@ TEST_P(WindowDepths, GoFromNearToFarAndBack) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, WindowDepths,
-    testing::Values(Ends{"OpenGl", Projection::perspective, Mapping::opengl, 0, 1},
-                    Ends{"Standard", Projection::perspective, Mapping::standard, 0, 1},
-                    Ends{"Reversed", Projection::perspective, Mapping::reversed, 1, 0},
-                    Ends{"Infinite", Projection::perspective, Mapping::infinite, 0, 1 - near / far},
-                    Ends{"ReversedInfinite", Projection::perspective, Mapping::reversed_infinite, 1,
-                         near / far},
-                    Ends{"Logarithmic", Projection::perspective, Mapping::log_ulrich, 0, 1},
-                    Ends{"OrthographicOpenGl", Projection::orthographic, Mapping::opengl, 0, 1},
-                    Ends{"OrthographicReversed", Projection::orthographic, Mapping::reversed, 1, 0},
-                    Ends{"OrthographicLogarithmic", Projection::orthographic, Mapping::log_ulrich,
-                         0, 1}),
+    testing::Values(
+        Ends{"OpenGl", ProjectionModel::perspective, Mapping::opengl, 0, 1},
+        Ends{"Standard", ProjectionModel::perspective, Mapping::standard, 0, 1},
+        Ends{"Reversed", ProjectionModel::perspective, Mapping::reversed, 1, 0},
+        Ends{"Infinite", ProjectionModel::perspective, Mapping::infinite, 0, 1 - near / far},
+        Ends{"ReversedInfinite", ProjectionModel::perspective, Mapping::reversed_infinite, 1,
+             near / far},
+        Ends{"Logarithmic", ProjectionModel::perspective, Mapping::log_ulrich, 0, 1},
+        Ends{"OrthographicOpenGl", ProjectionModel::orthographic, Mapping::opengl, 0, 1},
+        Ends{"OrthographicReversed", ProjectionModel::orthographic, Mapping::reversed, 1, 0},
+        Ends{"OrthographicLogarithmic", ProjectionModel::orthographic, Mapping::log_ulrich, 0, 1}),
     [](const auto& ends) { return ends.param.name; });
 
 TEST(WindowDepth, BeyondInfinityThereIsNothing) {
-  const WindowDepth window = window_depth(Projection::perspective, Mapping::standard, near, far);
+  const WindowDepth window =
+      window_depth(ProjectionModel::perspective, Mapping::standard, near, far);
   EXPECT_EQ(window.to_depth(far / (far - near)), infinity);
   EXPECT_EQ(window.to_depth(2), infinity);
-  EXPECT_EQ(
-      window_depth(Projection::perspective, Mapping::reversed_infinite, near, infinity).to_depth(0),
-      infinity);
+  EXPECT_EQ(window_depth(ProjectionModel::perspective, Mapping::reversed_infinite, near, infinity)
+                .to_depth(0),
+            infinity);
 }
 
 }  // namespace

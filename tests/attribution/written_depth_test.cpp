@@ -15,7 +15,8 @@ TEST(WrittenDepths, AllowWhatTheShadingLanguageAllowsToLog2AndLittleMore) {
   constexpr double u = unit_roundoff<float>;
   EXPECT_EQ(log2_error(0.25), 0x1p-21);
   EXPECT_EQ(log2_error(-10), 60 * u);
-  const WrittenDepth shader = written_depth(Projection::perspective, Mapping::log_ulrich, 0.5, 20);
+  const WrittenDepth shader =
+      written_depth(ProjectionModel::perspective, Mapping::log_ulrich, 0.5, 20);
   for (const double depth : {0.6, 3.0, 19.0}) {
     const double q = 1 / depth, z = shader.value(q), logarithm = z / shader.scale;
     EXPECT_NEAR(z, std::log(depth / 0.5) / std::log(40), 1e-7);  // its constants are binary32
@@ -31,15 +32,15 @@ TEST(WrittenDepths, AllowWhatTheShadingLanguageAllowsToLog2AndLittleMore) {
 
 TEST(WrittenDepths, OfReversedMappingsAreTheirs) {
   const WrittenDepth perspective =
-      written_depth(Projection::perspective, Mapping::reversed, 0.5, 20);
+      written_depth(ProjectionModel::perspective, Mapping::reversed, 0.5, 20);
   EXPECT_TRUE(perspective.of_w);
   EXPECT_NEAR(perspective.value(1 / 0.5), 1, 1e-7);  // its constants are binary32
   EXPECT_NEAR(perspective.value(1 / 20.0), 0, 1e-7);
   const WrittenDepth orthographic =
-      written_depth(Projection::orthographic, Mapping::reversed, 0.5, 20);
+      written_depth(ProjectionModel::orthographic, Mapping::reversed, 0.5, 20);
   EXPECT_FALSE(orthographic.of_w);
   EXPECT_EQ(orthographic.value(0.25), 0.75);
-  EXPECT_THROW(written_depth(Projection::perspective, Mapping::log_ulrich, 0, 20), InputError);
+  EXPECT_THROW(written_depth(ProjectionModel::perspective, Mapping::log_ulrich, 0, 20), InputError);
 }
 
 }  // namespace

@@ -36,27 +36,29 @@ Camera with(const std::string& more) {
 bool same_bits(const Camera& a, const Camera& b) {
   const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
   const auto numbers = [](const Camera& c) {
-    std::vector<double> list{c.fx, c.fy, c.cx, c.cy, c.skew, c.pixel_centre, c.near, c.far};
+    std::vector<double> list{
+        c.projection.fx,   c.projection.fy,           c.projection.cx, c.projection.cy,
+        c.projection.skew, c.projection.pixel_centre, c.near,          c.far};
     for (const auto& row : c.world_to_camera) list.insert(list.end(), row.begin(), row.end());
     return list;
   };
   const auto x = numbers(a), y = numbers(b);
   for (std::size_t i = 0; i < x.size(); ++i)
     if (bits(x[i]) != bits(y[i])) return false;
-  return a.width == b.width && a.height == b.height && a.projection == b.projection;
+  return a.width == b.width && a.height == b.height && a.projection.model == b.projection.model;
 }
 
 TEST(CameraJson, DefaultsAreThoseOfTheInterface) {
   const Camera camera = with("");
   EXPECT_EQ(camera.width, 640U);
   EXPECT_EQ(camera.height, 480U);
-  EXPECT_EQ(camera.projection, Projection::perspective);
-  EXPECT_EQ(camera.fx, 525);
-  EXPECT_EQ(camera.fy, 525.5);
-  EXPECT_EQ(camera.cx, 320);
-  EXPECT_EQ(camera.cy, 240);
-  EXPECT_EQ(camera.skew, 0);
-  EXPECT_EQ(camera.pixel_centre, 0.5);
+  EXPECT_EQ(camera.projection.model, ProjectionModel::perspective);
+  EXPECT_EQ(camera.projection.fx, 525);
+  EXPECT_EQ(camera.projection.fy, 525.5);
+  EXPECT_EQ(camera.projection.cx, 320);
+  EXPECT_EQ(camera.projection.cy, 240);
+  EXPECT_EQ(camera.projection.skew, 0);
+  EXPECT_EQ(camera.projection.pixel_centre, 0.5);
   EXPECT_EQ(camera.near, 0);
   EXPECT_EQ(camera.far, std::numeric_limits<double>::infinity());
 }
@@ -64,9 +66,9 @@ TEST(CameraJson, DefaultsAreThoseOfTheInterface) {
 TEST(CameraJson, ReadsEveryKey) {
   const Camera camera = with(
       R"("projection": "orthographic", "skew": -1.5, "pixel_centre": 0, "near": 0.1, "far": 100)");
-  EXPECT_EQ(camera.projection, Projection::orthographic);
-  EXPECT_EQ(camera.skew, -1.5);
-  EXPECT_EQ(camera.pixel_centre, 0);
+  EXPECT_EQ(camera.projection.model, ProjectionModel::orthographic);
+  EXPECT_EQ(camera.projection.skew, -1.5);
+  EXPECT_EQ(camera.projection.pixel_centre, 0);
   EXPECT_EQ(camera.near, 0.1);
   EXPECT_EQ(camera.far, 100);
   EXPECT_EQ(with(R"("far": null)").far, std::numeric_limits<double>::infinity());
@@ -97,7 +99,7 @@ TEST(CameraJson, SaysThatAMatrixLooksTransposed) {
 }
 
 TEST(CameraJson, PixelCenterIsPixelCentre) {
-  EXPECT_EQ(with(R"("pixel_center": 0)").pixel_centre, 0);
+  EXPECT_EQ(with(R"("pixel_center": 0)").projection.pixel_centre, 0);
   EXPECT_THAT(message_of<InputError>([&] { with(R"("pixel_center": 0, "pixel_centre": 0)"); }),
               HasSubstr("both \"pixel_centre\" and \"pixel_center\""));
 }
@@ -138,10 +140,10 @@ TEST(CameraJson, CameraToWorldIsInvertedExactly) {
   posed.world_to_camera = {
       {{0.77, 0.01, 0.63, -0.07}, {-0.14, -0.97, 0.17, 0.1}, {0.6, -0.2, -0.7, 3}}};
   Camera inverted = posed;
-  inverted.world_to_camera = camera_to_world(posed);
+  inverted.world_to_camera = camera_to_world(posed.world_to_camera);
   std::string text = to_json(inverted);
   text.replace(text.find("world_to_camera"), 15, "camera_to_world");
-  EXPECT_EQ(read(text).at(0).world_to_camera, camera_to_world(inverted));
+  EXPECT_EQ(read(text).at(0).world_to_camera, camera_to_world(inverted.world_to_camera));
   const auto fault = [&](const std::string& rows, const std::string& more = "") {
     return message_of<InputError>([&] { of(rows, more); });
   };
@@ -178,19 +180,20 @@ TEST(CameraJson, AFileThatDoesNotSayPixelCentreIsWarnedOfOnce) {
 
 TEST(CameraJson, NumbersAreRoundedCorrectly) {
   // 2⁵³ + 1 is a tie (to even, downwards); a digit behind it decides otherwise.
-  EXPECT_EQ(with(R"("skew": 9007199254740993)").skew, 9007199254740992.0);
-  EXPECT_EQ(with(R"("skew": 9007199254740993.0)").skew, 9007199254740992.0);
-  EXPECT_EQ(with(R"("skew": 9007199254740993.00000000000000000000000000000000000001)").skew,
-            9007199254740994.0);
+  EXPECT_EQ(with(R"("skew": 9007199254740993)").projection.skew, 9007199254740992.0);
+  EXPECT_EQ(with(R"("skew": 9007199254740993.0)").projection.skew, 9007199254740992.0);
+  EXPECT_EQ(
+      with(R"("skew": 9007199254740993.00000000000000000000000000000000000001)").projection.skew,
+      9007199254740994.0);
   // Beyond 64 bits.
-  EXPECT_EQ(with(R"("skew": 340282366920938463463374607431768211456)").skew, 0x1p128);
-  EXPECT_EQ(with(R"("skew": 18446744073709551617)").skew, 0x1p64);
-  EXPECT_EQ(with(R"("skew": -18446744073709551617)").skew, -0x1p64);
-  EXPECT_EQ(with(R"("skew": 18446744073709550591)").skew, 0x1.fffffffffffffp63);
+  EXPECT_EQ(with(R"("skew": 340282366920938463463374607431768211456)").projection.skew, 0x1p128);
+  EXPECT_EQ(with(R"("skew": 18446744073709551617)").projection.skew, 0x1p64);
+  EXPECT_EQ(with(R"("skew": -18446744073709551617)").projection.skew, -0x1p64);
+  EXPECT_EQ(with(R"("skew": 18446744073709550591)").projection.skew, 0x1.fffffffffffffp63);
   // The half of the least subnormal is a tie and becomes 0, more becomes the least subnormal.
-  EXPECT_EQ(with(R"("skew": 2.4703282292062327e-324)").skew, 0.0);
-  EXPECT_EQ(with(R"("skew": 2.4703282292062328e-324)").skew, 0x1p-1074);
-  EXPECT_EQ(with(R"("skew": 1e-400)").skew, 0.0);
+  EXPECT_EQ(with(R"("skew": 2.4703282292062327e-324)").projection.skew, 0.0);
+  EXPECT_EQ(with(R"("skew": 2.4703282292062328e-324)").projection.skew, 0x1p-1074);
+  EXPECT_EQ(with(R"("skew": 1e-400)").projection.skew, 0.0);
 }
 
 TEST(CameraJson, ReadsAPath) {
@@ -288,9 +291,11 @@ TEST(CameraJson, RoundTripsBitForBit) {
     Camera camera;
     camera.width = 1 + static_cast<std::uint32_t>(random() % 0xFFFFFFFF);
     camera.height = 1 + static_cast<std::uint32_t>(random() % 0xFFFFFFFF);
-    camera.projection = random() % 2 == 0 ? Projection::perspective : Projection::orthographic;
-    camera.fx = number(), camera.fy = number(), camera.cx = number(), camera.cy = number();
-    camera.skew = number(), camera.pixel_centre = number();
+    camera.projection.model =
+        random() % 2 == 0 ? ProjectionModel::perspective : ProjectionModel::orthographic;
+    camera.projection.fx = number(), camera.projection.fy = number(),
+    camera.projection.cx = number(), camera.projection.cy = number();
+    camera.projection.skew = number(), camera.projection.pixel_centre = number();
     for (auto& row : camera.world_to_camera)
       for (double& entry : row) entry = number();
     camera.near = std::abs(number());
@@ -298,8 +303,8 @@ TEST(CameraJson, RoundTripsBitForBit) {
     if (!find_fault(camera)) cameras.push_back(camera);
   }
   ASSERT_GT(cameras.size(), 10000U);
-  cameras[0].skew = -0.0;
-  cameras[1].cx = 0.0;
+  cameras[0].projection.skew = -0.0;
+  cameras[1].projection.cx = 0.0;
   const auto again = read(to_json(cameras));
   ASSERT_EQ(again.size(), cameras.size());
   for (std::size_t i = 0; i < cameras.size(); ++i)

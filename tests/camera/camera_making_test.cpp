@@ -24,12 +24,13 @@ double rounded(const Dyadic& x) {
 }
 
 Vector3 camera_point(const Camera& camera, const Vector3& X) {
-  const CameraPoint p = to_camera(camera, WorldPoint{X[0], X[1], X[2]});
+  const CameraPoint p = to_camera(camera.world_to_camera, WorldPoint{X[0], X[1], X[2]});
   return {rounded(p.x), rounded(p.y), rounded(p.z)};
 }
 
 std::array<double, 2> pixel(const Camera& camera, const Vector3& X) {
-  const auto [U, V, W] = to_image(camera, to_camera(camera, WorldPoint{X[0], X[1], X[2]}));
+  const auto [U, V, W] =
+      to_image(camera.projection, to_camera(camera.world_to_camera, WorldPoint{X[0], X[1], X[2]}));
   return {round_to_binary64(Ratio(U, W)), round_to_binary64(Ratio(V, W))};
 }
 
@@ -40,11 +41,11 @@ TEST(LookAt, AlongTheAxesIsExact) {
   EXPECT_EQ(camera.world_to_camera, expected);
   EXPECT_EQ(camera.width, 1280U);
   EXPECT_EQ(camera.height, 720U);
-  EXPECT_EQ(camera.cx, 640);
-  EXPECT_EQ(camera.cy, 360);
-  EXPECT_EQ(camera.fx, camera.fy);
+  EXPECT_EQ(camera.projection.cx, 640);
+  EXPECT_EQ(camera.projection.cy, 360);
+  EXPECT_EQ(camera.projection.fx, camera.projection.fy);
   // 360 / tan 20°.
-  EXPECT_NEAR(camera.fx, 989.0918710036640, 1e-12);
+  EXPECT_NEAR(camera.projection.fx, 989.0918710036640, 1e-12);
 }
 
 TEST(LookAt, TargetLandsInTheMiddleAndUpIsUp) {
@@ -69,7 +70,7 @@ TEST(LookAt, TargetLandsInTheMiddleAndUpIsUp) {
     ASSERT_NEAR(above[0], 0, 3e-14);
     ASSERT_LT(above[1], 0);
     // A proper rotation: its determinant is 1 but for the rounding of nine entries.
-    ASSERT_NEAR(rounded(determinant_of_rotation(camera)), 1, 1e-15 * 4);
+    ASSERT_NEAR(rounded(determinant_of_rotation(camera.world_to_camera)), 1, 1e-15 * 4);
   }
 }
 
@@ -84,26 +85,26 @@ TEST(LookAt, WorksAtAnyScale) {
 }
 
 TEST(LookAt, LensesAreAsDescribed) {
-  Lens lens;
+  LensChoice lens;
   lens.width = 300, lens.height = 200;
   lens.focal = 123.5;
   lens.near = 0.5, lens.far = 9;
   Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, lens);
-  EXPECT_EQ(camera.fx, 123.5);
-  EXPECT_EQ(camera.cx, 150);
+  EXPECT_EQ(camera.projection.fx, 123.5);
+  EXPECT_EQ(camera.projection.cx, 150);
   EXPECT_EQ(camera.near, 0.5);
   EXPECT_EQ(camera.far, 9);
-  lens.projection = Projection::orthographic;
+  lens.model = ProjectionModel::orthographic;
   lens.vertical_extent = 4;
   camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, lens);
-  EXPECT_EQ(camera.projection, Projection::orthographic);
+  EXPECT_EQ(camera.projection.model, ProjectionModel::orthographic);
   // 4 units span the height: y = 2 is the upper edge, x = 3 the right one.
   EXPECT_EQ(pixel(camera, {3, 2, 1}), (std::array<double, 2>{300, 0}));
 }
 
 TEST(LookAt, RefusesWhatCannotBe) {
   const auto refused = [](const Vector3& eye, const Vector3& target, const Vector3& up,
-                          const Lens& lens = {}) {
+                          const LensChoice& lens = {}) {
     return message_of<UsageError>([&] { look_at(eye, target, up, lens); });
   };
   EXPECT_THAT(refused({1, 2, 3}, {1, 2, 3}, {0, 1, 0}), HasSubstr("same point"));
@@ -111,19 +112,19 @@ TEST(LookAt, RefusesWhatCannotBe) {
   EXPECT_THAT(refused({0, 0, 0}, {0, 0, 1}, {0, 0, 0}), HasSubstr("zero"));
   EXPECT_THAT(refused({0, 0, infinity}, {0, 0, 1}, {0, 1, 0}), HasSubstr("eye is not finite"));
   EXPECT_THAT(refused({0, 0, 0}, {NAN, 0, 1}, {0, 1, 0}), HasSubstr("target is not finite"));
-  const auto with_lens = [&](void (*change)(Lens&)) {
-    Lens lens;
+  const auto with_lens = [&](void (*change)(LensChoice&)) {
+    LensChoice lens;
     change(lens);
     return refused({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, lens);
   };
-  EXPECT_THAT(with_lens([](Lens& l) { l.vertical_fov = 180; }), HasSubstr("field of view"));
-  EXPECT_THAT(with_lens([](Lens& l) { l.vertical_fov = 0; }), HasSubstr("field of view"));
-  EXPECT_THAT(with_lens([](Lens& l) { l.vertical_fov = NAN; }), HasSubstr("field of view"));
-  EXPECT_THAT(with_lens([](Lens& l) { l.focal = -1; }), HasSubstr("focal"));
-  EXPECT_THAT(with_lens([](Lens& l) { l.focal = infinity; }), HasSubstr("fx"));
-  EXPECT_THAT(with_lens([](Lens& l) { l.width = 0; }), HasSubstr("width"));
-  EXPECT_THAT(with_lens([](Lens& l) { l.near = 2, l.far = 1; }), HasSubstr("far"));
-  EXPECT_THAT(with_lens([](Lens& l) { l.projection = Projection::orthographic; }),
+  EXPECT_THAT(with_lens([](LensChoice& l) { l.vertical_fov = 180; }), HasSubstr("field of view"));
+  EXPECT_THAT(with_lens([](LensChoice& l) { l.vertical_fov = 0; }), HasSubstr("field of view"));
+  EXPECT_THAT(with_lens([](LensChoice& l) { l.vertical_fov = NAN; }), HasSubstr("field of view"));
+  EXPECT_THAT(with_lens([](LensChoice& l) { l.focal = -1; }), HasSubstr("focal"));
+  EXPECT_THAT(with_lens([](LensChoice& l) { l.focal = infinity; }), HasSubstr("fx"));
+  EXPECT_THAT(with_lens([](LensChoice& l) { l.width = 0; }), HasSubstr("width"));
+  EXPECT_THAT(with_lens([](LensChoice& l) { l.near = 2, l.far = 1; }), HasSubstr("far"));
+  EXPECT_THAT(with_lens([](LensChoice& l) { l.model = ProjectionModel::orthographic; }),
               HasSubstr("vertical extent"));
 }
 
@@ -192,7 +193,7 @@ TEST(LookFrom, RightAngledViewsAreExact) {
         for (const auto& row : camera.world_to_camera)
           for (int k = 0; k < 3; ++k)
             EXPECT_TRUE(row[k] == 0 || std::abs(row[k]) == 1) << azimuth << " " << elevation;
-        EXPECT_EQ(determinant_of_rotation(camera), Dyadic(1.0));
+        EXPECT_EQ(determinant_of_rotation(camera.world_to_camera), Dyadic(1.0));
       }
 }
 

@@ -9,11 +9,11 @@ namespace {
 
 TEST(ClipPlanes, AreThereWhereWindowDepthsAreDefined) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  using enum Projection;
-  const auto has = [](Projection projection, double near, double far) {
-    return has_clip_planes({.projection = projection, .near = near, .far = far});
+  using enum ProjectionModel;
+  const auto has = [](ProjectionModel projection, double near, double far) {
+    return has_clip_planes({.projection = {.model = projection}, .near = near, .far = far});
   };
-  for (const Projection projection : {perspective, orthographic}) {
+  for (const ProjectionModel projection : {perspective, orthographic}) {
     EXPECT_TRUE(has(projection, 0.1, 100));
     EXPECT_FALSE(has(projection, 0.1, infinity));
     EXPECT_FALSE(has(projection, 0, infinity));

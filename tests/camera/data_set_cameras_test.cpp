@@ -86,9 +86,9 @@ TEST(ImportMatrices, OneOnEachLineAndAKForEach) {
       poses, K, {PoseDirection::camera_to_world, CameraAxes::opencv, 0.5}, 6, 4, "p"));
   EXPECT_THAT(names(cameras), ElementsAre("0", "1"));
   EXPECT_EQ(cameras[0].camera.world_to_camera, cameras[1].camera.world_to_camera);
-  EXPECT_EQ(cameras[0].camera.fy, 3);
-  EXPECT_EQ(cameras[1].camera.fx, 500);
-  EXPECT_EQ(cameras[1].camera.pixel_centre, 0.5);
+  EXPECT_EQ(cameras[0].camera.projection.fy, 3);
+  EXPECT_EQ(cameras[1].camera.projection.fx, 500);
+  EXPECT_EQ(cameras[1].camera.projection.pixel_centre, 0.5);
 }
 
 TEST(ImportMatrices, NamesLineAndFault) {
@@ -173,7 +173,7 @@ TEST(ImportTum, ImagesHaveThePoseThatIsNearestInTime) {
 TEST(ImportTum, Lenses) {
   EXPECT_EQ(tum_lens("ros")->distortion, "");
   EXPECT_EQ(tum_lens("freiburg3")->distortion, "");
-  EXPECT_EQ(tum_lens("freiburg3")->camera.cy, 247.6);
+  EXPECT_EQ(tum_lens("freiburg3")->camera.projection.cy, 247.6);
   EXPECT_THAT(tum_lens("freiburg1")->distortion, HasSubstr("freiburg1"));
   EXPECT_THAT(tum_lens("freiburg2")->distortion, HasSubstr("distortion"));
   EXPECT_FALSE(tum_lens("freiburg4"));
@@ -183,7 +183,7 @@ TEST(ImportTum, Lenses) {
                                          .K = IntrinsicMatrix{1, 0, 2, 0, 3, 4, 0, 0, 1},
                                          .pixel_centre = 0.5});
   EXPECT_EQ(given.camera.width, 8U);
-  EXPECT_EQ(given.camera.pixel_centre, 0.5);
+  EXPECT_EQ(given.camera.projection.pixel_centre, 0.5);
 }
 
 TEST(ImportTum, NamesLineAndFault) {

@@ -36,7 +36,8 @@ double any_number(std::mt19937_64& random) {
 
 Camera any_camera(std::mt19937_64& random) {
   Camera camera;
-  for (double* x : {&camera.fx, &camera.fy, &camera.cx, &camera.cy, &camera.skew})
+  for (double* x : {&camera.projection.fx, &camera.projection.fy, &camera.projection.cx,
+                    &camera.projection.cy, &camera.projection.skew})
     *x = any_number(random);
   for (auto& row : camera.world_to_camera)
     for (double& x : row) x = any_number(random);
@@ -85,7 +86,7 @@ TEST(EigenConversions, TheInverseIsThatOfTheCamera) {
     Camera camera;
     for (auto& row : camera.world_to_camera)
       for (double& x : row) x = any_double(random);
-    const auto rows = camera_to_world(camera);
+    const auto rows = camera_to_world(camera.world_to_camera);
     const Eigen::Affine3d pose = world_from_camera(camera);
     for (std::size_t r = 0; r < 3; ++r)
       for (std::size_t k = 0; k < 4; ++k)
@@ -102,17 +103,18 @@ TEST(EigenConversions, IntrinsicsKeepTheirBits) {
     const Camera camera = any_camera(random);
     const Eigen::Matrix3d K = intrinsic_matrix(camera);
     Camera back;
-    back.pixel_centre = 0;
+    back.projection.pixel_centre = 0;
     set_intrinsic_matrix(back, K);
-    EXPECT_EQ(bits(back.fx), bits(camera.fx));
-    EXPECT_EQ(bits(back.fy), bits(camera.fy));
-    EXPECT_EQ(bits(back.cx), bits(camera.cx));
-    EXPECT_EQ(bits(back.cy), bits(camera.cy));
-    EXPECT_EQ(bits(back.skew), bits(camera.skew));
-    EXPECT_EQ(back.pixel_centre, 0);
+    EXPECT_EQ(bits(back.projection.fx), bits(camera.projection.fx));
+    EXPECT_EQ(bits(back.projection.fy), bits(camera.projection.fy));
+    EXPECT_EQ(bits(back.projection.cx), bits(camera.projection.cx));
+    EXPECT_EQ(bits(back.projection.cy), bits(camera.projection.cy));
+    EXPECT_EQ(bits(back.projection.skew), bits(camera.projection.skew));
+    EXPECT_EQ(back.projection.pixel_centre, 0);
   }
   Camera camera;
-  camera.fx = 5, camera.skew = 6, camera.cx = 7, camera.fy = 8, camera.cy = 9;
+  camera.projection.fx = 5, camera.projection.skew = 6, camera.projection.cx = 7,
+  camera.projection.fy = 8, camera.projection.cy = 9;
   Eigen::Matrix3d K;
   K << 5, 6, 7, 0, 8, 9, 0, 0, 1;
   EXPECT_EQ(intrinsic_matrix(camera), K);
@@ -124,9 +126,9 @@ TEST(EigenConversions, OtherIntrinsicMatricesAreRefused) {
       Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
       K(row, column) = wrong;
       Camera camera;
-      camera.cx = 3;
+      camera.projection.cx = 3;
       EXPECT_THROW(set_intrinsic_matrix(camera, K), InputError) << row << ", " << column;
-      EXPECT_EQ(camera.cx, 3) << "changed all the same";
+      EXPECT_EQ(camera.projection.cx, 3) << "changed all the same";
     }
   }
 }

@@ -59,7 +59,7 @@ TEST(ImportBop, OrdersByNumberAndDefaultsToTheCameraFrame) {
   EXPECT_EQ(cameras[1].camera.name, "10");
   EXPECT_EQ(cameras[2].camera.name, "100");
   EXPECT_EQ(cameras[0].camera.world_to_camera, Camera().world_to_camera);
-  EXPECT_EQ(cameras[0].camera.pixel_centre, 0);
+  EXPECT_EQ(cameras[0].camera.projection.pixel_centre, 0);
 }
 
 TEST(ImportBop, NamesFaults) {

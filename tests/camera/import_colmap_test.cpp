@@ -98,9 +98,9 @@ TEST(ImportColmap, QuarterTurnsAreExactWhateverTheQuaternionsLength) {
         {{0, -1, 0, 1}, {1, 0, 0, 2}, {0, 0, 1, 3}}};
     EXPECT_EQ(cameras[0].camera.world_to_camera, expected) << q;
     EXPECT_EQ(cameras[0].camera.name, "name with blanks.jpg");
-    EXPECT_EQ(cameras[0].camera.fx, 3);
-    EXPECT_EQ(cameras[0].camera.fy, 3);
-    EXPECT_EQ(cameras[0].camera.pixel_centre, 0.5);
+    EXPECT_EQ(cameras[0].camera.projection.fx, 3);
+    EXPECT_EQ(cameras[0].camera.projection.fy, 3);
+    EXPECT_EQ(cameras[0].camera.projection.pixel_centre, 0.5);
   }
 }
 
@@ -132,7 +132,7 @@ TEST(ImportColmap, DistortionIsToldUnlessItIsZero) {
     EXPECT_THAT(one.distortion,
                 AllOf(HasSubstr("cameras.txt: line 1"), HasSubstr("lens distortion")))
         << not_zero;
-    EXPECT_EQ(one.camera.cx, 2) << not_zero;
+    EXPECT_EQ(one.camera.projection.cx, 2) << not_zero;
   }
   for (const char* no_pinhole :
        {"OPENCV_FISHEYE 4 2 3 3 2 1 0 0 0 0", "SIMPLE_RADIAL_FISHEYE 4 2 3 2 1 0",
@@ -158,7 +158,7 @@ TEST(ImportColmap, KnowsTheLengthOfEveryModel) {
             << 2.0 << 1.0;
     images << std::uint64_t{1} << std::uint32_t{1} << 1.0 << 0.0 << 0.0 << 0.0 << 0.0 << 0.0 << 0.0
            << std::uint32_t{2} << 'a' << '\0' << std::uint64_t{0};
-    EXPECT_EQ(colmap_binary(cameras.text, images.text).at(0).camera.fx, 3) << model;
+    EXPECT_EQ(colmap_binary(cameras.text, images.text).at(0).camera.projection.fx, 3) << model;
   }
 }
 

@@ -77,12 +77,12 @@ TEST(ImportGltf, OrthographicProjectsAsGltfDoes) {
       "nodes": [{"camera": 0, "matrix": [1,0,0,0, 0,0,-1,0, 0,1,0,0, 1,20,3,1]}]})");
   ASSERT_EQ(cameras.size(), 1U);
   EXPECT_EQ(cameras[0].camera.name, "top");
-  EXPECT_EQ(cameras[0].camera.projection, Projection::orthographic);
+  EXPECT_EQ(cameras[0].camera.projection.model, ProjectionModel::orthographic);
   EXPECT_EQ(cameras[0].camera.far, 100);
   // Right is x, up is −z, back is y; the eye is at (1, 20, 3).
   const Camera& camera = cameras[0].camera;
-  const CameraPoint p = to_camera(camera, {2.0, 5.0, 1.0});
-  const auto [U, V, W] = to_image(camera, p);
+  const CameraPoint p = to_camera(camera.world_to_camera, {2.0, 5.0, 1.0});
+  const auto [U, V, W] = to_image(camera.projection, p);
   EXPECT_EQ(round_to_binary64(Ratio(U, W)), 400);  // 320·(1 + (2 − 1)/4)
   EXPECT_EQ(round_to_binary64(Ratio(V, W)), 80);   // 240·(1 − (3 − 1)/3)
   EXPECT_EQ(round_to_binary64(Ratio(p.z)), 20 - 5);

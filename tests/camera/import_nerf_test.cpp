@@ -81,10 +81,10 @@ TEST(ImportNerf, ExactWhereTheInverseIs) {
   const std::array<std::array<double, 4>, 3> expected{
       {{1, 0, 0, -1}, {0, -1, 0, 2}, {0, 0, -1, 3}}};
   EXPECT_EQ(cameras.at(0).camera.world_to_camera, expected);
-  EXPECT_EQ(cameras.at(0).camera.fy, 100);
-  EXPECT_EQ(cameras.at(0).camera.cx, 320);
-  EXPECT_EQ(cameras.at(0).camera.cy, 240);
-  EXPECT_EQ(cameras.at(0).camera.pixel_centre, 0.5);
+  EXPECT_EQ(cameras.at(0).camera.projection.fy, 100);
+  EXPECT_EQ(cameras.at(0).camera.projection.cx, 320);
+  EXPECT_EQ(cameras.at(0).camera.projection.cy, 240);
+  EXPECT_EQ(cameras.at(0).camera.projection.pixel_centre, 0.5);
   EXPECT_EQ(cameras.at(0).camera.name, "0");
 }
 
@@ -94,12 +94,12 @@ TEST(ImportNerf, AnglesSpanTheImage) {
   const std::string frames = std::string(R"("frames": [{)") + nerf_pose + "}]}";
   const auto cameras =
       nerf(R"({"camera_angle_x": 1.5707963267948966, )" + frames, warnings, 800, 600);
-  EXPECT_NEAR(cameras.at(0).camera.fx, 400, 1e-12);
-  EXPECT_EQ(cameras.at(0).camera.fy, cameras.at(0).camera.fx);
+  EXPECT_NEAR(cameras.at(0).camera.projection.fx, 400, 1e-12);
+  EXPECT_EQ(cameras.at(0).camera.projection.fy, cameras.at(0).camera.projection.fx);
   const auto both = nerf(
       R"({"camera_angle_x": 1.5707963267948966, "camera_angle_y": 0.9272952180016122, )" + frames,
       warnings, 800, 600);
-  EXPECT_NEAR(both.at(0).camera.fy, 600, 1e-12);  // tan(½·atan2(4, 3)·…) = ½
+  EXPECT_NEAR(both.at(0).camera.projection.fy, 600, 1e-12);  // tan(½·atan2(4, 3)·…) = ½
   EXPECT_THAT(message_of<InputError>([&] { nerf(R"({"camera_angle_x": 1, )" + frames, warnings); }),
               HasSubstr("no image size was given"));
 }
@@ -110,7 +110,7 @@ TEST(ImportNerf, DegreesSpanTheImage) {
   const std::string frames = std::string(R"("frames": [{)") + nerf_pose + "}]}";
   const auto focal_lengths = [&](const std::string& keys) {
     const Camera camera = nerf("{" + keys + frames, warnings, 800, 600).at(0).camera;
-    return std::array{camera.fx, camera.fy};
+    return std::array{camera.projection.fx, camera.projection.fy};
   };
   EXPECT_EQ(focal_lengths(R"("x_fov": 90, )"), (std::array{400.0, 400.0}));
   EXPECT_EQ(focal_lengths(R"("y_fov": 90, )"), (std::array{300.0, 300.0}));

@@ -96,7 +96,7 @@ TEST(ImportOpengl, PerspectiveProjectsAsOpenglDoes) {
     const auto same = parse_opengl(by_columns, "gl.json");
     EXPECT_EQ(same.at(0).camera.name, "x");
     EXPECT_EQ(same.at(0).camera.world_to_camera, cameras[0].camera.world_to_camera);
-    EXPECT_EQ(same.at(0).camera.cx, cameras[0].camera.cx);
+    EXPECT_EQ(same.at(0).camera.projection.cx, cameras[0].camera.projection.cx);
     const Camera& camera = cameras[0].camera;
     for (int i = 0; i < 5; ++i) {
       const Vector X = draw.point(8);
@@ -124,7 +124,7 @@ TEST(ImportOpengl, OrthographicProjectsAsOpenglDoes) {
                                           rows_of(M) + R"(, "viewport": [640, 480]})",
                                       "gl.json");
     const Camera& camera = cameras.at(0).camera;
-    EXPECT_EQ(camera.projection, Projection::orthographic);
+    EXPECT_EQ(camera.projection.model, ProjectionModel::orthographic);
     for (int i = 0; i < 5; ++i) {
       const Vector X = draw.point(8);
       expect_same(seen(camera, X), through_opengl(P, M, X, 640, 480).seen);
@@ -147,10 +147,10 @@ TEST(ImportOpengl, DepthRanges) {
   Camera camera = opengl("[[1,0,0,0],[0,1,0,0],[0,0,-2,-3],[0,0,-1,0]]");
   EXPECT_EQ(camera.near, 1);
   EXPECT_EQ(camera.far, 3);
-  EXPECT_EQ(camera.fx, 320);
-  EXPECT_EQ(camera.fy, 240);
-  EXPECT_EQ(camera.cx, 320);
-  EXPECT_EQ(camera.cy, 240);
+  EXPECT_EQ(camera.projection.fx, 320);
+  EXPECT_EQ(camera.projection.fy, 240);
+  EXPECT_EQ(camera.projection.cx, 320);
+  EXPECT_EQ(camera.projection.cy, 240);
   // In 0…1: near 1, far 3: a = −1.5, b = −1.5; reversed: a = 0.5, b = 1.5.
   camera =
       opengl("[[1,0,0,0],[0,1,0,0],[0,0,-1.5,-1.5],[0,0,-1,0]]", R"(, "clip_depth": "zero-one")");

@@ -98,7 +98,7 @@ TEST(MadeNumbers, FocalLengthsOfAFieldOfViewAreRoundedOnce) {
   Angles draw;
   int off_in_binary64 = 0;
   for (int i = 0; i < 20000; ++i) {
-    Lens lens{.height = draw.size(), .vertical_fov = draw.below(180)};
+    LensChoice lens{.height = draw.size(), .vertical_fov = draw.below(180)};
     if (!(lens.vertical_fov > 0 && lens.vertical_fov < 180)) continue;
     const double exact = focal_length(lens.height, Wide::radians_of(lens.vertical_fov));
     if (std::isinf(exact)) {
@@ -106,15 +106,16 @@ TEST(MadeNumbers, FocalLengthsOfAFieldOfViewAreRoundedOnce) {
       continue;
     }
     const Camera camera = look_at({0, 0, 1}, {}, {0, 1, 0}, lens);
-    ASSERT_EQ(camera.fx, exact) << std::hexfloat << lens.vertical_fov << " of " << lens.height;
-    ASSERT_EQ(camera.fy, exact);
+    ASSERT_EQ(camera.projection.fx, exact)
+        << std::hexfloat << lens.vertical_fov << " of " << lens.height;
+    ASSERT_EQ(camera.projection.fy, exact);
     off_in_binary64 +=
         lens.height / 2.0 / std::tan(lens.vertical_fov * (std::numbers::pi / 360)) != exact;
   }
   // The formula in binary64 is another camera in a good part of the cases.
   EXPECT_GT(off_in_binary64, 2000);
-  Lens right_angle{.height = 721, .vertical_fov = 90};
-  EXPECT_EQ(look_at({0, 0, 1}, {}, {0, 1, 0}, right_angle).fx, 360.5);
+  LensChoice right_angle{.height = 721, .vertical_fov = 90};
+  EXPECT_EQ(look_at({0, 0, 1}, {}, {0, 1, 0}, right_angle).projection.fx, 360.5);
 }
 
 TEST(MadeNumbers, FocalLengthsOfImportedAnglesAreRoundedOnce) {
@@ -129,13 +130,13 @@ TEST(MadeNumbers, FocalLengthsOfImportedAnglesAreRoundedOnce) {
     const auto nerf = parse_nerf(R"({"camera_angle_x": )" + test::text_of(radians) +
                                      R"(, "y_fov": )" + test::text_of(degrees) + ", " + frames,
                                  "t.json", width, height, warnings);
-    ASSERT_EQ(nerf.at(0).camera.fx, focal_length(width, Wide(radians)));
-    ASSERT_EQ(nerf.at(0).camera.fy, focal_length(height, Wide::radians_of(degrees)));
+    ASSERT_EQ(nerf.at(0).camera.projection.fx, focal_length(width, Wide(radians)));
+    ASSERT_EQ(nerf.at(0).camera.projection.fy, focal_length(height, Wide::radians_of(degrees)));
     const auto gltf = parse_gltf_cameras(
         R"({"cameras": [{"type": "perspective", "perspective": {"yfov": )" +
             test::text_of(radians) + R"(, "znear": 1}}], "nodes": [{"camera": 0}]})",
         "a.gltf", width, height);
-    ASSERT_EQ(gltf.at(0).camera.fx, focal_length(height, Wide(radians)));
+    ASSERT_EQ(gltf.at(0).camera.projection.fx, focal_length(height, Wide(radians)));
   }
 }
 
@@ -231,15 +232,16 @@ TEST(MadeNumbers, PrincipalPointsAreRoundedOnce) {
   std::uniform_real_distribution<double> any(-2000, 2000), centre(-3, 3);
   for (int i = 0; i < 5000; ++i) {
     Camera camera;
-    camera.cx = any(random);
-    camera.cy = any(random);
-    camera.pixel_centre = i % 3 == 0 ? 0 : i % 3 == 1 ? 0.5 : centre(random);
-    const auto [x, y] = principal_point(camera);
+    camera.projection.cx = any(random);
+    camera.projection.cy = any(random);
+    camera.projection.pixel_centre = i % 3 == 0 ? 0 : i % 3 == 1 ? 0.5 : centre(random);
+    const auto [x, y] = principal_point(camera.projection);
     const auto exact = [&](double c) {
-      return round_to_binary64(Ratio(Dyadic(c) + (Dyadic(0.5) - Dyadic(camera.pixel_centre))));
+      return round_to_binary64(
+          Ratio(Dyadic(c) + (Dyadic(0.5) - Dyadic(camera.projection.pixel_centre))));
     };
-    ASSERT_EQ(x, exact(camera.cx));
-    ASSERT_EQ(y, exact(camera.cy));
+    ASSERT_EQ(x, exact(camera.projection.cx));
+    ASSERT_EQ(y, exact(camera.projection.cy));
   }
 }
 

@@ -25,8 +25,8 @@ struct Seen {
 
 inline Seen seen(const Camera& camera, const Vector& X) {
   const auto exact = [](Real x) { return Dyadic(static_cast<double>(x)); };
-  const CameraPoint p = to_camera(camera, {exact(X[0]), exact(X[1]), exact(X[2])});
-  const auto [U, V, W] = to_image(camera, p);
+  const CameraPoint p = to_camera(camera.world_to_camera, {exact(X[0]), exact(X[1]), exact(X[2])});
+  const auto [U, V, W] = to_image(camera.projection, p);
   return {round_to_binary64(Ratio(U, W)), round_to_binary64(Ratio(V, W)),
           round_to_binary64(Ratio(p.z))};
 }

@@ -49,7 +49,7 @@ TEST(ClosedForm, AnObliquePlane) {
 
 TEST(ClosedForm, TheGroundUnderAnOrthographicCameraIsALinearRamp) {
   Camera camera = camera_of(8, 4, 2);
-  camera.projection = Projection::orthographic;
+  camera.projection.model = ProjectionModel::orthographic;
   const Scene scene = quad({-10, -10, 0}, {10, -10, 20}, {10, 10, 20}, {-10, 10, 0});  // z = x + 10
   const DepthMap map = testing::render_tested(scene, camera);
   for (std::uint32_t i = 0; i < 8; ++i) {
@@ -167,14 +167,15 @@ TEST(ClosedForm, TheNormalFacesTheCameraWhateverTheWindingAndTheCamera) {
   for (const bool reversed : {false, true}) {
     for (const double fx : {1.0, -1.0}) {
       for (const double mirror : {1.0, -1.0}) {
-        for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
+        for (const ProjectionModel projection :
+             {ProjectionModel::perspective, ProjectionModel::orthographic}) {
           Scene scene = quad({-9, -9, 2}, {9, -9, 2}, {9, 9, 2}, {-9, 9, 2});
           if (reversed) {
             for (CornerIndices& t : scene.meshes[0].triangles) std::swap(t[0], t[1]);
           }
           Camera camera = camera_of(2, 2, 1);
-          camera.projection = projection;
-          camera.fx = fx;
+          camera.projection.model = projection;
+          camera.projection.fx = fx;
           camera.world_to_camera[0][0] = mirror;
           RenderOptions options;
           options.channels = {Channel::N};

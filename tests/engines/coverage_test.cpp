@@ -153,8 +153,8 @@ TEST(CoverageLaws, AClosedMeshHasNoGap) {
 Q projected_twice_area(const std::vector<MeshPoint>& outline, const Camera& camera) {
   std::vector<oracle::Point> image;
   for (const MeshPoint& p : outline) {
-    image.push_back({Q(camera.fx) * Q(p.x) / Q(p.z) + Q(camera.cx),
-                     Q(camera.fy) * Q(p.y) / Q(p.z) + Q(camera.cy)});
+    image.push_back({Q(camera.projection.fx) * Q(p.x) / Q(p.z) + Q(camera.projection.cx),
+                     Q(camera.projection.fy) * Q(p.y) / Q(p.z) + Q(camera.projection.cy)});
   }
   return abs(oracle::twice_area(image));
 }
@@ -240,8 +240,8 @@ TEST(CoverageLaws, TheSumOverAClosedMeshIsItsProjectedArea) {
 /// bits, so that A itself adds up exactly.
 TEST(CoverageLaws, TheSumOfABinaryFractionsIsTheAreaItself) {
   Camera camera = camera_of(12, 10, 1);
-  camera.projection = Projection::orthographic;
-  camera.cx = 5.25, camera.cy = 4.5;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.cx = 5.25, camera.projection.cy = 4.5;
   const Scene scene = scene_of(
       {{4, 0, 5}, {0, 4, 5}, {-4, 0, 5}, {0, -4, 5}, {0.375, 0.125, 2}, {-0.5, 0.25, 8}},
       {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}});
@@ -279,8 +279,8 @@ TEST(CoverageLaws, CullingLeavesTrianglesOut) {
 // A square [1.25, 2.5] × [0.5, 3] in pixels, in front of the image's 4 × 4.
 TEST(CoverageLaws, AreasKnownOnPaper) {
   Camera camera = camera_of(4, 4, 1);
-  camera.projection = Projection::orthographic;
-  camera.cx = camera.cy = 0;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.cx = camera.projection.cy = 0;
   const Scene scene = scene_of({{1.25, 0.5, 1}, {2.5, 0.5, 1}, {2.5, 3, 1}, {1.25, 3, 1}},
                                {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}});
   const Samples<float> expected{0, 0.375F, 0.25F, 0,  //

@@ -122,8 +122,8 @@ TEST(Encoding, Binary64IsRoundedFromTheExactDepth) {
   // z = 1 / (1/3-like slope): a plane whose depth at the only sample is 1/3 exactly.
   Scene scene = testing::scene_of({{-9, -9, 3}, {9, -9, 3}, {0, 18, 3}}, {{0, 1, 2}});
   Camera camera = testing::camera_of(1, 1, 1);
-  camera.projection = Projection::perspective;
-  camera.cx = 0.5 - 3;                                                  // the ray (3, 0, 1)
+  camera.projection.model = ProjectionModel::perspective;
+  camera.projection.cx = 0.5 - 3;                                       // the ray (3, 0, 1)
   scene.meshes[0].vertices = {{-9, -1, 10}, {9, -1, -8}, {9, 30, -8}};  // x + z = 1
   scene.meshes[0].vertices[0] = {-9, -30, 10};
   RenderOptions options;

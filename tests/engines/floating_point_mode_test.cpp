@@ -50,7 +50,9 @@ class Bytes {
     }
   }
   void add(const Camera& c) {
-    for (const double x : {c.fx, c.fy, c.cx, c.cy, c.skew, c.near, c.far}) add(x);
+    for (const double x : {c.projection.fx, c.projection.fy, c.projection.cx, c.projection.cy,
+                           c.projection.skew, c.near, c.far})
+      add(x);
     add(c.world_to_camera);
   }
   void add(const DepthMap& map) {
@@ -136,15 +138,15 @@ std::map<std::string, Door> doors_of(const Scene& scene, const Camera& camera) {
   };
   doors["to_json"] = [&](Bytes& bytes) {
     Camera skewed = camera;
-    skewed.skew = 0x1p-1074;
-    skewed.cx = 0.1;
+    skewed.projection.skew = 0x1p-1074;
+    skewed.projection.cx = 0.1;
     bytes.add(to_json(skewed));
   };
   doors["principal_point"] = [&](Bytes& bytes) {
     Camera moved = camera;
-    moved.cx = 0.1;
-    moved.pixel_centre = 0.3;
-    bytes.add(principal_point(moved).x);
+    moved.projection.cx = 0.1;
+    moved.projection.pixel_centre = 0.3;
+    bytes.add(principal_point(moved.projection).x);
   };
   doors["frame_scene"] = [&](Bytes& bytes) {
     bytes.add(frame_scene(scene, {.azimuth = 35, .elevation = 20}));
@@ -224,7 +226,7 @@ TEST(FloatingPointMode, ChangesNothingOfEvaluations) {
 TEST(FloatingPointMode, ChangesNothingOfWhatIsWritten) {
   testing::CaseMaker maker(407, testing::Kind::neighbours);
   testing::Case c = maker.make();
-  c.camera.fx = 7.3;
+  c.camera.projection.fx = 7.3;
   c.camera.world_to_camera[0][0] = 0.1;
   const DepthMap map = render(c.scene, c.camera, {.channels = testing::every_channel}).map;
   RenderOptions in_codes;

@@ -37,7 +37,7 @@ std::vector<std::uint32_t> rendered(const Scene& scene, const Camera& camera) {
 }
 
 Camera small_camera(const Scene& scene) {
-  Lens lens;
+  LensChoice lens;
   lens.width = 48;
   lens.height = 32;
   return frame_scene(scene, {}, lens);

@@ -117,8 +117,8 @@ TEST(Laws, ShiftingThePrincipalPointByWholePixelsShiftsTheMap) {
     const Scene scene = soup(random, 6);
     const Camera camera = camera_of(width, height, 8);
     Camera shifted = camera;
-    shifted.cx += 3;
-    shifted.cy -= 2;
+    shifted.projection.cx += 3;
+    shifted.projection.cy -= 2;
     const auto before = bits(testing::render_tested(scene, camera), "Z"),
                after = bits(testing::render_tested(scene, shifted), "Z");
     for (std::uint32_t y = 2; y < height; ++y) {
@@ -148,11 +148,11 @@ TEST(Laws, MirroringTheImageReversesItsRows) {
   for (int trial = 0; trial < 30; ++trial) {
     const Scene scene = soup(random, 6);
     Camera camera = camera_of(width, height, 8);
-    camera.cx += 0.2101;  // no sample lies on an edge of these coordinates
-    camera.cy += 0.3203;
+    camera.projection.cx += 0.2101;  // no sample lies on an edge of these coordinates
+    camera.projection.cy += 0.3203;
     Camera mirrored = camera;
-    mirrored.fx = -camera.fx;
-    mirrored.cx = width - camera.cx;
+    mirrored.projection.fx = -camera.projection.fx;
+    mirrored.projection.cx = width - camera.projection.cx;
     const auto before = bits(testing::render_tested(scene, camera), "Z");
     const auto after = bits(testing::render_tested(scene, mirrored), "Z");
     for (std::uint32_t y = 0; y < height; ++y) {

@@ -44,8 +44,8 @@ float root_of(int numerator, int denominator) {
 /// An orthographic camera with one pixel for each unit, whose pixel (i, j) shows x = i, y = j.
 Camera grid_camera(std::uint32_t width, std::uint32_t height) {
   Camera camera = camera_of(width, height, 1);
-  camera.projection = Projection::orthographic;
-  camera.cx = camera.cy = 0.5;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.cx = camera.projection.cy = 0.5;
   return camera;
 }
 
@@ -226,7 +226,7 @@ TEST(Normals, InTheCameraFrameAreThoseOfWhatTheCameraSees) {
     Camera camera = camera_of(3, 3, 1);
     camera.world_to_camera[0][0] = x;
     for (const double fx : {1.0, -1.0}) {
-      camera.fx = fx;
+      camera.projection.fx = fx;
       const DepthMap map = normals_of(scene, camera);
       EXPECT_THAT(at(map, "N", 4), ElementsAre(root_of(1, 2), 0, -root_of(1, 2)));
       EXPECT_THAT(at(map, "Nc", 4),

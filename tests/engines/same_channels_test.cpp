@@ -132,9 +132,9 @@ TEST(FastChannels, MagnitudesAroundTheSafeOnes) {
       if (i % 5 == 0) vertices.back().x *= 0x1p-95;
     }
     Camera camera = testing::camera_of(6, 5, 4);
-    camera.cx += 0.3;
-    if (i % 3 == 0) camera.projection = Projection::orthographic;
-    if (i % 3 == 0) camera.fx = camera.fy = 4 / size;
+    camera.projection.cx += 0.3;
+    if (i % 3 == 0) camera.projection.model = ProjectionModel::orthographic;
+    if (i % 3 == 0) camera.projection.fx = camera.projection.fy = 4 / size;
     if (i % 4 == 0) camera.world_to_camera[0][3] = size * unit();
     add(sum, expect_same_in_every_encoding(
                  testing::scene_of(vertices, {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}}),
@@ -157,15 +157,15 @@ Scene two_spheres() {
 }
 
 Camera skewed(Camera camera) {
-  camera.skew = 0.37 * camera.fx;
-  camera.fx = -camera.fx * 1.3;
-  camera.pixel_centre = 0;
+  camera.projection.skew = 0.37 * camera.projection.fx;
+  camera.projection.fx = -camera.projection.fx * 1.3;
+  camera.projection.pixel_centre = 0;
   camera.world_to_camera[1][0] += 0.21;
   return camera;
 }
 
 /// The reference engine's time is that of pixels.
-Lens image_size(std::uint32_t width, std::uint32_t height) {
+LensChoice image_size(std::uint32_t width, std::uint32_t height) {
   constexpr std::uint32_t divisor = testing::effort > 1 ? 3 : 1;
   return {.width = width / divisor, .height = height / divisor};
 }
@@ -175,10 +175,10 @@ TEST(FastChannels, PlacedSpheresFromOutsideAndInsideByPlainAndSkewedCameras) {
   for (const Vector3& eye : {Vector3{3, 1, 2}, Vector3{0.1, 0.2, 0.3}}) {
     const Camera plain = look_at(eye, {0.4, 0, 0.1}, {0, 1, 0}, image_size(61, 53));
     Camera flat = skewed(plain);
-    flat.projection = Projection::orthographic;
-    flat.fx = -17;
-    flat.fy = 19.3;
-    flat.skew = 2;
+    flat.projection.model = ProjectionModel::orthographic;
+    flat.projection.fx = -17;
+    flat.projection.fy = 19.3;
+    flat.projection.skew = 2;
     for (const Camera& camera : {plain, skewed(plain), flat}) {
       const RenderStatistics sum = expect_same_in_every_encoding(scene, camera, 3000, 2);
       EXPECT_GT(sum.pixels_with_surface, 1000U / testing::effort);
@@ -207,10 +207,10 @@ TEST(FastChannels, EveryKindOfVectorInstructions) {
   const Scene scene = two_spheres();
   const Camera camera = skewed(look_at({3, 1, 2}, {0.4, 0, 0.1}, {0, 1, 0}, image_size(71, 37)));
   Camera flat = camera;
-  flat.projection = Projection::orthographic;
-  flat.fx = -17;
-  flat.fy = 19.3;
-  flat.skew = 2;
+  flat.projection.model = ProjectionModel::orthographic;
+  flat.projection.fx = -17;
+  flat.projection.fy = 19.3;
+  flat.projection.skew = 2;
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
   EXPECT_GE(targets.size(), 1U);
   for (const std::int64_t target : targets) {
@@ -243,7 +243,7 @@ TEST(FastChannels, APlaneParallelToTheImageNeedsNoExactNumbers) {
     EXPECT_EQ(counts(scene, camera, 1000).rounding.exact, 0U) << z;
     camera.world_to_camera[2][3] = 1.5;
     EXPECT_EQ(counts(scene, camera, 1000).rounding.exact, 0U) << z;
-    camera.projection = Projection::orthographic;
+    camera.projection.model = ProjectionModel::orthographic;
     EXPECT_EQ(counts(scene, camera, 1000).rounding.exact, 0U) << z;
   }
 }
@@ -279,8 +279,8 @@ TEST(FastChannels, AGridOnTheSamplesNeedsNoExactNumbers) {
     }
   }
   Camera camera = testing::camera_of(44, 44, 1);
-  camera.projection = Projection::orthographic;
-  camera.cx = camera.cy = 20.5;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.cx = camera.projection.cy = 20.5;
   const Scene scene = testing::scene_of(vertices, triangles);
   const RenderStatistics sum = counts(scene, camera, 1000);
   EXPECT_EQ(sum.rounding.exact, 0U);
@@ -303,8 +303,8 @@ TEST(FastChannels, DepthsThatAreBinary64NumbersNeedNoExactNumbers) {
     }
   }
   Camera camera = testing::camera_of(44, 44, 1);
-  camera.projection = Projection::orthographic;
-  camera.cx = camera.cy = 20.5;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.cx = camera.projection.cy = 20.5;
   EXPECT_EQ(counts(testing::scene_of(vertices, triangles), camera, 1000).rounding.exact, 0U);
 }
 

@@ -31,7 +31,7 @@ constexpr std::uint32_t divisor = testing::effort > 1 ? 3 : 1;
 
 /// Framed by a perspective and by an orthographic camera, with limits of depth, and from within.
 std::vector<Camera> cameras_for(const Scene& scene) {
-  Lens lens{.width = 201 / divisor, .height = 131 / divisor};
+  LensChoice lens{.width = 201 / divisor, .height = 131 / divisor};
   const Camera framed = frame_scene(scene, {.azimuth = 20, .elevation = 10}, lens);
   Camera limited = frame_scene(scene, {.azimuth = 130, .elevation = -35}, lens);
   const double distance = limited.world_to_camera[2][3];
@@ -39,7 +39,7 @@ std::vector<Camera> cameras_for(const Scene& scene) {
   limited.far = std::abs(distance) * 1.0625 + limited.near;
   Camera within = frame_scene(scene, {.azimuth = 75, .elevation = 5}, lens);
   within.world_to_camera[2][3] *= 0.125;
-  lens.projection = Projection::orthographic;
+  lens.model = ProjectionModel::orthographic;
   return {framed, limited, within, frame_scene(scene, {}, lens)};
 }
 

@@ -134,7 +134,7 @@ TEST(Fast, TheCameraInsideASoup) {
     SCOPED_TRACE(i);
     const Scene scene = soup(random, 150, i % 2 == 0);
     Camera camera = testing::camera_of(90, 70, 40);
-    camera.cx += 0.125;
+    camera.projection.cx += 0.125;
     camera.world_to_camera[2][3] = -3.5 - 0.25 * i;
     camera.world_to_camera[0][2] = 0.25;
     if (i % 3 == 1) camera.near = 0.5;
@@ -155,8 +155,8 @@ TEST(Fast, OrthographicWithDepthsOnTheLimits) {
     SCOPED_TRACE(i);
     const Scene scene = soup(random, 50, i % 2 == 0);
     Camera camera = testing::camera_of(100, 70, 8);
-    camera.projection = Projection::orthographic;
-    camera.cx = 50.5;
+    camera.projection.model = ProjectionModel::orthographic;
+    camera.projection.cx = 50.5;
     camera.world_to_camera[2][3] = i % 2 == 0 ? -3 : 0;  // faces at depth 0 count nothing
     if (i % 3 == 1) camera.near = 1;
     if (i % 3 == 2) camera.far = 4;
@@ -243,8 +243,8 @@ TEST(Fast, AGridOnTheSamples) {
     }
   }
   Camera camera = testing::camera_of(84, 84, 1);
-  camera.projection = Projection::orthographic;
-  camera.cx = camera.cy = 0;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.cx = camera.projection.cy = 0;
   RenderOptions options;
   options.channels = quick_channels;
   const RenderStatistics statistics =

@@ -44,7 +44,8 @@ Scene bumpy_sheet() {
 TEST(Watertight, ABumpySheetWithASampleOnEveryVertexAndEdge) {
   const Scene sheet = bumpy_sheet();
   Camera camera = camera_of(2 * side + 1, 2 * side + 1, 4);
-  camera.cx = camera.cy = side + 1.5;  // vertex (i, j) at pixel (2i + 1, 2j + 1)
+  camera.projection.cx = camera.projection.cy =
+      side + 1.5;  // vertex (i, j) at pixel (2i + 1, 2j + 1)
   const auto [map, statistics, doubtful] = testing::render_and_count(sheet, camera);
   const Samples<float>& Z = *map.values<float>("Z");
   // The sheet spans the samples 1 … 2·side − 1; those on its right and bottom edges are another's.

@@ -53,8 +53,8 @@ Scene triangle() {
 Camera small_camera() {
   Camera camera;
   camera.width = camera.height = 4;
-  camera.fx = camera.fy = 4;
-  camera.cx = camera.cy = 2;
+  camera.projection.fx = camera.projection.fy = 4;
+  camera.projection.cx = camera.projection.cy = 2;
   return camera;
 }
 
@@ -141,7 +141,7 @@ TEST(WrongArguments, ScenesWithAFaultAreRefusedAtEveryDoor) {
 
 TEST(WrongArguments, CamerasWithAFaultAreRefusedAtEveryDoor) {
   const std::map<std::string, std::function<void(Camera&)>> bad{
-      {"fx NaN", [](Camera& c) { c.fx = nan; }},
+      {"fx NaN", [](Camera& c) { c.projection.fx = nan; }},
       {"singular", [](Camera& c) { c.world_to_camera[2] = {}; }},
       {"far is not greater", [](Camera& c) { c.far = 0; }}};
   for (const auto& [name, door] : doors_of_scenes()) {
@@ -401,11 +401,11 @@ TEST(WrongArguments, OptionsOfComparisonsAndConversions) {
     EXPECT_THROW(with_storage(map, "Z", StoredType::scaled_unorm16, number), UsageError);
     EXPECT_THROW(draw_preview(map, {.low = number}), UsageError);
     Camera camera = small_camera();
-    camera.fx = number;
+    camera.projection.fx = number;
     EXPECT_THROW(convert_quantity(map, planar_depth, ray_distance, camera), InputError);
   }
   Camera flat = small_camera();
-  flat.fy = 0;
+  flat.projection.fy = 0;
   EXPECT_THROW(convert_quantity(map, planar_depth, ray_distance, flat), InputError);
   const ScratchFolder folder;
   EXPECT_THROW(write_point_cloud(map, flat, folder.path() / "points.ply"), InputError);

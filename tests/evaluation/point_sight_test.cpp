@@ -24,11 +24,11 @@ Camera some_camera(std::mt19937& random, int size) {
       row[3] = far_away * from(-2 * size, 2 * size);
     }
   } while (find_fault(camera));
-  if (random() % 3 == 0) camera.projection = Projection::orthographic;
+  if (random() % 3 == 0) camera.projection.model = ProjectionModel::orthographic;
   if (random() % 3 == 0) camera.near = far_away * from(0, size);
   if (random() % 3 == 0) camera.far = camera.near + far_away * from(1, 2 * size);
-  if (random() % 4 == 0) camera.fx = -camera.fx;
-  if (random() % 4 == 0) camera.skew = from(-1, 1);
+  if (random() % 4 == 0) camera.projection.fx = -camera.projection.fx;
+  if (random() % 4 == 0) camera.projection.skew = from(-1, 1);
   return camera;
 }
 
@@ -71,10 +71,10 @@ void expect_as_by_rationals(double factor, unsigned seed, int rounds) {
       for (auto& row : camera.world_to_camera) row[3] *= factor;
       camera.near *= factor;
       camera.far *= factor;
-      if (camera.projection == Projection::orthographic) {
-        camera.fx /= factor;
-        camera.fy /= factor;
-        camera.skew /= factor;
+      if (is_orthographic(camera.projection)) {
+        camera.projection.fx /= factor;
+        camera.projection.fy /= factor;
+        camera.projection.skew /= factor;
       }
       const Cull cull = culls[random() % 3];
       for (int i = 0; i < 20; ++i) {
@@ -134,9 +134,9 @@ TEST(PointSight, EndsAtTheRimOfTheImage) {
   const Checked checked(scene, power_of_unit(scene));
   // The image ends at x/z = 0.75.
   Camera camera = testing::camera_of(100, 100, 50 / 0.75);
-  camera.fx = camera.fy = 64;
+  camera.projection.fx = camera.projection.fy = 64;
   camera.width = camera.height = 96;
-  camera.cx = camera.cy = 48;
+  camera.projection.cx = camera.projection.cy = 48;
   const auto at = [](double x) { return SurfacePoint{2, x / 8, 0.5}; };
   EXPECT_TRUE(checked.sees(at(3), camera, Cull::none));
   EXPECT_FALSE(checked.sees(at(3 + 0x1p-20), camera, Cull::none));

@@ -66,12 +66,14 @@ Vector3 in_camera(const Camera& camera, const Vector3& X) {
 }
 
 bool is_in_image(const Camera& camera, const Vector3& p) {
-  const bool perspective = camera.projection == Projection::perspective;
+  const bool perspective = is_perspective(camera.projection);
   const Rational w = perspective ? p[2] : Rational(1);
-  const Rational half_less_centre = Rational(0.5) - Rational(camera.pixel_centre);
-  const Rational u = (Rational(camera.fx) * p[0] + Rational(camera.skew) * p[1]) / w +
-                     Rational(camera.cx) + half_less_centre;
-  const Rational v = Rational(camera.fy) * p[1] / w + Rational(camera.cy) + half_less_centre;
+  const Rational half_less_centre = Rational(0.5) - Rational(camera.projection.pixel_centre);
+  const Rational u =
+      (Rational(camera.projection.fx) * p[0] + Rational(camera.projection.skew) * p[1]) / w +
+      Rational(camera.projection.cx) + half_less_centre;
+  const Rational v =
+      Rational(camera.projection.fy) * p[1] / w + Rational(camera.projection.cy) + half_less_centre;
   return u >= 0 && u <= Rational(camera.width) && v >= 0 && v <= Rational(camera.height);
 }
 
@@ -87,10 +89,10 @@ struct Plane {
 };
 
 Plane plane_of(const Camera& camera, const Corners& c) {
-  const bool perspective = camera.projection == Projection::perspective;
+  const bool perspective = is_perspective(camera.projection);
   Plane plane{c[0], cross(minus(c[1], c[0]), minus(c[2], c[0])), false, false};
   const Rational towards = perspective ? dot(plane.normal, plane.corner) : plane.normal[2];
-  const bool mirrored = (camera.fx > 0) != (camera.fy > 0);
+  const bool mirrored = (camera.projection.fx > 0) != (camera.projection.fy > 0);
   plane.edge_on = towards == 0;
   plane.front = (towards < 0) != mirrored;
   return plane;
@@ -103,7 +105,7 @@ bool is_kept(const Plane& plane, Cull cull) {
 /// Where the line of sight through p meets a plane that it does not see edge on.
 std::optional<Vector3> met(const Camera& camera, const Plane& plane, const Vector3& p) {
   const Rational away = dot(plane.normal, plane.corner);
-  if (camera.projection == Projection::orthographic) {
+  if (is_orthographic(camera.projection)) {
     const Rational z = (away - plane.normal[0] * p[0] - plane.normal[1] * p[1]) / plane.normal[2];
     return Vector3{p[0], p[1], z};
   }

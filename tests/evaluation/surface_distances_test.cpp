@@ -77,8 +77,8 @@ TEST(SurfaceDistances, CountWhatIsSeen) {
 
 TEST(SurfaceDistances, CountWhatOneOfSeveralCamerasSees) {
   Camera left = testing::camera_of(50, 100, 50), right = left;
-  left.cx = 50;
-  right.cx = 0;
+  left.projection.cx = 50;
+  right.projection.cx = 0;
   const auto seen = [](const std::vector<Camera>& cameras) {
     return compare_surfaces(plate(2), plate(2), cameras, few_points()).accuracy.seen;
   };

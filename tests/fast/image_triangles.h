@@ -47,9 +47,9 @@ inline ImageTriangle project_both(const std::array<MeshPoint, 3>& corners, const
 
 inline Camera plain_camera(bool perspective) {
   Camera camera = camera_of(640, 480, 301.7);
-  camera.cx = 320.3;
-  camera.skew = 0.3;
-  if (!perspective) camera.projection = Projection::orthographic;
+  camera.projection.cx = 320.3;
+  camera.projection.skew = 0.3;
+  if (!perspective) camera.projection.model = ProjectionModel::orthographic;
   camera.world_to_camera = {{{0.9, 0.1, -0.2, 0.03}, {0.05, 1.1, 0.3, -0.1}, {0.2, -0.3, 0.8, 3}}};
   return camera;
 }
@@ -57,8 +57,8 @@ inline Camera plain_camera(bool perspective) {
 /// A camera that leaves coordinates as they are: u = x/z or x.
 inline Camera bare_camera(bool perspective) {
   Camera camera = camera_of(64, 64, 1);
-  camera.cx = camera.cy = 0;
-  if (!perspective) camera.projection = Projection::orthographic;
+  camera.projection.cx = camera.projection.cy = 0;
+  if (!perspective) camera.projection.model = ProjectionModel::orthographic;
   return camera;
 }
 
@@ -66,7 +66,7 @@ inline Camera bare_camera(bool perspective) {
 /// exact corners are the computed ones moved by the bound, in directions of which some are the
 /// worst.
 inline ImageTriangle worst_triangle(Numbers& n, const Camera& camera) {
-  const bool perspective = camera.projection == Projection::perspective;
+  const bool perspective = is_perspective(camera.projection);
   const double e = std::ldexp(1, -13 - n.below(12));
   ImageTriangle t;
   std::array<WorldPoint, 3> world;

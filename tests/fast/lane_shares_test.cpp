@@ -29,7 +29,7 @@ lanes::Corners in_lanes(const ImageTriangle& t) {
 Ratio exact_doubled_area(const ImageTriangle& t, const Camera& camera) {
   std::array<Ratio, 3> u, v;
   for (std::size_t i = 0; i < 3; ++i) {
-    const HomogeneousImagePoint image = to_image(camera, t.exact.camera[i]);
+    const HomogeneousImagePoint image = to_image(camera.projection, t.exact.camera[i]);
     u[i] = {image.U, image.W};
     v[i] = {image.V, image.W};
   }

@@ -48,12 +48,12 @@ void expect_same_render(const Both& both, const Camera& camera, const RenderOpti
 
 /// Under sanitizers images are smaller, unless told otherwise.
 std::vector<Camera> cameras_for(const Scene& scene, std::uint32_t divisor = effort > 1 ? 3 : 1) {
-  Lens lens{.width = 201 / divisor, .height = 150 / divisor};
+  LensChoice lens{.width = 201 / divisor, .height = 150 / divisor};
   const Camera framed = frame_scene(scene, {.azimuth = 20, .elevation = 10}, lens);
   Camera within = frame_scene(scene, {.azimuth = 75, .elevation = 5}, lens);
   within.world_to_camera[2][3] *= 0.125;
   within.far = std::abs(within.world_to_camera[2][3]) + 0.5;
-  lens.projection = Projection::orthographic;
+  lens.model = ProjectionModel::orthographic;
   return {framed, within, frame_scene(scene, {}, lens)};
 }
 

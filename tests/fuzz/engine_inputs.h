@@ -44,9 +44,9 @@ inline Camera camera_from(Bytes& bytes) {
   const auto width = static_cast<std::uint32_t>(1 + bytes.below(80));
   const auto height = static_cast<std::uint32_t>(1 + bytes.below(20));
   Camera camera = testing::camera_of(width, height, 1 + bytes.below(64));
-  if (form & 1) camera.projection = Projection::orthographic;
-  if (form & 2) camera.fy = -camera.fy;
-  if (form & 4) camera.skew = bytes.coordinate();
+  if (form & 1) camera.projection.model = ProjectionModel::orthographic;
+  if (form & 2) camera.projection.fy = -camera.projection.fy;
+  if (form & 4) camera.projection.skew = bytes.coordinate();
   if (form & 8) camera.near = std::abs(bytes.coordinate());
   if (form & 16) camera.far = camera.near + std::abs(bytes.coordinate());
   if (form & 32) {

@@ -66,8 +66,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   // Few pixels: in each of them all triangles may lie.
   camera.width = 1 + camera.width % 12;
   camera.height = 1 + camera.height % 6;
-  camera.cx = camera.width / 2.0;
-  camera.cy = camera.height / 2.0;
+  camera.projection.cx = camera.width / 2.0;
+  camera.projection.cy = camera.height / 2.0;
   const RenderOptions options = fuzz::options_from(bytes);
   const Scene scene = fuzz::scene_from(bytes);
   fuzz::expect_same_maps(scene, camera, options);

@@ -23,11 +23,11 @@ static_assert(std::is_same_v<std::invoke_result_t<WorldFromMesh, MeshPoint>, Wor
 TEST(Frames, PointsGoFromFrameToFrame) {
   const WorldPoint world = WorldFromMesh{}(MeshPoint{1, 2, 4});
   Camera camera;
-  camera.fx = 3;
+  camera.projection.fx = 3;
   camera.world_to_camera[0][3] = 5;
-  const CameraPoint seen = to_camera(camera, world);
+  const CameraPoint seen = to_camera(camera.world_to_camera, world);
   EXPECT_EQ(seen.x, Dyadic(6));
-  const HomogeneousImagePoint image = to_image(camera, seen);
+  const HomogeneousImagePoint image = to_image(camera.projection, seen);
   EXPECT_EQ(image.U, Dyadic(18));
   EXPECT_EQ(image.W, Dyadic(4));
 }

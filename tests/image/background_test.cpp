@@ -148,7 +148,7 @@ TEST(Background, IsReadBackFromFiles) {
 }
 
 TEST(Background, ConversionsKnowIt) {
-  Camera camera{.width = 3, .height = 1, .fx = 100, .fy = 100};
+  Camera camera{.width = 3, .height = 1, .projection = {.fx = 100, .fy = 100}};
   const StereoRig rig{0.5, 0};
   const DepthMap map = with_background(map_of(2, 1, "Z", std::vector<float>{10, inf}), -1);
   const auto convert = [&](DepthQuantity from, DepthQuantity to, const DepthMap& source) {
@@ -171,7 +171,7 @@ TEST(Background, ConversionsKnowIt) {
 }
 
 TEST(Background, OfDisparitiesWithAnOffsetMayBeAmbiguous) {
-  Camera camera{.width = 3, .height = 1, .fx = 100, .fy = 100};
+  Camera camera{.width = 3, .height = 1, .projection = {.fx = 100, .fy = 100}};
   // The first is so far away that its disparity, 50/12.5 − 4, is 0.
   const DepthMap map = map_of(3, 1, "Z", std::vector<float>{12.5f, inf, 25});
   const auto convert = [&](std::optional<double> background) {

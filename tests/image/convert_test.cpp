@@ -26,26 +26,26 @@ Camera easy_camera() {
   Camera camera;
   camera.width = 4;
   camera.height = 1;
-  camera.cx = 0.5;
-  camera.cy = 0.5;
+  camera.projection.cx = 0.5;
+  camera.projection.cy = 0.5;
   return camera;
 }
 
 TEST(PointAt, ObeysTheSpecification) {
   Camera camera;
-  camera.fx = 2;
-  camera.fy = 4;
-  camera.cx = 1;
-  camera.cy = 3;
-  camera.skew = 0.5;
-  camera.pixel_centre = 0;
+  camera.projection.fx = 2;
+  camera.projection.fy = 4;
+  camera.projection.cx = 1;
+  camera.projection.cy = 3;
+  camera.projection.skew = 0.5;
+  camera.projection.pixel_centre = 0;
   // Forward: U/W = fx·x' + skew·y' + cx + ½ must be i + ½, V/W likewise.
   const auto [x, y, z] = point_at(camera, 7, 5, 8);
   EXPECT_EQ(2 * x / z + 0.5 * y / z + 1.5, 7.5);
   EXPECT_EQ(4 * y / z + 3.5, 5.5);
   EXPECT_EQ(z, 8);
-  camera.projection = Projection::orthographic;
-  camera.pixel_centre = 0.5;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.pixel_centre = 0.5;
   const auto p = point_at(camera, 7, 5, 8);
   EXPECT_EQ(2 * p[0] + 0.5 * p[1] + 1, 7.5);
   EXPECT_EQ(4 * p[1] + 3, 5.5);
@@ -54,7 +54,7 @@ TEST(PointAt, ObeysTheSpecification) {
 
 TEST(Quantities, DistanceAndDepthOfAThreeFourFiveTriangle) {
   Camera camera = easy_camera();
-  camera.fx = 4;  // pixel 3 lies (3 + ½ − ½)/4 = ¾ to the right: a ray of length 5/4
+  camera.projection.fx = 4;  // pixel 3 lies (3 + ½ − ½)/4 = ¾ to the right: a ray of length 5/4
   const DepthMap map = map_of(4, 1, "Z", std::vector<float>{8, inf, std::nanf(""), 8});
   const DepthMap distance =
       convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::ray_distance, camera);
@@ -62,7 +62,7 @@ TEST(Quantities, DistanceAndDepthOfAThreeFourFiveTriangle) {
   const DepthMap back =
       convert_quantity(distance, DepthQuantity::ray_distance, DepthQuantity::planar_depth, camera);
   EXPECT_EQ(*back.values<float>("Z"), (std::vector<float>{8, inf, inf, 8}));
-  camera.projection = Projection::orthographic;
+  camera.projection.model = ProjectionModel::orthographic;
   const DepthMap flat =
       convert_quantity(map, DepthQuantity::planar_depth, DepthQuantity::ray_distance, camera);
   EXPECT_EQ(flat.values<float>("distance")->at(3), 8);
@@ -70,7 +70,7 @@ TEST(Quantities, DistanceAndDepthOfAThreeFourFiveTriangle) {
 
 TEST(Quantities, DisparityIsMiddleburys) {
   Camera camera = easy_camera();
-  camera.fx = 100;
+  camera.projection.fx = 100;
   const StereoRig rig{0.5, 4};
   const DepthMap map = map_of(3, 1, "Z", std::vector<double>{10, INFINITY, 2.5});
   const DepthMap d =
@@ -96,7 +96,7 @@ TEST(Quantities, DisparityIsMiddleburys) {
   };
   EXPECT_THROW(to_disparity(camera, std::nullopt), UsageError);
   EXPECT_THROW(to_disparity(camera, StereoRig{0, 0}), UsageError);
-  camera.projection = Projection::orthographic;
+  camera.projection.model = ProjectionModel::orthographic;
   EXPECT_THROW(to_disparity(camera, rig), UsageError);
   EXPECT_THROW(
       convert_quantity(map, DepthQuantity::ray_distance, DepthQuantity::disparity, camera, rig),
@@ -166,7 +166,7 @@ std::string contents_of(const std::filesystem::path& path) {
 TEST(PointCloud, HoldsPointsNormalsAndIdentifiers) {
   const Folder folder;
   Camera camera = easy_camera();
-  camera.fx = 4;
+  camera.projection.fx = 4;
   camera.world_to_camera = {{{0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, 1, -100}}};
   DepthMap map = map_of(4, 1, "Z", std::vector<float>{8, inf, inf, 8});
   map.channels.push_back({"id", std::vector<std::uint32_t>{5, no_surface, 6, 7}});

@@ -24,9 +24,9 @@ constexpr float inf = std::numeric_limits<float>::infinity();
 
 /// Looks down: 3 and 3/2 pixels to the unit, x to the right and y upwards in the image.
 Camera from_above() {
-  Camera camera{.width = 4, .height = 3, .projection = Projection::orthographic};
-  camera.fx = 3;
-  camera.fy = 1.5;
+  Camera camera{.width = 4, .height = 3, .projection = {.model = ProjectionModel::orthographic}};
+  camera.projection.fx = 3;
+  camera.projection.fy = 1.5;
   camera.world_to_camera = {{{1, 0, 0, -0.1}, {0, -1, 0, 1e6 + 1.0 / 7}, {0, 0, -1, 10}}};
   return camera;
 }
@@ -125,12 +125,12 @@ std::string as_python(const std::array<double, 6>& numbers) {
 TEST(GeoTiff, GdalReadsEveryPlace) {
   const Folder folder;
   Camera from_below = from_above(), south_up = from_above(), turned = from_above();
-  from_below.fx = -3;
+  from_below.projection.fx = -3;
   south_up.world_to_camera[1] = {0, 1, 0, 0.7};
   turned.world_to_camera = {{{0, 0.3, 0, 5}, {0.7, 0, 0, 0.1}, {0, 0, -1, 10}}};
   Camera sheared = turned;
   sheared.world_to_camera[0][0] = 1e9 / 3;
-  sheared.skew = 0.2;
+  sheared.projection.skew = 0.2;
   for (const Camera& camera : {from_above(), from_below, south_up, turned, sheared}) {
     const DepthMap map = plan(4, 3);
     const std::array<double, 6> g = world_from_image(camera).value();

@@ -121,9 +121,9 @@ TEST_P(EveryFunction, RefusesAMapThatIsWrong) {
 TEST_P(EveryFunction, RefusesACameraThatIsWrong) {
   if (!GetParam().takes_a_camera) return;
   Camera camera = good_camera();
-  camera.fy = 0;
+  camera.projection.fy = 0;
   EXPECT_EQ(failure_of(good_map(), camera), "camera: fy is 0, expected any other number");
-  camera.fy = 1;
+  camera.projection.fy = 1;
   camera.world_to_camera[1][3] = std::nan("");
   EXPECT_EQ(failure_of(good_map(), camera),
             "camera: world_to_camera has an entry that is not a finite number");

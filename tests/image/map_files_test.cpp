@@ -82,12 +82,12 @@ TEST(Exr, KeepsWhatTheMapCarries) {
 
 TEST(Exr, SaysOfACameraWhatOtherProgramsKnow) {
   DepthMap map = map_of(4, 2, "Z", std::vector<float>(8));
-  map.camera = Camera{.width = 4, .height = 2, .fx = 2, .fy = 3, .cx = 1, .cy = 1};
+  map.camera = Camera{.width = 4, .height = 2, .projection = {.fx = 2, .fy = 3, .cx = 1, .cy = 1}};
   const Bytes bytes = encode_exr(map, Compression::zip, 1, "a.exr");
   const DepthMap back = decode_map(bytes, "a.exr");
   EXPECT_FALSE(back.camera);
   EXPECT_EQ(back.texts.at("fathom.camera"), texts_of(map).at("fathom.camera"));
-  EXPECT_EQ(camera_of(back, "a.exr")->fy, 3);
+  EXPECT_EQ(camera_of(back, "a.exr")->projection.fy, 3);
   const std::map<std::string, std::vector<double>> expected{
       {"worldToCamera", {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}},
       {"worldToNDC", {0.5, 0, 0, 0, 0, 1.5, 0, 0, 0.25, 0.5, 1, 1, 0, 0, 0, 0}},

@@ -20,10 +20,10 @@ Camera from_above() {
   Camera camera;
   camera.width = 40;
   camera.height = 30;
-  camera.projection = Projection::orthographic;
-  camera.fx = camera.fy = 8;
-  camera.cx = 20;
-  camera.cy = 15;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.fx = camera.projection.fy = 8;
+  camera.projection.cx = 20;
+  camera.projection.cy = 15;
   camera.world_to_camera = {{{1, 0, 0, -3}, {0, -1, 0, 7}, {0, 0, -1, 10}}};
   return camera;
 }
@@ -33,7 +33,7 @@ TEST(WorldFromImage, OnPaper) {
   EXPECT_EQ(world_from_image(from_above()),
             (std::array<double, 6>{3 - 20 / 8.0, 1 / 8.0, 0, 7 + 15 / 8.0, 0, -1 / 8.0}));
   Camera of_opencv = from_above();
-  of_opencv.pixel_centre = 0;
+  of_opencv.projection.pixel_centre = 0;
   EXPECT_EQ(world_from_image(of_opencv)->at(0), 3 - 20.5 / 8);
 }
 
@@ -47,7 +47,7 @@ TEST(WorldFromImage, CamerasThatAreMadeHaveOne) {
 
 TEST(WorldFromImage, OnlyOfAnOrthographicCameraAlongTheWorldsZ) {
   Camera camera = from_above();
-  camera.projection = Projection::perspective;
+  camera.projection.model = ProjectionModel::perspective;
   EXPECT_FALSE(world_from_image(camera));
   for (const int row : {0, 1}) {
     camera = from_above();
@@ -66,7 +66,7 @@ TEST(WorldFromImage, OnlyOfAnOrthographicCameraAlongTheWorldsZ) {
   camera.world_to_camera[2][2] = 0;
   EXPECT_FALSE(world_from_image(camera));
   camera = from_above();
-  camera.fx = camera.world_to_camera[0][0] = 1e-200;
+  camera.projection.fx = camera.world_to_camera[0][0] = 1e-200;
   EXPECT_FALSE(world_from_image(camera));
 }
 
@@ -91,8 +91,10 @@ TEST(WorldFromImage, EveryNumberIsTheExactOneRoundedOnce) {
   };
   for (int trial = 0; trial < 300; ++trial) {
     Camera camera = from_above();
-    camera.fx = number(), camera.fy = number(), camera.skew = number();
-    camera.cx = number(), camera.cy = number(), camera.pixel_centre = trial % 2 * 0.5;
+    camera.projection.fx = number(), camera.projection.fy = number(),
+    camera.projection.skew = number();
+    camera.projection.cx = number(), camera.projection.cy = number(),
+    camera.projection.pixel_centre = trial % 2 * 0.5;
     auto& r0 = camera.world_to_camera[0];
     auto& r1 = camera.world_to_camera[1];
     r0 = {number(), number(), 0, number()};
@@ -102,10 +104,12 @@ TEST(WorldFromImage, EveryNumberIsTheExactOneRoundedOnce) {
     ASSERT_TRUE(g);
     // Camera coordinates of an image point, then x of the first row put into the second.
     const auto world_of = [&](double u, double v) {
-      const Ratio shift = Ratio(Dyadic(0.5) - Dyadic(camera.pixel_centre));
-      const Ratio b = quotient(Ratio(v) - Ratio(camera.cy) - shift, Ratio(camera.fy));
-      const Ratio a =
-          quotient(Ratio(u) - Ratio(camera.cx) - shift - Ratio(camera.skew) * b, Ratio(camera.fx));
+      const Ratio shift = Ratio(Dyadic(0.5) - Dyadic(camera.projection.pixel_centre));
+      const Ratio b =
+          quotient(Ratio(v) - Ratio(camera.projection.cy) - shift, Ratio(camera.projection.fy));
+      const Ratio a = quotient(
+          Ratio(u) - Ratio(camera.projection.cx) - shift - Ratio(camera.projection.skew) * b,
+          Ratio(camera.projection.fx));
       const Ratio p = a - Ratio(r0[3]), q = b - Ratio(r1[3]);
       const Ratio factor = quotient(Ratio(r1[0]), Ratio(r0[0]));
       const Ratio y = quotient(q - factor * p, Ratio(r1[1]) - factor * Ratio(r0[1]));

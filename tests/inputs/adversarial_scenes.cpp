@@ -21,10 +21,12 @@ struct Builder {
 
   /// The point that the camera sees at (u, v) at a depth, if the camera is still a plain one.
   MeshPoint seen_at(double u, double v, double z) {
-    if (camera.projection == Projection::orthographic) {
-      return {(u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, z};
+    if (is_orthographic(camera.projection)) {
+      return {(u - camera.projection.cx) / camera.projection.fx,
+              (v - camera.projection.cy) / camera.projection.fy, z};
     }
-    return {(u - camera.cx) / camera.fx * z, (v - camera.cy) / camera.fy * z, z};
+    return {(u - camera.projection.cx) / camera.projection.fx * z,
+            (v - camera.projection.cy) / camera.projection.fy * z, z};
   }
   MeshPoint anywhere(double depth) {
     return seen_at(draw.unit() * 12 - 2, draw.unit() * 10 - 2, depth * (1 + draw.unit()));
@@ -51,7 +53,7 @@ struct Builder {
     }
   }
   void maybe_orthographic(int n) {
-    if (draw.one_in(n)) camera.projection = Projection::orthographic;
+    if (draw.one_in(n)) camera.projection.model = ProjectionModel::orthographic;
   }
   void maybe_limit(double nearest, double farthest) {
     if (draw.one_in(3)) camera.near = nearest * (1 + draw.unit());
@@ -69,7 +71,7 @@ MeshPoint between(const MeshPoint& a, const MeshPoint& b, double t) {
 
 void make_slivers(Builder& s) {
   s.maybe_orthographic(4);
-  if (s.draw.one_in(3)) s.camera.fx = 7.3, s.camera.fy = -7.1;
+  if (s.draw.one_in(3)) s.camera.projection.fx = 7.3, s.camera.projection.fy = -7.1;
   if (s.draw.one_in(2)) s.add_anywhere(5);
   for (int i = s.draw.between(1, 6); i > 0; --i) {
     const MeshPoint a = s.anywhere(2), b = s.anywhere(2);
@@ -166,19 +168,20 @@ void make_intrinsics(Builder& s) {
   Camera& c = s.camera;
   s.maybe_orthographic(3);
   const int e = s.draw.between(-60, 60);
-  c.fx = s.draw.of_exponent(e);
-  c.fy = s.draw.of_exponent(s.draw.one_in(3) ? s.draw.between(-60, 60) : e);
-  if (s.draw.one_in(2)) c.skew = s.draw.of_exponent(e + s.draw.between(-4, 4));
-  if (s.draw.one_in(3)) c.cx = s.draw.of_exponent(s.draw.between(-30, 30));
-  if (s.draw.one_in(3)) c.cy = s.draw.of_exponent(s.draw.between(-30, 30));
-  if (s.draw.one_in(3)) c.pixel_centre = s.draw.few_bits(1);
+  c.projection.fx = s.draw.of_exponent(e);
+  c.projection.fy = s.draw.of_exponent(s.draw.one_in(3) ? s.draw.between(-60, 60) : e);
+  if (s.draw.one_in(2)) c.projection.skew = s.draw.of_exponent(e + s.draw.between(-4, 4));
+  if (s.draw.one_in(3)) c.projection.cx = s.draw.of_exponent(s.draw.between(-30, 30));
+  if (s.draw.one_in(3)) c.projection.cy = s.draw.of_exponent(s.draw.between(-30, 30));
+  if (s.draw.one_in(3)) c.projection.pixel_centre = s.draw.few_bits(1);
   for (int i = s.draw.between(1, 4); i > 0; --i) {
     MeshPoint p[3];
     for (MeshPoint& corner : p) {
       const double v = s.draw.unit() * 10 - 2, u = s.draw.unit() * 12 - 2, z = 1 + s.draw.unit();
-      const double depth = c.projection == Projection::perspective ? z : 1;
-      const double y = (v - c.cy) / c.fy;
-      corner = {(u - c.cx - c.skew * y) / c.fx * depth, y * depth, z};
+      const double depth = is_perspective(c.projection) ? z : 1;
+      const double y = (v - c.projection.cy) / c.projection.fy;
+      corner = {(u - c.projection.cx - c.projection.skew * y) / c.projection.fx * depth, y * depth,
+                z};
     }
     s.add(p[0], p[1], p[2]);
   }
@@ -223,16 +226,16 @@ void make_exponents(Builder& s) {
   };
   Camera& c = s.camera;
   s.maybe_orthographic(3);
-  if (s.draw.one_in(2)) c.fx = s.draw.of_exponent(s.draw.between(-1060, 1020));
-  if (s.draw.one_in(2)) c.fy = s.draw.of_exponent(s.draw.between(-1060, 1020));
-  if (s.draw.one_in(3)) c.skew = any();
-  if (s.draw.one_in(3)) c.cx = any();
+  if (s.draw.one_in(2)) c.projection.fx = s.draw.of_exponent(s.draw.between(-1060, 1020));
+  if (s.draw.one_in(2)) c.projection.fy = s.draw.of_exponent(s.draw.between(-1060, 1020));
+  if (s.draw.one_in(3)) c.projection.skew = any();
+  if (s.draw.one_in(3)) c.projection.cx = any();
   for (auto& row : c.world_to_camera) {
     for (double& entry : row) {
       if (s.draw.one_in(4)) entry = any();
     }
   }
-  if (s.draw.one_in(3)) c.cy = any();
+  if (s.draw.one_in(3)) c.projection.cy = any();
   if (s.draw.one_in(4)) c.near = std::abs(any());
   if (s.draw.one_in(4)) c.far = std::abs(any());
   for (int i = s.draw.between(3, 6); i > 0; --i) s.vertices.push_back({any(), any(), any()});
@@ -264,8 +267,8 @@ void make_conspiracies(Builder& s) {
     for (std::size_t k = 0; k < 3; ++k) row[k] = std::ldexp(row[k], of_rows[i] - exponents[k]);
     row[3] = std::ldexp(row[3], of_rows[i]);
   }
-  s.camera.fx = std::ldexp(s.camera.fx, -of_rows[0]);
-  s.camera.fy = std::ldexp(s.camera.fy, -of_rows[1]);
+  s.camera.projection.fx = std::ldexp(s.camera.projection.fx, -of_rows[0]);
+  s.camera.projection.fy = std::ldexp(s.camera.projection.fy, -of_rows[1]);
 }
 
 /// Exponents of binary64 numbers, subnormal ones included.
@@ -312,8 +315,8 @@ struct Axis {
 
   /// `entry`: the exponent that the pose has for depths, whose exponent is `depth`.
   Axis(Builder& s, std::size_t row, int depth, int entry) {
-    double& f = row == 0 ? s.camera.fx : s.camera.fy;
-    double& c = row == 0 ? s.camera.cx : s.camera.cy;
+    double& f = row == 0 ? s.camera.projection.fx : s.camera.projection.fy;
+    double& c = row == 0 ? s.camera.projection.cx : s.camera.projection.cy;
     const int e = any_exponent(s.draw), own_entry = exponent_of_entry(s.draw, depth - e);
     f = s.draw.of_exponent(e);
     mantissa = std::ldexp(f, -e);
@@ -323,7 +326,7 @@ struct Axis {
     pose[row] = std::ldexp(1, own_entry);
     if (s.draw.one_in(2)) return;
     // The pose takes f·2^j·W from the image, to which c adds it.
-    const bool perspective = s.camera.projection == Projection::perspective;
+    const bool perspective = is_perspective(s.camera.projection);
     const int j = any_exponent(s.draw) - e;
     c = std::ldexp(f, j);
     centre = 0;
@@ -337,7 +340,7 @@ struct Axis {
 
 void make_cameras(Builder& s) {
   s.maybe_orthographic(3);
-  const bool perspective = s.camera.projection == Projection::perspective;
+  const bool perspective = is_perspective(s.camera.projection);
   const int depth = any_exponent(s.draw), entry = exponent_of_entry(s.draw, depth);
   s.camera.world_to_camera[2][2] = std::ldexp(1, entry);
   limit_depths(s, depth);

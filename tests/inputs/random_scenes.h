@@ -51,7 +51,8 @@ class CaseMaker {
     if (!plain_ || below(4) == 0) return {coordinate(), coordinate(), coordinate()};
     const double z = (1 + below(4)) * scale(), half = below(8) == 0 ? 0.25 : 0.5;
     const double u = below(10) - 2 + half, v = below(9) - 2 + half;
-    MeshPoint p{(u - c.cx) / c.fx * z, (v - c.cy) / c.fy * z, z};
+    MeshPoint p{(u - c.projection.cx) / c.projection.fx * z,
+                (v - c.projection.cy) / c.projection.fy * z, z};
     if (kind_ == Kind::neighbours && below(3) == 0)
       p.x = std::nextafter(p.x, below(2) ? 1e9 : -1e9);
     return p;
@@ -71,7 +72,7 @@ class CaseMaker {
   /// No rotation, a focal length that is a power of two: sample rays have few bits.
   Camera plain_camera() {
     Camera c = camera_of(6, 5, std::ldexp(1, below(4)));
-    if (below(3) == 0) c.fy = -c.fy;
+    if (below(3) == 0) c.projection.fy = -c.projection.fy;
     if (below(4) == 0) c.near = below(3) * scale();
     if (below(4) == 0) c.far = c.near + (1 + below(3)) * scale();
     return c;
@@ -79,15 +80,16 @@ class CaseMaker {
 
   Camera camera() {
     Camera c = camera_of(6, 5, std::ldexp(1 + below(4), below(3)));
-    c.projection = below(4) == 0 ? Projection::orthographic : Projection::perspective;
-    if (below(3) == 0) c.fy = -c.fy;
-    if (below(3) == 0) c.skew = below(5) - 2;
-    if (below(3) == 0) c.cx += 0.25 * below(9) - 1;
-    if (below(2) == 0) c.pixel_centre = 0;
-    if (c.projection == Projection::orthographic) {
-      c.fx /= scale();
-      c.fy /= scale();
-      c.skew /= scale();
+    c.projection.model =
+        below(4) == 0 ? ProjectionModel::orthographic : ProjectionModel::perspective;
+    if (below(3) == 0) c.projection.fy = -c.projection.fy;
+    if (below(3) == 0) c.projection.skew = below(5) - 2;
+    if (below(3) == 0) c.projection.cx += 0.25 * below(9) - 1;
+    if (below(2) == 0) c.projection.pixel_centre = 0;
+    if (is_orthographic(c.projection)) {
+      c.projection.fx /= scale();
+      c.projection.fy /= scale();
+      c.projection.skew /= scale();
     }
     if (below(2) == 0) {
       for (auto& row : c.world_to_camera) {

@@ -24,9 +24,9 @@ inline Camera camera_of(std::uint32_t width, std::uint32_t height, double focal_
   Camera camera;
   camera.width = width;
   camera.height = height;
-  camera.fx = camera.fy = focal_length;
-  camera.cx = width / 2.0;
-  camera.cy = height / 2.0;
+  camera.projection.fx = camera.projection.fy = focal_length;
+  camera.projection.cx = width / 2.0;
+  camera.projection.cy = height / 2.0;
   return camera;
 }
 

@@ -14,13 +14,13 @@ namespace {
 using oracle::Q;
 
 oracle::RayCamera ray_camera(const Camera& c) {
-  oracle::RayCamera r{.perspective = c.projection == Projection::perspective,
-                      .fx = c.fx,
-                      .fy = c.fy,
-                      .cx = c.cx,
-                      .cy = c.cy,
-                      .skew = c.skew,
-                      .pixel_centre = c.pixel_centre};
+  oracle::RayCamera r{.perspective = is_perspective(c.projection),
+                      .fx = c.projection.fx,
+                      .fy = c.projection.fy,
+                      .cx = c.projection.cx,
+                      .cy = c.projection.cy,
+                      .skew = c.projection.skew,
+                      .pixel_centre = c.projection.pixel_centre};
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 4; ++k) r.world_to_camera[i][k] = c.world_to_camera[i][k];
   }

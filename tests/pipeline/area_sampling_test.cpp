@@ -89,7 +89,7 @@ Scene crossing_triangles(std::uint32_t count, std::uint64_t seed) {
 Camera six_pixels() {
   Camera camera;
   camera.width = camera.height = 6;
-  camera.projection = Projection::orthographic;
+  camera.projection.model = ProjectionModel::orthographic;
   camera.near = 0.25;
   camera.far = 1;
   return camera;
@@ -196,8 +196,8 @@ TEST(AreaSampling, ObeysTheScissorBox) {
 /// The mappings that are computed for each fragment decide alike, under perspective too.
 TEST(AreaSampling, EveryMappingSeesTheSameSurfaces) {
   Camera camera = six_pixels();
-  camera.projection = Projection::perspective;
-  camera.fx = camera.fy = 0.75;
+  camera.projection.model = ProjectionModel::perspective;
+  camera.projection.fx = camera.projection.fy = 0.75;
   const Scene scene = crossing_triangles(12, 99);
   const auto picture = [&](Mapping mapping) {
     PipelineOptions options;

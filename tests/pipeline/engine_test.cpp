@@ -33,9 +33,9 @@ Camera camera_of(std::uint32_t width, std::uint32_t height, double near = 0.5, d
   Camera camera;
   camera.width = width;
   camera.height = height;
-  camera.fx = camera.fy = width;
-  camera.cx = width / 2.0;
-  camera.cy = height / 2.0;
+  camera.projection.fx = camera.projection.fy = width;
+  camera.projection.cx = width / 2.0;
+  camera.projection.cy = height / 2.0;
   camera.near = near;
   camera.far = far;
   return camera;
@@ -203,9 +203,9 @@ TEST(Engine, MultisamplingLeavesNoSeamOnASharedEdge) {
 TEST(Engine, AreaSamplingGivesTheExactArea) {
   // A rectangle from 10.25 to 30.5 by 8.75 to 20: its pixels' weights are products of lengths.
   Camera camera = camera_of(40, 30);
-  camera.projection = Projection::orthographic;
-  camera.fx = camera.fy = 1;
-  camera.cx = camera.cy = 0;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.fx = camera.projection.fy = 1;
+  camera.projection.cx = camera.projection.cy = 0;
   const Scene scene = scene_of({{10.25, 8.75, 2}, {30.5, 8.75, 2}, {30.5, 20, 2}, {10.25, 20, 2}},
                                {{0, 1, 2}, {0, 2, 3}});
   PipelineOptions options;

@@ -304,7 +304,7 @@ Camera window_camera(std::uint32_t width, std::uint32_t height) {
   Camera camera;
   camera.width = width;
   camera.height = height;
-  camera.projection = Projection::orthographic;
+  camera.projection.model = ProjectionModel::orthographic;
   camera.near = 0;
   camera.far = 1;
   return camera;
@@ -331,8 +331,8 @@ TEST(Errata, E14_WindowDepthIsAffineAndNotDividedAgain) {
   // it would be (0 + 3/4/4)/(5/4) = 3/20. Another triangle lies at window depth 1/4, w = 4/3.
   Camera camera;  // the image at w = 1 is x and y
   camera.width = camera.height = 16;
-  camera.fx = camera.fy = 1;
-  camera.cx = camera.cy = 0;
+  camera.projection.fx = camera.projection.fy = 1;
+  camera.projection.cx = camera.projection.cy = 0;
   camera.near = 1;
   camera.far = 1000;
   const auto corner = [](double x, double y, double w) { return MeshPoint{x * w, y * w, w}; };
@@ -603,7 +603,7 @@ TEST(Errata, E21_JitterIsForRegularPatterns) {
 
 TEST(Errata, E22_TheProjectionOfAPointBehindTheEye) {
   Camera camera = window_camera(8, 8);
-  camera.projection = Projection::perspective;
+  camera.projection.model = ProjectionModel::perspective;
   camera.near = 1;
   camera.far = 2;
   PipelineOptions options;
@@ -670,8 +670,8 @@ std::vector<double> facing_shares(bool closed) {
   const Scene scene = scene_of(v, t);
   Camera camera;
   camera.width = camera.height = 64;
-  camera.fx = camera.fy = 64;
-  camera.cx = camera.cy = 32;
+  camera.projection.fx = camera.projection.fy = 64;
+  camera.projection.cx = camera.projection.cy = 32;
   camera.near = 1;
   camera.far = 10;
   PipelineOptions options;
@@ -718,8 +718,8 @@ TEST(Errata, E28_CullingAfterTheDivisionSeesWhatIsDrawn) {
   // The stage itself: the same triangle, y down, keeps every pixel when back faces are culled, and
   // loses all of them when it is turned.
   Camera camera = window_camera(64, 64);
-  camera.projection = Projection::perspective;
-  camera.fx = camera.fy = camera.cx = camera.cy = 32;
+  camera.projection.model = ProjectionModel::perspective;
+  camera.projection.fx = camera.projection.fy = camera.projection.cx = camera.projection.cy = 32;
   camera.near = 0.5;
   camera.far = 10;
   const auto pixels = [&](CornerIndices corners, Culling culling) {
@@ -753,8 +753,8 @@ TEST(Errata, E30_SortingByTheFarthestCornerAloneIsWrong) {
                {{3, 4, 5}, {0, 1, 2}});
   Camera camera;
   camera.width = camera.height = 64;
-  camera.fx = camera.fy = 64;
-  camera.cx = camera.cy = 32;
+  camera.projection.fx = camera.projection.fy = 64;
+  camera.projection.cx = camera.projection.cy = 32;
   camera.near = 1;
   camera.far = 20;
   PipelineOptions options;

@@ -37,9 +37,9 @@ inline Camera camera_of_layers(double near = 0.5, double far = 100) {
   Camera camera;
   camera.width = 6;
   camera.height = 4;
-  camera.fx = camera.fy = 4;
-  camera.cx = 3;
-  camera.cy = 2;
+  camera.projection.fx = camera.projection.fy = 4;
+  camera.projection.cx = 3;
+  camera.projection.cy = 2;
   camera.near = near;
   camera.far = far;
   return camera;

@@ -21,8 +21,8 @@ Camera camera_of_pixels() {
   Camera camera;
   camera.width = 40;
   camera.height = 30;
-  camera.fx = camera.fy = 10;
-  camera.cx = camera.cy = 0;
+  camera.projection.fx = camera.projection.fy = 10;
+  camera.projection.cx = camera.projection.cy = 0;
   camera.near = 1;
   camera.far = 100;
   return camera;

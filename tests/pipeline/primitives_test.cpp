@@ -27,8 +27,8 @@ Scene scene_of(std::vector<MeshPoint> vertices, std::vector<CornerIndices> trian
 Camera camera() {
   Camera camera;
   camera.width = camera.height = 32;
-  camera.fx = camera.fy = 32;
-  camera.cx = camera.cy = 16;
+  camera.projection.fx = camera.projection.fy = 32;
+  camera.projection.cx = camera.projection.cy = 16;
   camera.near = 1;
   camera.far = 100;
   return camera;
@@ -139,16 +139,16 @@ TEST(Strips, ManySamplesGiveTheSamePictureAsTheWholeAtOnce) {
   Camera wide = camera();
   wide.width = 4096;
   wide.height = 5;
-  wide.fx = wide.fy = 4096;
-  wide.cx = 2048;
-  wide.cy = 2.5;
+  wide.projection.fx = wide.projection.fy = 4096;
+  wide.projection.cx = 2048;
+  wide.projection.cy = 2.5;
   PipelineOptions options;
   options.precision = Precision::binary64;
   options.antialias = {AntialiasMethod::ssaa, 16};
   const PipelineFrame strips = render_frame(scene_of(v, t), wide, options, true);
   Camera narrow = wide;
   narrow.width = 64;
-  narrow.cx = 2048 - 1000;
+  narrow.projection.cx = 2048 - 1000;
   const PipelineFrame whole = render_frame(scene_of(v, t), narrow, options, true);
   // Triangles are clipped at the sides of the narrow image, and the new corners snapped: an edge
   // moves by less than 1/256 of a pixel, past a few of 256 samples. A row that is missed or taken

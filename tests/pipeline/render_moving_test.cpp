@@ -15,7 +15,7 @@ Camera window(std::uint32_t width, std::uint32_t height) {
   Camera camera;
   camera.width = width;
   camera.height = height;
-  camera.projection = Projection::orthographic;
+  camera.projection.model = ProjectionModel::orthographic;
   camera.near = 0.125;
   camera.far = 1;
   return camera;
@@ -183,8 +183,8 @@ TEST(RenderMoving, RefusesTimesThatDoNotIncrease) {
 TEST(SurfaceMotion, FindsPointsOfTrianglesAgain) {
   Camera camera;
   camera.width = camera.height = 100;
-  camera.fx = camera.fy = 100;
-  camera.cx = camera.cy = 50;
+  camera.projection.fx = camera.projection.fy = 100;
+  camera.projection.cx = camera.projection.cy = 50;
   Scene scene;
   scene.meshes.emplace_back();
   scene.meshes[0].vertices = {{-1, 0, 2}, {1, 0, 6}, {0, 1, 4}};

@@ -25,7 +25,7 @@ constexpr std::uint32_t size = 16;
 /// At the origin, along z. A point (x·z/8, y·z/8, z) is seen at (x, y) in pixels, exactly.
 Camera camera() {
   Camera camera = testing::camera_of(size, size, 8);
-  camera.cx = camera.cy = 0;
+  camera.projection.cx = camera.projection.cy = 0;
   camera.near = 1;
   camera.far = 64;
   return camera;
@@ -89,8 +89,8 @@ TEST(Shading, BlinnsAndPhongsHighlightsByHand) {
   // Parallel rays, so V = (0, 0, −1) everywhere; L at 60°. Halfway is at 30°: cos² = 3/4. The
   // mirrored light is at 60° on the other side: cos² = 1/4. Lambert: 1/2.
   Camera parallel = camera();
-  parallel.projection = Projection::orthographic;
-  parallel.fx = parallel.fy = 1;
+  parallel.projection.model = ProjectionModel::orthographic;
+  parallel.projection.fx = parallel.projection.fy = 1;
   const Scene wall = scene_of({{0, 16, 8}, {16, 16, 8}, {0, 0, 8}}, {{0, 1, 2}});
   Material material{.ambient = 0.1, .diffuse = 0.2, .specular = 0.5, .shininess = 2};
   for (const Shading shading : areas) {
@@ -403,8 +403,8 @@ TEST(Shading, TheOrderOfCornersAndTheFrontFaceTurnedTogetherChangeNothing) {
 
 TEST(Shading, AMirroredCameraShowsTheMirrorImage) {
   Camera mirrored = camera();
-  mirrored.fx = -8;
-  mirrored.cx = size;
+  mirrored.projection.fx = -8;
+  mirrored.projection.cx = size;
   for (const Shading shading : areas) {
     const PipelineOptions o = options(shading, {-1, -1, -1}, {});
     expect_same(render_frame(pyramid(), camera(), o, true).picture,

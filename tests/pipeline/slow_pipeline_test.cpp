@@ -46,7 +46,8 @@ class Model {
   }
 
   [[nodiscard]] std::optional<Hit> hit(std::size_t t, Number u, Number v) const {
-    const Vector ray{(u - camera_.cx) / camera_.fx, (v - camera_.cy) / camera_.fy, 1};
+    const Vector ray{(u - camera_.projection.cx) / camera_.projection.fx,
+                     (v - camera_.projection.cy) / camera_.projection.fy, 1};
     const auto& [a, b, c] = mesh_.triangles[t];
     const Vector &A = points_[a], &B = points_[b], &C = points_[c];
     const Vector w{volume(ray, B, C), volume(A, ray, C), volume(A, B, ray)};
@@ -107,9 +108,9 @@ class Model {
 /// Turned and moved, with unequal focal lengths and its axis beside the middle.
 Camera oblique_camera() {
   Camera camera = testing::camera_of(64, 48, 60);
-  camera.fy = 52;
-  camera.cx = 30.25;
-  camera.cy = 26.5;
+  camera.projection.fy = 52;
+  camera.projection.cx = 30.25;
+  camera.projection.cy = 26.5;
   camera.near = 0.5;
   camera.far = 100;
   const double c = std::cos(0.3), s = std::sin(0.3), e = std::cos(-0.2), f = std::sin(-0.2);
@@ -229,7 +230,7 @@ TEST(SlowPipeline, AffineAttributesAreAffineInTheWindow) {
     // Only what is not clipped: corners that clipping makes have perspective-correct values.
     Camera wide = camera;
     wide.width = wide.height = 512;
-    wide.cx = wide.cy = 256;
+    wide.projection.cx = wide.projection.cy = 256;
     ASSERT_EQ(render_frame(scene, wide, options, false).statistics.clipped, 0u);
     for (const auto scan : {ScanConversion::edge_function, ScanConversion::scan_line}) {
       options.scan = scan;

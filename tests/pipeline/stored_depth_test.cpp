@@ -77,7 +77,7 @@ TEST(StoredDepth, IsTheExactCodeInEveryFormat) {
 /// way from 2 to 10 lies 7. Codes mean the depth that they are nearest to.
 TEST(StoredDepth, OfAnOrthographicCameraIsAffineInTheDepth) {
   Camera camera = camera_of_layers(2, 10);
-  camera.projection = Projection::orthographic;
+  camera.projection.model = ProjectionModel::orthographic;
   for (const Mapping mapping : {Mapping::standard, Mapping::opengl, Mapping::reversed}) {
     for (const std::array<double, 2>& range : {std::array{0.0, 1.0}, {0.75, 0.25}}) {
       PipelineOptions options = precise(mapping, Storage::unorm16);

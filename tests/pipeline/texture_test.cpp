@@ -187,7 +187,7 @@ Scene square(double repeats) {
 
 Camera camera() {
   Camera camera = testing::camera_of(8, 8, 8);
-  camera.cx = camera.cy = 0;
+  camera.projection.cx = camera.projection.cy = 0;
   return camera;
 }
 

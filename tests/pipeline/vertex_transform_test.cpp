@@ -19,13 +19,13 @@ Camera camera_from(std::mt19937_64& random, bool perspective) {
   Camera c;
   c.width = 640;
   c.height = 480;
-  c.projection = perspective ? Projection::perspective : Projection::orthographic;
-  c.fx = 500 + 100 * unit(random);
-  c.fy = 500 + 100 * unit(random);
-  c.skew = 10 * unit(random);
-  c.cx = 320 + 20 * unit(random);
-  c.cy = 240 + 20 * unit(random);
-  c.pixel_centre = random() % 2 ? 0.5 : 0;
+  c.projection.model = perspective ? ProjectionModel::perspective : ProjectionModel::orthographic;
+  c.projection.fx = 500 + 100 * unit(random);
+  c.projection.fy = 500 + 100 * unit(random);
+  c.projection.skew = 10 * unit(random);
+  c.projection.cx = 320 + 20 * unit(random);
+  c.projection.cy = 240 + 20 * unit(random);
+  c.projection.pixel_centre = random() % 2 ? 0.5 : 0;
   c.near = 0.5;
   c.far = 50;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -64,8 +64,8 @@ TEST(VertexTransform, StagesLeadToTheImageAndToTheStoredDepth) {
     const VertexTransform<double> transform(camera, object, options);
     const Viewport viewport = viewport_of(camera, options);
     const MeshPoint p{side(random), side(random), side(random)};
-    const CameraPoint exact = to_camera(camera, object.world_from_mesh(p));
-    const auto [U, V, W] = to_image(camera, exact);
+    const CameraPoint exact = to_camera(camera.world_to_camera, object.world_from_mesh(p));
+    const auto [U, V, W] = to_image(camera.projection, exact);
     const double u = round_to_binary64(Ratio(U, W)), v = round_to_binary64(Ratio(V, W));
     InputVertex vertex;
     vertex.position = p;
@@ -109,7 +109,7 @@ TEST(FillInRange, HoldsTheSceneWhereTheCameraHasNone) {
   format.near = format.far = 0;
   fill_in_range(around, camera, format);
   EXPECT_DOUBLE_EQ(format.near, 8e-4);
-  camera.projection = Projection::orthographic;
+  camera.projection.model = ProjectionModel::orthographic;
   format = {Mapping::infinite, Storage::float32, 0, 0, 1};
   EXPECT_THROW(fill_in_range(scene, camera, format), UsageError);
 }

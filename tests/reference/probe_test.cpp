@@ -83,8 +83,8 @@ TEST(Probe, ShowsTrianglesThatDoNotCount) {
   scene.objects.emplace_back();
   Camera camera;
   camera.width = camera.height = 3;
-  camera.fx = camera.fy = 3;
-  camera.cx = camera.cy = 1.5;
+  camera.projection.fx = camera.projection.fy = 3;
+  camera.projection.cx = camera.projection.cy = 1.5;
   camera.far = 1;
   const auto found = probe(scene, camera, 1, 1);
   ASSERT_EQ(found.size(), 1U);

@@ -22,7 +22,8 @@ constexpr Vector3 y_up{0, 1, 0}, z_up{0, 0, 1};
 
 /// Whether a point projects into the part of the image that a margin of a twentieth leaves. Exact.
 bool inside_margin(const Camera& camera, const MeshPoint& p) {
-  const auto [U, V, W] = to_image(camera, to_camera(camera, WorldPoint{p.x, p.y, p.z}));
+  const auto [U, V, W] =
+      to_image(camera.projection, to_camera(camera.world_to_camera, WorldPoint{p.x, p.y, p.z}));
   const Dyadic w = camera.width, h = camera.height, twenty = 20.0;
   return W.sign() == Sign::positive && twenty * U >= w * W && twenty * U <= Dyadic(19.0) * w * W &&
          twenty * V >= h * W && twenty * V <= Dyadic(19.0) * h * W;
@@ -74,13 +75,13 @@ TEST(Frame, SeesAllOfEveryScene) {
   for (const auto& [name, vertices] : trouble()) {
     SCOPED_TRACE(name);
     const Scene scene = testing::scene_of_points(vertices);
-    for (const auto projection : {Projection::perspective, Projection::orthographic})
+    for (const auto projection : {ProjectionModel::perspective, ProjectionModel::orthographic})
       for (const Vector3& up : {y_up, z_up, Vector3{-1, 0, 0}, Vector3{0.3, -1e-5, 0.7}})
         for (const double azimuth : {0.0, 35.0, 90.0, 250.0})
           for (const double elevation : {-90.0, -30.0, 0.0, 25.0, 90.0})
             for (const double fov : {1.0, 40.0, 150.0}) {
-              Lens lens;
-              lens.projection = projection;
+              LensChoice lens;
+              lens.model = projection;
               lens.vertical_fov = fov;
               expect_sees_all(frame_scene(scene, {azimuth, elevation, up}, lens), vertices);
             }
@@ -88,9 +89,9 @@ TEST(Frame, SeesAllOfEveryScene) {
 }
 
 TEST(Frame, FillsTheImageButForItsMargin) {
-  for (const auto projection : {Projection::perspective, Projection::orthographic}) {
-    Lens lens;
-    lens.projection = projection;
+  for (const auto projection : {ProjectionModel::perspective, ProjectionModel::orthographic}) {
+    LensChoice lens;
+    lens.model = projection;
     lens.width = 300, lens.height = 400;
     const WorldBounds bounds{{-1, -2, -3}, {3, 2, 1}};
     const Camera camera = frame(bounds, {}, lens);
@@ -118,11 +119,11 @@ TEST(Frame, AnOrbitSeesAllFromEverywhere) {
 }
 
 TEST(Frame, KeepsAGivenExtent) {
-  Lens lens;
-  lens.projection = Projection::orthographic;
+  LensChoice lens;
+  lens.model = ProjectionModel::orthographic;
   lens.vertical_extent = 1;  // less than the scene
   const Camera camera = frame({{-1, -1, -1}, {1, 1, 1}}, {}, lens);
-  EXPECT_EQ(camera.fx, 720);
+  EXPECT_EQ(camera.projection.fx, 720);
   for (int i = 0; i < 8; ++i)
     EXPECT_GT(test::seen(camera, {(i & 1) != 0 ? 1. : -1., (i & 2) != 0 ? 1. : -1.,
                                   (i & 4) != 0 ? 1. : -1.})

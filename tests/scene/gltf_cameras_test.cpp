@@ -51,7 +51,7 @@ Beside beside(const testing::Asset& asset) {
   }
   for (const MeshPoint& p : scene.meshes.at(0).vertices) {
     const WorldPoint X = M(p);
-    const CameraPoint c = to_camera(camera, X);
+    const CameraPoint c = to_camera(camera.world_to_camera, X);
     const auto rounded = [](const Dyadic& x) { return round_to_binary64(Ratio(x)); };
     result.points.push_back({rounded(c.x), -rounded(c.y), -rounded(c.z)});
     for (const Dyadic& x : {X.x, X.y, X.z})

@@ -53,7 +53,7 @@ Scene scene_of(Mesh mesh) {
   return scene;
 }
 
-constexpr Lens lens{.width = 640, .height = 480};
+constexpr LensChoice lens{.width = 640, .height = 480};
 
 Camera looking(const Vector3& eye, const Vector3& target = {}) {
   return look_at(eye, target, {0, 1, 0}, lens);
@@ -118,14 +118,14 @@ TEST(CameraWarnings, NameAScaleAMirrorAndWhatIsNeither) {
   EXPECT_THAT(text_of(warnings_of_camera(multiplied(camera, 1.001)), Kind::scaled),
               HasSubstr("by 1.001"));
   Camera orthographic = multiplied(camera, 2);
-  orthographic.projection = Projection::orthographic;
+  orthographic.projection.model = ProjectionModel::orthographic;
   EXPECT_THAT(text_of(warnings_of_camera(orthographic), Kind::scaled),
               HasSubstr("multiply fx, fy and skew"));
 
   Camera mirrored = camera;
   for (double& entry : mirrored.world_to_camera[0]) entry = -entry;
   EXPECT_THAT(text_of(warnings_of_camera(mirrored), Kind::mirrored), HasSubstr("negative"));
-  mirrored.fx = -mirrored.fx;  // mirrors it back
+  mirrored.projection.fx = -mirrored.projection.fx;  // mirrors it back
   EXPECT_THAT(warnings_of_camera(mirrored), IsEmpty());
 
   const Camera one_decimal = changed(camera, [](double x) { return std::round(x * 10) / 10; });
@@ -157,25 +157,25 @@ TEST(CameraWarnings, NothingIsSaidOfACameraWithAFault) {
 TEST(CameraWarnings, APrincipalPointFarFromTheMiddle) {
   Camera camera = looking({1, 2, 3});
   for (const double cx : {160.0, 320.0, 480.0}) {
-    camera.cx = cx;
+    camera.projection.cx = cx;
     EXPECT_THAT(warnings_of_camera(camera), IsEmpty()) << cx;
   }
-  camera.cx = 159;
+  camera.projection.cx = 159;
   EXPECT_THAT(text_of(warnings_of_camera(camera), Kind::principal_point),
               AllOf(HasSubstr("(159, 240)"), HasSubstr("640x480"), HasSubstr("cut out")));
-  camera.cx = camera.cy = 0.5;
+  camera.projection.cx = camera.projection.cy = 0.5;
   EXPECT_THAT(text_of(warnings_of_camera(camera), Kind::principal_point), HasSubstr("fractions"));
-  camera.width = 480, camera.height = 1920, camera.cx = 960, camera.cy = 240;
+  camera.width = 480, camera.height = 1920, camera.projection.cx = 960, camera.projection.cy = 240;
   EXPECT_THAT(text_of(warnings_of_camera(camera), Kind::principal_point), HasSubstr("swapped"));
-  camera.width = 480, camera.height = 640, camera.cx = 322, camera.cy = 237;
+  camera.width = 480, camera.height = 640, camera.projection.cx = 322, camera.projection.cy = 237;
   EXPECT_THAT(text_of(warnings_of_camera(camera), Kind::principal_point),
               AllOf(HasSubstr("(322, 237)"), HasSubstr("480x640"), HasSubstr("swapped")));
-  camera.cx = 300;  // some part of a larger image
+  camera.projection.cx = 300;  // some part of a larger image
   EXPECT_THAT(warnings_of_camera(camera), IsEmpty());
-  camera.width = 639, camera.height = 640, camera.cx = 320, camera.cy = 319.5;
+  camera.width = 639, camera.height = 640, camera.projection.cx = 320, camera.projection.cy = 319.5;
   EXPECT_THAT(warnings_of_camera(camera), IsEmpty());
-  camera.projection = Projection::orthographic;
-  camera.cx = 1000;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.cx = 1000;
   EXPECT_THAT(warnings_of_camera(camera), IsEmpty());
 }
 
@@ -192,7 +192,7 @@ TEST(ViewWarnings, AMapThatShowsAPartOfTheSceneIsNotLookedInto) {
   }
   scene.meshes[0].triangles.clear();
   Camera faulty = camera;
-  faulty.fx = 0;
+  faulty.projection.fx = 0;
   EXPECT_THROW((void)warnings_of_view(scene, faulty, 0), InputError);
 }
 
@@ -200,7 +200,7 @@ TEST(ViewWarnings, BehindTheCameraSaysWhereTheSceneLies) {
   // The eye at (0, 0, 10) looks along +z: the cube lies 10 behind, and 1 to the left of it (its
   // right is −x), and so does nothing that another reading of the matrix would show.
   Camera camera = looking({0, 0, 10}, {0, 0, 11});
-  camera.fx = camera.fy = 60;
+  camera.projection.fx = camera.projection.fy = 60;
   const std::string text =
       text_of(warnings_of_view(scene_of(cube(0.5, {1, 0, 0})), camera, 0), Kind::behind);
   EXPECT_THAT(text, AllOf(HasSubstr("(-1, 0, -10)"), HasSubstr("x right, y down, z forward")));
@@ -220,7 +220,8 @@ TEST(ViewWarnings, TellWhichReadingOfTheMatrixWouldShowTheScene) {
                       Not(HasSubstr("camera-to-world"))));
     for (const bool opengl : {false, true}) {
       const Camera meant = opengl ? with_opengl_axes(camera) : camera;
-      const auto warnings = warnings_of_view(scene, with_pose(camera, camera_to_world(meant)), 0);
+      const auto warnings =
+          warnings_of_view(scene, with_pose(camera, camera_to_world(meant.world_to_camera)), 0);
       ASSERT_LE(warnings.size(), 1U);
       // From some sides even the wrong matrix shows the scene, and no map is empty.
       if (warnings.empty()) continue;
@@ -241,7 +242,8 @@ TEST(ViewWarnings, LookingPastTheSceneSaysWhereItLies) {
                                                    {{0, 9, 0}, "below the image"}};
   for (const auto& [target, side] : sides) {
     Camera camera = looking({0.2, 0.3, 10}, target);
-    camera.fx = camera.fy = 5000;  // too narrow for any other reading of the matrix
+    camera.projection.fx = camera.projection.fy =
+        5000;  // too narrow for any other reading of the matrix
     EXPECT_THAT(text_of(warnings_of_view(scene, camera, 0), Kind::outside),
                 AllOf(HasSubstr(side), HasSubstr("check world_to_camera")));
   }
@@ -297,7 +299,7 @@ TEST(ViewWarnings, AnEyeInsideAClosedObject) {
   EXPECT_THAT(of(open), IsEmpty());
   // Rays of an orthographic camera start nowhere.
   Camera orthographic = camera;
-  orthographic.projection = Projection::orthographic;
+  orthographic.projection.model = ProjectionModel::orthographic;
   EXPECT_THAT(warnings_of_view(scene_of(cube(1)), orthographic, all_of(camera)), IsEmpty());
 }
 

@@ -23,13 +23,13 @@ using testing::Share;
 
 Camera camera_from(Numbers& n, bool perspective) {
   Camera c = testing::camera_of(200, 150, 0);
-  c.projection = perspective ? Projection::perspective : Projection::orthographic;
+  c.projection.model = perspective ? ProjectionModel::perspective : ProjectionModel::orthographic;
   do {
     const double size = perspective ? 140 : 60;
-    c.fx = (n.below(2) ? 1 : -1) * size * (1 + n.unit() / 2);
-    c.fy = (n.below(2) ? 1 : -1) * size * (1 + n.unit() / 2);
-    c.skew = n.below(2) ? n.unit() * 20 : 0;
-    c.cx = 100 + n.unit();
+    c.projection.fx = (n.below(2) ? 1 : -1) * size * (1 + n.unit() / 2);
+    c.projection.fy = (n.below(2) ? 1 : -1) * size * (1 + n.unit() / 2);
+    c.projection.skew = n.below(2) ? n.unit() * 20 : 0;
+    c.projection.cx = 100 + n.unit();
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t k = 0; k < 3; ++k) {
         c.world_to_camera[i][k] = (i == k) + n.unit() * (n.below(2) ? 0.3 : 0);
@@ -220,8 +220,8 @@ Shares shares_of(bool perspective, std::uint64_t seed) {
     const SceneRays rays(scene, camera);
     const ObjectRays& object = rays.object(0);
     EXPECT_TRUE(object.usable && rays.world().usable);
-    const Sign handedness =
-        Dyadic(camera.fx * camera.fy).sign() * determinant_of_rotation(camera).sign();
+    const Sign handedness = Dyadic(camera.projection.fx * camera.projection.fy).sign() *
+                            determinant_of_rotation(camera.world_to_camera).sign();
     for (int k = 0; k < 12; ++k) {
       const MeshTriangle corners = corners_from(n);
       Mesh mesh;

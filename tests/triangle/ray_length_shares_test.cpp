@@ -18,21 +18,22 @@ using testing::Share;
 Camera camera_from(Numbers& n) {
   Camera c = testing::camera_of(64, 64, 0);
   const double size = std::ldexp(1, 3 + n.below(8));
-  c.fx = size * (1.5 + n.unit() / 2);
-  c.fy = size * (1.5 + n.unit() / 2);
-  c.skew = n.below(2) ? n.unit() : 0;
-  c.cx = n.below(2) ? n.unit() * 64 : 0.5;
-  c.cy = n.below(2) ? n.unit() * 64 : 0.5;
+  c.projection.fx = size * (1.5 + n.unit() / 2);
+  c.projection.fy = size * (1.5 + n.unit() / 2);
+  c.projection.skew = n.below(2) ? n.unit() : 0;
+  c.projection.cx = n.below(2) ? n.unit() * 64 : 0.5;
+  c.projection.cy = n.below(2) ? n.unit() * 64 : 0.5;
   return c;
 }
 
 /// The ray leads through (x, y, 1): u = fx·x + skew·y + cx + ½ − c, v = fy·y + cy + ½ − c, c being
 /// where a pixel's centre is.
 Ratio exact_length(const Camera& c, const ImagePoint& s) {
-  const Dyadic half_less_centre = Dyadic(0.5) - c.pixel_centre;
-  const Ratio y(Dyadic(s.v) - Dyadic(c.cy) - half_less_centre, c.fy);
-  const Ratio across = Ratio(Dyadic(s.u) - Dyadic(c.cx) - half_less_centre) - Ratio(c.skew) * y;
-  const Ratio x = quotient(across, Ratio(c.fx));
+  const Dyadic half_less_centre = Dyadic(0.5) - c.projection.pixel_centre;
+  const Ratio y(Dyadic(s.v) - Dyadic(c.projection.cy) - half_less_centre, c.projection.fy);
+  const Ratio across = Ratio(Dyadic(s.u) - Dyadic(c.projection.cx) - half_less_centre) -
+                       Ratio(c.projection.skew) * y;
+  const Ratio x = quotient(across, Ratio(c.projection.fx));
   return testing::root(x * x + y * y + Ratio(1.0));
 }
 

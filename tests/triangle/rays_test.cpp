@@ -17,10 +17,10 @@ using testing::Numbers;
 
 Camera camera_from(Numbers& n, bool perspective) {
   Camera c = testing::camera_of(640, 480, 0);
-  c.projection = perspective ? Projection::perspective : Projection::orthographic;
-  c.fx = 400 * (1 + n.unit() / 2);
-  c.fy = (n.below(2) ? 1 : -1) * 400 * (1 + n.unit() / 2);
-  c.skew = n.below(2) ? n.unit() * 20 : 0;
+  c.projection.model = perspective ? ProjectionModel::perspective : ProjectionModel::orthographic;
+  c.projection.fx = 400 * (1 + n.unit() / 2);
+  c.projection.fy = (n.below(2) ? 1 : -1) * 400 * (1 + n.unit() / 2);
+  c.projection.skew = n.below(2) ? n.unit() * 20 : 0;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < 4; ++k) {
       c.world_to_camera[i][k] = (i == k) + 0.4 * n.unit() + (i == 2 && k == 3 ? 4 : 0);
@@ -73,8 +73,8 @@ TEST_P(RaysOf, PointsAreSeenWhereTheyWereTaken) {
     EXPECT_EQ(rays.placed_as_is, !placed);
     const double u = n.below(640) + 0.5, v = n.below(480) + 0.5, D = 1 + std::abs(n.unit()) * 9;
     const ExactPoint X = point_on(rays.rays, perspective, u, v, D);
-    const CameraPoint p = to_camera(camera, object.world_from_mesh.apply(X));
-    const HomogeneousImagePoint seen = to_image(camera, p);
+    const CameraPoint p = to_camera(camera.world_to_camera, object.world_from_mesh.apply(X));
+    const HomogeneousImagePoint seen = to_image(camera.projection, p);
     // Entries err by 2⁻¹⁰⁶ of themselves; terms and what the transform makes of them stay below
     // 2¹⁰ each in the camera frame and 2²⁰ on the image.
     const auto expect_near = [](const Dyadic& found, const Dyadic& expected) {

@@ -54,8 +54,8 @@ TEST(SampleSides, TrianglesThatShareASideDoNotCoverTheSample) {
 TEST(SampleSides, OfPointsInFrontAndBehind) {
   Camera camera;
   camera.width = camera.height = 4;
-  camera.fx = camera.fy = 2;
-  camera.cx = camera.cy = 2;
+  camera.projection.fx = camera.projection.fy = 2;
+  camera.projection.cx = camera.projection.cy = 2;
   const SampleSides sides(Object(), camera, {2.5, 1.5});
   // Images at (2, 2), (3, 1) and (2.5, 1.5); the last one is the first seen from behind.
   const auto a = sides.of({0, 0, 1}), b = sides.of({0.5, -0.5, 1}), c = sides.of({0.25, -0.25, 1});

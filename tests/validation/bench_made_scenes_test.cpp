@@ -71,7 +71,8 @@ double slenderness(const Corners& t) {
 
 /// Pixels that a triangle in front of the camera would cover.
 double pixels(const Camera& camera, Corners t) {
-  for (Point& p : t) p = {camera.fx * p[0] / p[2], camera.fy * p[1] / p[2], 0};
+  for (Point& p : t)
+    p = {camera.projection.fx * p[0] / p[2], camera.projection.fy * p[1] / p[2], 0};
   return area(t);
 }
 

@@ -15,11 +15,11 @@ using attribution::RasterModel;
 
 Camera odd_camera() {
   Camera camera{.width = 160, .height = 90};
-  camera.fx = 150;
-  camera.fy = -130;  // mirrored
-  camera.cx = 70.25;
-  camera.cy = 48.5;
-  camera.skew = 12;
+  camera.projection.fx = 150;
+  camera.projection.fy = -130;  // mirrored
+  camera.projection.cx = 70.25;
+  camera.projection.cy = 48.5;
+  camera.projection.skew = 12;
   camera.world_to_camera = {{{0.9, 0.1, -0.2, 0.1}, {-0.1, 1.1, 0.3, -0.2}, {0.2, -0.3, 0.8, 4}}};
   camera.near = 0.5;
   camera.far = 20;
@@ -32,9 +32,10 @@ RasterModel shifted_and_scaled() {
 
 // Two steps of binary32 are more than half a one, which rounding may take, from either side.
 TEST(CameraMatrix, IsKnownToAStepOfEachEntry) {
-  for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
+  for (const ProjectionModel projection :
+       {ProjectionModel::perspective, ProjectionModel::orthographic}) {
     Camera camera = odd_camera();
-    camera.projection = projection;
+    camera.projection.model = projection;
     const RasterModel model = shifted_and_scaled();
     const auto matrix = clip_from_held(camera, model);
     EXPECT_TRUE(is_matrix_of(camera, model, matrix));

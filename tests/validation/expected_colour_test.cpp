@@ -177,7 +177,7 @@ TEST(ExpectedColour, ExplainsThePipelinesPicturesAndNoOthers) {
 TEST(LitScene, RefusesWhatBoundsDoNotKnow) {
   const Scene scene = testing::scene_of({{0, 0, 8}, {1, 0, 8}, {0, 1, 8}}, {{0, 1, 2}});
   Camera orthographic = camera();
-  orthographic.projection = Projection::orthographic;
+  orthographic.projection.model = ProjectionModel::orthographic;
   EXPECT_THROW(lit_scene(scene, orthographic, {}), std::exception);
   Camera skewed = camera();
   skewed.world_to_camera[0][0] = 2;

@@ -49,7 +49,8 @@ std::vector<int> visible_by_rays(const Scene& scene, const Camera& camera) {
   std::vector<int> seen;
   for (std::uint32_t y = 0; y < camera.height; ++y) {
     for (std::uint32_t x = 0; x < camera.width; ++x) {
-      const Vector ray{(x + 0.5L - camera.cx) / camera.fx, (y + 0.5L - camera.cy) / camera.fy, 1};
+      const Vector ray{(x + 0.5L - camera.projection.cx) / camera.projection.fx,
+                       (y + 0.5L - camera.projection.cy) / camera.projection.fy, 1};
       int nearest = -1;
       long double least = 0;
       for (std::size_t i = 0; i < scene.meshes[0].triangles.size(); ++i) {
@@ -186,7 +187,7 @@ TEST(HiddenSurfaceStudy, AGivenSceneIsSeenFromTheEye) {
   }
   EXPECT_EQ(thinned(eye.scene, 7).meshes[0].triangles.size(), 7u);
   Camera flat = view.camera;
-  flat.projection = Projection::orthographic;
+  flat.projection.model = ProjectionModel::orthographic;
   EXPECT_THROW(seen_from_eye({"flat", view.scene, flat}), UsageError);
 }
 

@@ -89,7 +89,7 @@ std::vector<BroughtMap> drawn(const std::vector<std::string>& scenes, double shi
           peer,
           [&, w = width, h = height] {
             ValidationScene made = make_validation_scene(scene, w, h);
-            made.camera.cx -= shift;
+            made.camera.projection.cx -= shift;
             return made;
           },
           300);

@@ -57,10 +57,10 @@ TEST(NoFalseWarnings, OfScenesThatAreFramed) {
       SCOPED_TRACE(entry.path().filename().string());
       const Scene scene = scene_from(entry.path());
       ++files;
-      Lens lens{.width = 201, .height = 131};
+      LensChoice lens{.width = 201, .height = 131};
       for (const Camera& camera : orbit_scene({.elevation = 10}, 5, scene, lens))
         expect_none(scene, camera);
-      lens.projection = Projection::orthographic;
+      lens.model = ProjectionModel::orthographic;
       expect_none(scene, frame_scene(scene, {}, lens));
     }
   }

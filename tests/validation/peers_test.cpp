@@ -26,15 +26,15 @@ using attribution::ClipRange;
 using attribution::world_mesh;
 using attribution::WorldMesh;
 
-Camera odd_camera(Projection projection) {
-  Camera camera{.width = 160, .height = 90, .projection = projection};
-  const bool perspective = projection == Projection::perspective;
-  camera.fx = perspective ? 150 : 30;
-  camera.fy = perspective ? -130 : -28;  // mirrored
-  camera.cx = 70.25;
-  camera.cy = 48.5;
-  camera.skew = perspective ? 12 : 3;
-  camera.pixel_centre = 0;
+Camera odd_camera(ProjectionModel projection) {
+  Camera camera{.width = 160, .height = 90, .projection = {.model = projection}};
+  const bool perspective = projection == ProjectionModel::perspective;
+  camera.projection.fx = perspective ? 150 : 30;
+  camera.projection.fy = perspective ? -130 : -28;  // mirrored
+  camera.projection.cx = 70.25;
+  camera.projection.cy = 48.5;
+  camera.projection.skew = perspective ? 12 : 3;
+  camera.projection.pixel_centre = 0;
   camera.world_to_camera = {{{0.9, 0.1, -0.2, 0.1}, {-0.1, 1.1, 0.3, -0.2}, {0.2, -0.3, 0.8, 4}}};
   return camera;
 }
@@ -57,7 +57,7 @@ Difference difference(const Samples<float>& ours, const std::vector<float>& thei
   return found;
 }
 
-class Peers : public testing::TestWithParam<Projection> {
+class Peers : public testing::TestWithParam<ProjectionModel> {
  protected:
   const Camera camera = odd_camera(GetParam());
   const Scene scene = bench::as_scene({bench::sphere(800)}, "sphere");
@@ -81,7 +81,7 @@ TEST_P(Peers, VtkSeesTheSame) {
   for (float& depth : depths) {
     const double z = depth, length = range.far - range.near;
     depth = depth == 1 ? INFINITY
-            : camera.projection == Projection::perspective
+            : is_perspective(camera.projection)
                 ? static_cast<float>(range.near * range.far / (range.far - z * length))
                 : static_cast<float>(range.near + z * length);
   }
@@ -148,8 +148,8 @@ WorldMesh two_sheets(double distance) {
 // Depths of 16 bits are all equal there, and the later sheet wins wherever it is drawn.
 TEST(VtkNumbers, ShowTheWrongSheetsThatAScriptCounts) {
   Camera camera{.width = 96, .height = 96};
-  camera.fx = camera.fy = 96;
-  camera.cx = camera.cy = 48;
+  camera.projection.fx = camera.projection.fy = 96;
+  camera.projection.cx = camera.projection.cy = 48;
   camera.near = 0.001;
   camera.far = 1000;
   for (const auto& [distance, wrong] : {std::pair{2.0, 2610}, {10.0, 2874}}) {
@@ -183,10 +183,11 @@ TEST_P(Peers, EmbreeSeesTheSame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Peers,
-                         testing::Values(Projection::perspective, Projection::orthographic),
+                         testing::Values(ProjectionModel::perspective,
+                                         ProjectionModel::orthographic),
                          [](const auto& projection) {
-                           return projection.param == Projection::perspective ? "Perspective"
-                                                                              : "Orthographic";
+                           return projection.param == ProjectionModel::perspective ? "Perspective"
+                                                                                   : "Orthographic";
                          });
 
 /// A ball of 800 triangles, lit, before a camera that sees all of it.
@@ -194,9 +195,9 @@ LitScene lit_ball() {
   Camera camera;
   camera.width = 96;
   camera.height = 72;
-  camera.fx = camera.fy = 90;
-  camera.cx = 48;
-  camera.cy = 36;
+  camera.projection.fx = camera.projection.fy = 90;
+  camera.projection.cx = 48;
+  camera.projection.cy = 36;
   camera.world_to_camera[2][3] = 4;
   camera.near = 1;
   camera.far = 10;
@@ -236,7 +237,7 @@ TEST(PeersColours, AreThoseOfTheFormulasAndNoOthers) {
   duller.material.shininess = 36;
   EXPECT_GT(unexplained(duller, phong, LightModel::interpolated_normal), 20U);
   LitScene shifted = scene;
-  shifted.camera.cx += 0.05;
+  shifted.camera.projection.cx += 0.05;
   EXPECT_GT(unexplained(shifted, phong, LightModel::interpolated_normal), 20U);
 }
 

@@ -26,9 +26,9 @@ SceneView small_panels() {
   SceneView view = panels_with_decals();
   view.camera.width = 160;
   view.camera.height = 90;
-  view.camera.fx = view.camera.fy = 75;
-  view.camera.cx = 80;
-  view.camera.cy = 45;
+  view.camera.projection.fx = view.camera.projection.fy = 75;
+  view.camera.projection.cx = 80;
+  view.camera.projection.cy = 45;
   return view;
 }
 
@@ -104,7 +104,7 @@ TEST(SnappedRaster, CornersOnTheGridGiveTheExactMap) {
   view.scene.meshes = {mesh};
   view.scene.objects = {{.name = "triangles"}};
   view.camera.width = view.camera.height = 20;
-  view.camera.projection = Projection::orthographic;
+  view.camera.projection.model = ProjectionModel::orthographic;
   const DepthMap exact = visible_map(view);
   for (const int bits : {2, 3, 8, 16}) {
     const SnappedMap snapped = draw_snapped(view, bits);
@@ -123,7 +123,7 @@ TEST(SnappedRaster, CornersMoveToTheNearestPoint) {
   view.scene.meshes = {mesh};
   view.scene.objects = {{.name = "square"}};
   view.camera.width = view.camera.height = 10;
-  view.camera.projection = Projection::orthographic;
+  view.camera.projection.model = ProjectionModel::orthographic;
   const auto covered = [&](int bits) {
     const SnappedMap map = draw_snapped(view, bits);
     return std::count_if(map.id.begin(), map.id.end(), [](auto id) { return id != no_surface; });
@@ -159,7 +159,8 @@ TEST(SceneStudies, SubpixelErrorsFallWithTheBits) {
 TEST(SceneStudies, CoverageBySamplesConvergesToTheArea) {
   SceneView view = wheel();  // at a quarter of its size
   view.camera.width = view.camera.height = 80;
-  view.camera.fx = view.camera.fy = view.camera.cx = view.camera.cy = 40;
+  view.camera.projection.fx = view.camera.projection.fy = view.camera.projection.cx =
+      view.camera.projection.cy = 40;
   const CoverageBySamples measured =
       measure_coverage_by_samples(view, exact_coverage(view), no_tick);
   const auto rms = [&](const std::string& pattern) {

@@ -79,7 +79,8 @@ TEST(BenchScenes, SoupHasDepthComplexityFifty) {
   const Mesh& mesh = bench.scene.meshes[0];
   std::vector<ImagePoint> corners;
   for (const MeshPoint& p : mesh.vertices) {
-    corners.push_back({camera.fx * p.x / p.z + camera.cx, camera.fy * p.y / p.z + camera.cy});
+    corners.push_back({camera.projection.fx * p.x / p.z + camera.projection.cx,
+                       camera.projection.fy * p.y / p.z + camera.projection.cy});
   }
   const auto side = [](const ImagePoint& a, const ImagePoint& b, const ImagePoint& s) {
     return (b.u - a.u) * (s.v - a.v) > (b.v - a.v) * (s.u - a.u);

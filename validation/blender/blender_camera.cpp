@@ -24,22 +24,22 @@ void require_rotation(const Eigen::Matrix3d& R) {
 }  // namespace
 
 BlenderCamera blender_camera(const Camera& camera) {
-  if (camera.skew != 0) refuse("a camera with skew");
-  if (camera.fx <= 0 || camera.fy <= 0) refuse("a mirrored camera");
+  if (camera.projection.skew != 0) refuse("a camera with skew");
+  if (camera.projection.fx <= 0 || camera.projection.fy <= 0) refuse("a mirrored camera");
   const auto camera_from_world = geometry::as_matrix(camera.world_to_camera);
   const Eigen::Matrix3d R = camera_from_world.leftCols<3>();
   require_rotation(R);
-  const double pixel = camera.fx / camera.fy;  // aspect_y / aspect_x
+  const double pixel = camera.projection.fx / camera.projection.fy;  // aspect_y / aspect_x
   if (pixel > 2 || pixel < 0.5) refuse("pixels more than twice as wide as high, or the reverse");
   const double width = camera.width, height = camera.height;
-  const auto [cx, cy] = principal_point(camera);
+  const auto [cx, cy] = principal_point(camera.projection);
 
   BlenderCamera made;
-  made.perspective = camera.projection == Projection::perspective;
+  made.perspective = is_perspective(camera.projection);
   made.aspect_x = std::max(1.0, 1 / pixel);
   made.aspect_y = std::max(1.0, pixel);
-  made.lens = camera.fx * sensor_width / width;
-  made.ortho_scale = width / camera.fx;
+  made.lens = camera.projection.fx * sensor_width / width;
+  made.ortho_scale = width / camera.projection.fx;
   made.shift_x = (width / 2 - cx) / width;
   made.shift_y = (cy - height / 2) * pixel / width;
 

@@ -65,7 +65,7 @@ ExpectedTriangle::ExpectedTriangle(const LitTriangle& t, const LitScene& scene,
   const Vector translation = camera_from_world.col(3);
   const auto clip = attribution::clip_from_eye(camera, {camera.near, camera.far});
   const double u = precision.rounding;
-  const PrincipalPoint centre = principal_point(camera);
+  const PrincipalPoint centre = principal_point(camera.projection);
   light_ = as_array(rotation * as_vector(scene.towards_light));
   std::array<double, 3> q{}, q_error{}, z{}, z_error{};
   std::array<Vector, 3> eye_error;
@@ -77,7 +77,8 @@ ExpectedTriangle::ExpectedTriangle(const LitTriangle& t, const LitScene& scene,
     eye_error[k] = (row_roundings * u + own_rounding) * sizes;
     const double eye_size = sizes.maxCoeff();
     const auto& [X, Y, Z] = eye_[k];
-    window_[k] = {(camera.fx * X + camera.skew * Y) / Z + centre.x, camera.fy * Y / Z + centre.y};
+    window_[k] = {(camera.projection.fx * X + camera.projection.skew * Y) / Z + centre.x,
+                  camera.projection.fy * Y / Z + centre.y};
     // Clip coordinates: sums of products of the matrix's entries with terms of at most eye_size.
     const auto clip_error = [&](std::size_t row) {
       double size = 0;

@@ -20,7 +20,7 @@ void require_rotation(const Camera& camera) {
   const Eigen::Matrix3d off = rotation * rotation.transpose() - Eigen::Matrix3d::Identity();
   if (off.cwiseAbs().maxCoeff() > 0x1p-40)
     throw InputError("colours are compared for cameras whose matrix is a rotation");
-  if (camera.projection != Projection::perspective)
+  if (!is_perspective(camera.projection))
     throw InputError(
         "colours are compared for perspective cameras; in a parallel view VTK takes the eye to be "
         "at a point all the same");
@@ -30,9 +30,9 @@ void require_in_view(const std::array<double, 3>& p, const Camera& camera) {
   const Eigen::Vector3d seen =
       geometry::as_matrix(camera.world_to_camera) * Eigen::Vector4d(p[0], p[1], p[2], 1);
   const double x = seen.x(), y = seen.y(), z = seen.z();
-  const PrincipalPoint centre = principal_point(camera);
-  const double u = (camera.fx * x + camera.skew * y) / z + centre.x;
-  const double v = camera.fy * y / z + centre.y;
+  const PrincipalPoint centre = principal_point(camera.projection);
+  const double u = (camera.projection.fx * x + camera.projection.skew * y) / z + centre.x;
+  const double v = camera.projection.fy * y / z + centre.y;
   if (!(z > camera.near && z < camera.far && u >= 0 && u <= camera.width && v >= 0 &&
         v <= camera.height))
     throw InputError(

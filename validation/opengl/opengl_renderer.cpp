@@ -33,7 +33,7 @@ OtherMap read_back(const GlFunctions& gl, const Camera& camera, const RasterMode
   map.windows = read_window_depths(gl, camera.width, camera.height, model.storage);
   map.triangles = read_numbers(gl, camera.width, camera.height);
   const WindowDepth window =
-      window_depth(camera.projection, model.mapping, camera.near, camera.far);
+      window_depth(camera.projection.model, model.mapping, camera.near, camera.far);
   for (std::size_t i = 0; i < map.windows.size(); ++i) {
     map.depths.push_back(map.triangles[i] == no_surface
                              ? std::numeric_limits<double>::infinity()
@@ -68,7 +68,7 @@ void measure_offset(const GlFunctions& gl, const DrawnMesh& mesh, const Camera& 
 /// Where positions are held from: the eye, so that nothing is lost near it, or where there is none,
 /// the middle of the mesh.
 std::array<double, 3> held_from(const WorldMesh& mesh, const Camera& camera) {
-  if (camera.projection == Projection::perspective) return camera_rays(camera).origin.at_corner;
+  if (is_perspective(camera.projection)) return camera_rays(camera).origin.at_corner;
   std::array<double, 3> middle{};
   if (const auto box = box_of(mesh)) {
     for (std::size_t k = 0; k < 3; ++k) middle[k] = box->lower[k] / 2 + box->upper[k] / 2;

@@ -47,7 +47,9 @@ Camera sphere_camera(const ImageSize& size) {
 
 /// One unit of the world is one pixel.
 BenchScene grid_scene(const std::string& name, const ImageSize& size) {
-  Camera camera{.width = size.width, .height = size.height, .projection = Projection::orthographic};
+  Camera camera{.width = size.width,
+                .height = size.height,
+                .projection = {.model = ProjectionModel::orthographic}};
   const std::uint32_t step = std::max(1U, size.least() / 1000);
   const std::uint32_t columns = std::min(1000U, size.width / step);
   const std::uint32_t rows = std::min(1000U, size.height / step);
@@ -61,7 +63,7 @@ BenchScene grid_scene(const std::string& name, const ImageSize& size) {
 }
 
 BenchScene room_scene(const std::string& name, const ImageSize& size) {
-  const Lens lens{.width = size.width, .height = size.height, .vertical_fov = 60};
+  const LensChoice lens{.width = size.width, .height = size.height, .vertical_fov = 60};
   const Camera camera = name == "room"
                             ? look_at({-2.9, 0.4, 2.3}, {1.5, -0.5, -1.2}, {0, 1, 0}, lens)
                             : look_at({-7, 2.5, 8}, {0, 0, 0}, {0, 1, 0}, lens);

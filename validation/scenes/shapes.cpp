@@ -13,7 +13,8 @@ namespace {
 
 /// The point that `camera` (R = identity, t = 0, perspective) sees at (u, v) in depth z.
 Vector3 seen_at(const Camera& camera, double u, double v, double z) {
-  return {(u - camera.cx) / camera.fx * z, (v - camera.cy) / camera.fy * z, z};
+  return {(u - camera.projection.cx) / camera.projection.fx * z,
+          (v - camera.projection.cy) / camera.projection.fy * z, z};
 }
 
 /// The rings of the sphere from pole to pole, of 1, 4, 8, …, 4n, …, 8, 4, 1 vertices.
@@ -153,9 +154,9 @@ Mesh few_large(std::uint32_t count, const Camera& camera) {
     CornerIndices corners{};
     for (std::uint32_t k = 0; k < 3; ++k) {
       const double angle = turn + 2 * std::numbers::pi * k / 3;
-      corners[k] =
-          add_vertex(mesh, seen_at(camera, camera.cx + radius * std::cos(angle),
-                                   camera.cy + radius * std::sin(angle), random.between(1.5, 8)));
+      corners[k] = add_vertex(
+          mesh, seen_at(camera, camera.projection.cx + radius * std::cos(angle),
+                        camera.projection.cy + radius * std::sin(angle), random.between(1.5, 8)));
     }
     mesh.triangles.push_back(corners);
   }

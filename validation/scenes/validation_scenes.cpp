@@ -31,9 +31,9 @@ Scene read(const std::string& file) {
 }
 
 ValidationScene framed(const std::string& name, Scene scene, const ImageSize& size,
-                       Projection projection = Projection::perspective) {
-  const Camera camera = frame_scene(
-      scene, {}, {.width = size.width, .height = size.height, .projection = projection});
+                       ProjectionModel model = ProjectionModel::perspective) {
+  const Camera camera =
+      frame_scene(scene, {}, {.width = size.width, .height = size.height, .model = model});
   return {name, std::move(scene), camera};
 }
 
@@ -109,11 +109,11 @@ ValidationScene range(const ImageSize& size) {
 
 ValidationScene calibrated(const ImageSize& size) {
   ValidationScene made = framed("calibrated", read("meshes/spot.obj"), size);
-  made.camera.fy *= 1.07;
-  made.camera.skew = 0.06 * made.camera.fx;
-  made.camera.cx += 0.0712 * size.width;
-  made.camera.cy -= 0.0531 * size.height;
-  made.camera.pixel_centre = 0;
+  made.camera.projection.fy *= 1.07;
+  made.camera.projection.skew = 0.06 * made.camera.projection.fx;
+  made.camera.projection.cx += 0.0712 * size.width;
+  made.camera.projection.cy -= 0.0531 * size.height;
+  made.camera.projection.pixel_centre = 0;
   return made;
 }
 
@@ -139,17 +139,17 @@ ValidationScene room(const ImageSize& size) {
 /// A bumpy sheet with a corner on the ray of every pixel, exactly: all numbers have few bits.
 ValidationScene vertices(const ImageSize& size) {
   Camera camera{.width = size.width, .height = size.height};
-  camera.fx = camera.fy = 256;
-  camera.cx = size.width / 2.0;
-  camera.cy = size.height / 2.0;
+  camera.projection.fx = camera.projection.fy = 256;
+  camera.projection.cx = size.width / 2.0;
+  camera.projection.cy = size.height / 2.0;
   Mesh mesh;
   std::uint32_t seed = 1;
   for (std::uint32_t row = 0; row < size.height; ++row) {
     for (std::uint32_t column = 0; column < size.width; ++column) {
       seed = 1664525 * seed + 1013904223;
       const double z = 2 + (seed >> 20) / 8192.0;  // times 319/2: 24 bits
-      mesh.vertices.push_back(
-          {(column + 0.5 - camera.cx) / 256 * z, (row + 0.5 - camera.cy) / 256 * z, z});
+      mesh.vertices.push_back({(column + 0.5 - camera.projection.cx) / 256 * z,
+                               (row + 0.5 - camera.projection.cy) / 256 * z, z});
     }
   }
   for (std::uint32_t row = 0; row + 1 < size.height; ++row) {
@@ -186,7 +186,7 @@ constexpr Named makers[] = {
     {"range", range},
     {"orthographic",
      [](const ImageSize& s) {
-       return framed("orthographic", read("meshes/teapot.obj"), s, Projection::orthographic);
+       return framed("orthographic", read("meshes/teapot.obj"), s, ProjectionModel::orthographic);
      }},
     {"calibrated", calibrated},
     {"soup", soup}};

@@ -27,7 +27,7 @@ VtkOptions options_of(const VtkVariant& variant, const Camera& camera) {
                      .driver = variant.driver,
                      .numbers = true};
   const auto write = [&](Mapping mapping) {
-    options.written = written_depth(camera.projection, mapping, camera.near, camera.far);
+    options.written = written_depth(camera.projection.model, mapping, camera.near, camera.far);
   };
   switch (variant.encoding) {
     case VtkVariant::Encoding::interpolated:
@@ -90,7 +90,7 @@ DrawnMap draw_vtk(const WorldMesh& mesh, const Camera& camera, const VtkVariant&
   attribution::set_driver_facts(drawn.version, drawing.subpixel_bits, camera, drawn.model);
   drawn.map = {.width = camera.width, .height = camera.height, .windows = drawing.windows};
   const WindowDepth window =
-      window_depth(camera.projection, model.stored_mapping(), camera.near, camera.far);
+      window_depth(camera.projection.model, model.stored_mapping(), camera.near, camera.far);
   const double cleared = window.reversed() ? 0 : 1;
   for (const double z : drawn.map.windows) {
     drawn.map.depths.push_back(z == cleared ? std::numeric_limits<double>::infinity()

@@ -69,7 +69,7 @@ void set_camera(vtkCamera& camera, const Camera& ours, const ClipRange& range, C
   projection->DeepCopy(clip_from_eye(ours, range, depth).data());
   camera.SetExplicitProjectionTransformMatrix(projection);
   camera.UseExplicitProjectionTransformMatrixOn();
-  camera.SetParallelProjection(ours.projection == Projection::orthographic ? 1 : 0);
+  camera.SetParallelProjection(is_orthographic(ours.projection) ? 1 : 0);
   camera.SetClippingRange(range.near, range.far);
 }
 

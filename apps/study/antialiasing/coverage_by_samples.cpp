@@ -48,7 +48,7 @@ SceneView edge_of(double slope) {
   view.scene.meshes = {std::move(mesh)};
   view.scene.objects = {{.name = "edge"}};
   view.camera.width = view.camera.height = 64;
-  view.camera.projection = Projection::orthographic;
+  view.camera.projection.model = ProjectionModel::orthographic;
   return view;
 }
 

@@ -26,8 +26,8 @@ constexpr double rounding = 12 * 0x1p-24;
 Camera camera_of_glass() {
   Camera camera = front_camera(72, 72, 1, 20);
   // No edge runs through a sample, where snapping would decide.
-  camera.cx += 0.1234567;
-  camera.cy += 0.7654321;
+  camera.projection.cx += 0.1234567;
+  camera.projection.cy += 0.7654321;
   return camera;
 }
 

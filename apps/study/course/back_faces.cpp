@@ -48,7 +48,7 @@ FacingCount facings(double distance, pipeline::Precision precision) {
   options.shading = pipeline::Shading::none;
   Camera camera = front_camera(80, 60, distance - 1.01, distance + 1.01);
   // So narrow that the ball fills the picture and nothing of it is clipped.
-  camera.fx = camera.fy = 29.5 * std::sqrt(distance * distance - 1);
+  camera.projection.fx = camera.projection.fy = 29.5 * std::sqrt(distance * distance - 1);
   const auto s = render_frame(ball(90, 180, distance), camera, options, false).statistics;
   return {distance,
           precision,

@@ -77,8 +77,8 @@ struct Exact {
   }
   static bool is_met_at(const std::vector<Point>& polygon, const Camera& camera, double x,
                         double y) {
-    const Kernel::FT u = (Kernel::FT(x) - camera.cx) / camera.fx,
-                     v = (Kernel::FT(y) - camera.cy) / camera.fy;
+    const Kernel::FT u = (Kernel::FT(x) - camera.projection.cx) / camera.projection.fx,
+                     v = (Kernel::FT(y) - camera.projection.cy) / camera.projection.fy;
     return is_met_exactly(polygon, Point(u, v, 1));
   }
 };
@@ -156,7 +156,8 @@ class Tree {
     double left = camera.width, right = 0, top = camera.height, bottom = 0;
     for (const Point& corner : piece.corners) {
       const EyePoint p = Arithmetic::rounded(corner);
-      const double x = camera.fx * p[0] / p[2] + camera.cx, y = camera.fy * p[1] / p[2] + camera.cy;
+      const double x = camera.projection.fx * p[0] / p[2] + camera.projection.cx,
+                   y = camera.projection.fy * p[1] / p[2] + camera.projection.cy;
       left = std::min(left, x), right = std::max(right, x);
       top = std::min(top, y), bottom = std::max(bottom, y);
     }

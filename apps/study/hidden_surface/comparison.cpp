@@ -70,8 +70,8 @@ std::vector<HiddenSurfaceScene> hidden_surface_scenes() {
 
 Camera hidden_surface_camera() {
   Camera camera = front_camera(160, 160, 1, 20);
-  camera.cx += 0.1234567;
-  camera.cy += 0.7654321;
+  camera.projection.cx += 0.1234567;
+  camera.projection.cy += 0.7654321;
   return camera;
 }
 

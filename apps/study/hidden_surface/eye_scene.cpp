@@ -36,7 +36,7 @@ Polygon cut_off(const Polygon& polygon, double near) {
 
 SceneView seen_from_eye(const SceneView& view) {
   const Camera& camera = view.camera;
-  if (camera.projection != Projection::perspective || camera.skew != 0)
+  if (!is_perspective(camera.projection) || camera.projection.skew != 0)
     throw UsageError("the study hidden-surface takes perspective cameras without skew");
   if (const std::size_t count = triangle_count(view.scene); count > most_triangles_to_paint)
     throw UsageError(
@@ -50,7 +50,7 @@ SceneView seen_from_eye(const SceneView& view) {
     for (const CornerIndices& t : mesh.triangles) {
       Polygon corners;
       for (const std::uint32_t v : t) {
-        const CameraPoint p = to_camera(camera, to_world(object, mesh.vertices[v]));
+        const CameraPoint p = to_camera(camera.world_to_camera, to_world(object, mesh.vertices[v]));
         corners.push_back({rounded(p.x), rounded(p.y), rounded(p.z)});
       }
       if (std::all_of(corners.begin(), corners.end(),
@@ -65,10 +65,10 @@ SceneView seen_from_eye(const SceneView& view) {
   }
   if (triangles.empty()) throw UsageError("the camera sees nothing of the scene");
   SceneView result{view.name, scene_of(std::move(vertices), std::move(triangles)), camera};
-  const PrincipalPoint middle = principal_point(camera);
-  result.camera.cx = middle.x;
-  result.camera.cy = middle.y;
-  result.camera.pixel_centre = 0.5;
+  const PrincipalPoint middle = principal_point(camera.projection);
+  result.camera.projection.cx = middle.x;
+  result.camera.projection.cy = middle.y;
+  result.camera.projection.pixel_centre = 0.5;
   result.camera.world_to_camera = Camera{}.world_to_camera;
   return result;
 }

@@ -17,7 +17,8 @@ double volume(const EyePoint& a, const EyePoint& b, const EyePoint& c) {
 }
 
 EyePoint ray_at(const Camera& camera, double x, double y) {
-  return {(x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1};
+  return {(x - camera.projection.cx) / camera.projection.fx,
+          (y - camera.projection.cy) / camera.projection.fy, 1};
 }
 
 std::vector<EyePolygon> eye_polygons(const Scene& scene) {

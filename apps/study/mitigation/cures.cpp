@@ -50,7 +50,7 @@ std::vector<Cure> other_formats(const SceneView& view, const DepthMap& visible) 
 }
 
 std::vector<OffsetCount> polygon_offsets(const SceneView& view) {
-  if (view.scene.objects.size() < 2 || view.camera.projection != Projection::perspective) return {};
+  if (view.scene.objects.size() < 2 || !is_perspective(view.camera.projection)) return {};
   const auto first =
       static_cast<std::uint32_t>(view.scene.meshes[view.scene.objects[0].mesh].triangles.size());
   const std::vector<LayeredSample> samples = layered_samples(view);

@@ -37,12 +37,12 @@ std::optional<std::int64_t> snapped(const Ratio& x, int bits) {
 }
 
 std::optional<Corner> corner_of(const Camera& camera, const CameraPoint& p, int bits) {
-  const HomogeneousImagePoint image = to_image(camera, p);
+  const HomogeneousImagePoint image = to_image(camera.projection, p);
   if (image.W.sign() != Sign::positive || p.z.sign() != Sign::positive) return std::nullopt;
   const auto x = snapped({image.U, image.W}, bits), y = snapped({image.V, image.W}, bits);
   const auto limit = static_cast<std::int64_t>(2 * margin) << (bits + 1);
   if (!x || !y || std::abs(*x) > limit || std::abs(*y) > limit) return std::nullopt;
-  const bool perspective = camera.projection == Projection::perspective;
+  const bool perspective = is_perspective(camera.projection);
   return Corner{{*x, *y},
                 perspective ? round_to_binary64({Dyadic(1.0), p.z}) : round_to_binary64(p.z)};
 }
@@ -104,7 +104,7 @@ class Canvas {
       quantity +=
           static_cast<double>(e[i]) / static_cast<double>(area) * (c[i].quantity - c[0].quantity);
     }
-    const double depth = camera_.projection == Projection::perspective ? 1 / quantity : quantity;
+    const double depth = is_perspective(camera_.projection) ? 1 / quantity : quantity;
     if (!(depth >= camera_.near && depth <= camera_.far)) return;
     const auto pixel = static_cast<std::size_t>(y) * camera_.width + static_cast<std::size_t>(x);
     if (depth < map_.depth[pixel]) {
@@ -130,7 +130,7 @@ SnappedMap draw_snapped(const SceneView& view, int bits) {
     std::array<std::optional<Corner>, 3> corners;
     const auto world = triangles.world_corners(number);
     for (std::size_t i = 0; i < 3; ++i) {
-      corners[i] = corner_of(view.camera, to_camera(view.camera, world[i]), bits);
+      corners[i] = corner_of(view.camera, to_camera(view.camera.world_to_camera, world[i]), bits);
     }
     if (corners[0] && corners[1] && corners[2]) {
       canvas.draw({*corners[0], *corners[1], *corners[2]}, number);

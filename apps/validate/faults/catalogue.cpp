@@ -174,12 +174,13 @@ void add_decodings(Faults& faults) {
 
 void add_cameras(Faults& faults) {
   using V = std::array<double, 3>;
-  faults.push_back(drawn("focal length", {"focal-length"}, 1e-4, "relative",
-                         [](Camera& c, double s) { c.fx *= 1 + s, c.fy *= 1 + s; }));
+  faults.push_back(
+      drawn("focal length", {"focal-length"}, 1e-4, "relative",
+            [](Camera& c, double s) { c.projection.fx *= 1 + s, c.projection.fy *= 1 + s; }));
   faults.push_back(drawn("horizontal focal length", {"aspect"}, 1e-4, "relative",
-                         [](Camera& c, double s) { c.fx *= 1 + s; }));
+                         [](Camera& c, double s) { c.projection.fx *= 1 + s; }));
   faults.push_back(drawn("vertical focal length", {"aspect"}, 1e-4, "relative",
-                         [](Camera& c, double s) { c.fy *= 1 + s; }));
+                         [](Camera& c, double s) { c.projection.fy *= 1 + s; }));
   const auto add_pose = [&](const char* name, const char* kind, const char* unit, V turn, V move) {
     faults.push_back(drawn(name, {kind}, 1e-4, unit, [turn, move](Camera& c, double s) {
       turn_and_move(c, {s * turn[0], s * turn[1], s * turn[2]},
@@ -196,13 +197,14 @@ void add_cameras(Faults& faults) {
   add_pose("position", "translation", "scene units", {}, {0.5, -0.7, 0.4});
   add_pose("pose", "pose", "rad and scene units", {0.5, -0.7, 0.8}, {-0.6, 0.5, 0.7});
   faults.push_back(drawn("principal point, horizontally", {"shift"}, 0.01, "pixels",
-                         [](Camera& c, double s) { c.cx += s; }));
+                         [](Camera& c, double s) { c.projection.cx += s; }));
   faults.push_back(drawn("principal point, vertically", {"shift"}, 0.01, "pixels",
-                         [](Camera& c, double s) { c.cy += s; }));
-  faults.push_back(drawn("principal point", {"shift"}, 0.01, "pixels",
-                         [](Camera& c, double s) { c.cx += s, c.cy -= 0.7 * s; }));
+                         [](Camera& c, double s) { c.projection.cy += s; }));
+  faults.push_back(drawn("principal point", {"shift"}, 0.01, "pixels", [](Camera& c, double s) {
+    c.projection.cx += s, c.projection.cy -= 0.7 * s;
+  }));
   faults.push_back(
-      drawn("skew", {"skew"}, 0.01, "pixels", [](Camera& c, double s) { c.skew += s; }));
+      drawn("skew", {"skew"}, 0.01, "pixels", [](Camera& c, double s) { c.projection.skew += s; }));
 }
 
 void add_images(Faults& faults) {
@@ -211,7 +213,8 @@ void add_images(Faults& faults) {
   };
   add("half a pixel off", "shift", nullptr);
   faults.back().changed = nullptr;
-  faults.back().drawn = with_camera([](Camera& c, double) { c.cx += 0.5, c.cy += 0.5; });
+  faults.back().drawn =
+      with_camera([](Camera& c, double) { c.projection.cx += 0.5, c.projection.cy += 0.5; });
   add("one column off", "shift", moved_by(1, 0));
   add("one row off", "shift", moved_by(0, -1));
   add("three columns and two rows off", "shift", moved_by(-3, 2));

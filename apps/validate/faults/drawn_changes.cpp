@@ -56,9 +56,8 @@ double facing(const Truth& truth, std::size_t triangle) {
   const auto u = minus(p[1], p[0]), v = minus(p[2], p[0]);
   const std::array n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
                      u[0] * v[1] - u[1] * v[0]};
-  return truth.camera.projection == Projection::perspective
-             ? n[0] * p[0][0] + n[1] * p[0][1] + n[2] * p[0][2]
-             : n[2];
+  return is_perspective(truth.camera.projection) ? n[0] * p[0][0] + n[1] * p[0][1] + n[2] * p[0][2]
+                                                 : n[2];
 }
 
 }  // namespace

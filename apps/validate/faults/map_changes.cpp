@@ -84,9 +84,10 @@ ImageCorner in_image(const attribution::Truth& truth, std::uint32_t point) {
     const auto& row = c.world_to_camera[i];
     q[i] = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
   }
-  const double w = c.projection == Projection::perspective ? q[2] : 1;
-  const PrincipalPoint centre = principal_point(c);
-  return {(c.fx * q[0] + c.skew * q[1]) / w + centre.x, c.fy * q[1] / w + centre.y, q[2]};
+  const double w = is_perspective(c.projection) ? q[2] : 1;
+  const PrincipalPoint centre = principal_point(c.projection);
+  return {(c.projection.fx * q[0] + c.projection.skew * q[1]) / w + centre.x,
+          c.projection.fy * q[1] / w + centre.y, q[2]};
 }
 
 double linear_depth(const attribution::Truth& truth, std::uint32_t triangle, double x, double y) {
@@ -233,11 +234,12 @@ MapChange affine_depths() {
 MapChange ray_distances() {
   return [](OtherMap& map, const RightMap& right, double) {
     const Camera& c = right.truth.camera;
-    const auto [cx, cy] = principal_point(c);
+    const auto [cx, cy] = principal_point(c.projection);
     for (std::size_t i = 0; i < map.depths.size(); ++i) {
       if (!is_surface(map.depths[i])) continue;
       const auto [u, v] = centre_of(map, i);
-      const double y = (v - cy) / c.fy, x = (u - cx - c.skew * y) / c.fx;
+      const double y = (v - cy) / c.projection.fy,
+                   x = (u - cx - c.projection.skew * y) / c.projection.fx;
       set(map, i, rounded(map.depths[i] * std::sqrt(1 + x * x + y * y)));
     }
   };

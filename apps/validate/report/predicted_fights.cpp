@@ -17,9 +17,9 @@ bool is_at_centres(const SamplePosition& s) {
 }
 
 /// Formats are of perspective depths; an orthographic window depth is linear in the depth.
-std::optional<Mapping> mapping_of(const RasterModel& model, Projection projection) {
+std::optional<Mapping> mapping_of(const RasterModel& model, ProjectionModel projection) {
   const Mapping mapping = model.stored_mapping();
-  if (projection == Projection::perspective || is_logarithmic(mapping)) return mapping;
+  if (projection == ProjectionModel::perspective || is_logarithmic(mapping)) return mapping;
   if (is_reversed(mapping)) return std::nullopt;
   return Mapping::linear;
 }
@@ -31,7 +31,7 @@ std::optional<std::uint64_t> predicted_fights(const Scene& scene, const Truth& t
   const auto* const raster = std::get_if<RasterModel>(&model.kind);
   if (raster == nullptr || !model.equal_depths || !is_at_centres(model.sample)) return std::nullopt;
   if (raster->bias != 0 || raster->affine) return std::nullopt;
-  const auto mapping = mapping_of(*raster, truth.camera.projection);
+  const auto mapping = mapping_of(*raster, truth.camera.projection.model);
   if (!mapping) return std::nullopt;
   DepthMap map{.width = truth.camera.width, .height = truth.camera.height};
   map.channels.push_back(

@@ -55,7 +55,7 @@ std::optional<SurfaceRegion> surface_region(const ProjectedTriangle& t, const Ca
     const Interval depth = enclose(t.camera[i].z);
     surface.depths.lower = std::min(surface.depths.lower, depth.lower);
     surface.depths.upper = std::max(surface.depths.upper, depth.upper);
-    auto [U, V, W] = to_image(camera, t.camera[i]);
+    auto [U, V, W] = to_image(camera.projection, t.camera[i]);
     const std::array<Interval, 3> enclosure{enclose(U), enclose(V), enclose(W)};
     surface.corners[i] = {{std::move(U), std::move(V), std::move(W)}, enclosure};
   }

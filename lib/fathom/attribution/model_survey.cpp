@@ -85,7 +85,7 @@ constexpr double u = unit_roundoff<float>;
 class CodeScale {
  public:
   CodeScale(const Camera& camera, const RasterModel& model)
-      : window_(window_depth(camera.projection, model.mapping, camera.near, camera.far)),
+      : window_(window_depth(camera.projection.model, model.mapping, camera.near, camera.far)),
         codes_(is_unorm(model.storage) ? greatest_code(model.storage) : 0x1p24),
         least_(is_unorm(model.storage) ? 0 : 0.5) {}
 

@@ -57,8 +57,8 @@ SizedMap cropped(const Camera& camera, const OtherMap& other, long left, long ab
   Camera part = camera;
   part.width = other.width;
   part.height = other.height;
-  part.cx -= static_cast<double>(left);
-  part.cy -= static_cast<double>(above);
+  part.projection.cx -= static_cast<double>(left);
+  part.projection.cy -= static_cast<double>(above);
   const auto side = [](long missing, long first, const char* before, const char* after,
                        const char* what) -> std::string {
     if (missing == 0) return "";
@@ -83,13 +83,13 @@ SizedMap drawn_in_another_size(const Camera& camera, const OtherMap& other) {
                y = static_cast<double>(other.height) / camera.height;
   scaled.width = other.width;
   scaled.height = other.height;
-  scaled.fx *= x;
-  scaled.skew *= x;
-  scaled.fy *= y;
-  const PrincipalPoint centre = principal_point(camera);
-  scaled.pixel_centre = 0.5;
-  scaled.cx = centre.x * x;
-  scaled.cy = centre.y * y;
+  scaled.projection.fx *= x;
+  scaled.projection.skew *= x;
+  scaled.projection.fy *= y;
+  const PrincipalPoint centre = principal_point(camera.projection);
+  scaled.projection.pixel_centre = 0.5;
+  scaled.projection.cx = centre.x * x;
+  scaled.projection.cy = centre.y * y;
   return {
       scaled, other, {"size", sizes(camera, other) + ": the whole view was drawn in that size"}};
 }

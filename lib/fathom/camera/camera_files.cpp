@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "fathom/camera/pose.h"
+#include "fathom/camera/rounded_poses.h"
 #include "fathom/files/input_file.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/json_text.h"
@@ -19,9 +19,9 @@ using namespace text;
 
 namespace {
 
-Projection read_projection(const JsonValue& value) {
-  if (value.string() == "perspective") return Projection::perspective;
-  if (value.string() == "orthographic") return Projection::orthographic;
+ProjectionModel read_model(const JsonValue& value) {
+  if (value.string() == "perspective") return ProjectionModel::perspective;
+  if (value.string() == "orthographic") return ProjectionModel::orthographic;
   value.fail("expected \"perspective\" or \"orthographic\"");
 }
 
@@ -30,7 +30,7 @@ bool looks_transposed(const std::array<std::vector<double>, 4>& rows) {
   return rows[0][3] == 0 && rows[1][3] == 0 && rows[2][3] == 0 && rows[3][3] == 1;
 }
 
-Matrix34 read_pose(const JsonValue& value) {
+Pose read_pose(const JsonValue& value) {
   const std::vector<JsonValue> rows = value.elements();
   if (rows.size() != 3 && rows.size() != 4)
     value.fail("expected 3 rows (or 4, the last being 0 0 0 1), found " +
@@ -43,13 +43,13 @@ Matrix34 read_pose(const JsonValue& value) {
                                            "expected a list of its rows"
                                          : ""));
   }
-  Matrix34 pose;
+  Pose pose;
   for (std::size_t i = 0; i < 3; ++i) std::ranges::copy(read[i], pose[i].begin());
   return pose;
 }
 
-Matrix34 read_inverse_pose(const JsonValue& value) {
-  const std::optional<Matrix34> pose = inverse(read_pose(value));
+Pose read_inverse_pose(const JsonValue& value) {
+  const std::optional<Pose> pose = inverse(read_pose(value));
   if (!pose) value.fail("is singular: the determinant of its first three columns is exactly 0");
   for (const auto& row : *pose) {
     if (!std::ranges::all_of(row, [](double entry) { return std::isfinite(entry); }))
@@ -70,8 +70,8 @@ void read_intrinsic_matrix(const JsonValue& value, Camera& camera) {
   const std::vector<double> u = rows[0].numbers(3), v = rows[1].numbers(3), w = rows[2].numbers(3);
   if (v[0] != 0) rows[1].fail("expected 0 in the first place of K's second row");
   if (w != std::vector<double>{0, 0, 1}) rows[2].fail("expected the last row of K to be 0 0 1");
-  camera.fx = u[0], camera.skew = u[1], camera.cx = u[2];
-  camera.fy = v[1], camera.cy = v[2];
+  camera.projection.fx = u[0], camera.projection.skew = u[1], camera.projection.cx = u[2];
+  camera.projection.fy = v[1], camera.projection.cy = v[2];
 }
 
 void read_number(const JsonValue& value, const char* key, double& number) {
@@ -82,11 +82,11 @@ void read_number(const JsonValue& value, const char* key, double& number) {
 void read_intrinsics_or_matrix(const JsonValue& value, Camera& camera) {
   for (const char* number : {"fx", "fy", "cx", "cy", "skew"}) expect_either(value, "K", number);
   if (const auto K = value.find("K")) return read_intrinsic_matrix(*K, camera);
-  camera.fx = value.at("fx").number();
-  camera.fy = value.at("fy").number();
-  camera.cx = value.at("cx").number();
-  camera.cy = value.at("cy").number();
-  read_number(value, "skew", camera.skew);
+  camera.projection.fx = value.at("fx").number();
+  camera.projection.fy = value.at("fy").number();
+  camera.projection.cx = value.at("cx").number();
+  camera.projection.cy = value.at("cy").number();
+  read_number(value, "skew", camera.projection.skew);
 }
 
 void read_world_to_camera(const JsonValue& value, Camera& camera) {
@@ -109,11 +109,11 @@ Camera read_camera(const JsonValue& value) {
   camera.width = static_cast<std::uint32_t>(value.at("width").integer(1, largest_size));
   camera.height = static_cast<std::uint32_t>(value.at("height").integer(1, largest_size));
   if (const auto projection = value.find("projection"))
-    camera.projection = read_projection(*projection);
+    camera.projection.model = read_model(*projection);
   read_intrinsics_or_matrix(value, camera);
   expect_either(value, "pixel_centre", "pixel_center");
-  read_number(value, "pixel_centre", camera.pixel_centre);
-  read_number(value, "pixel_center", camera.pixel_centre);
+  read_number(value, "pixel_centre", camera.projection.pixel_centre);
+  read_number(value, "pixel_center", camera.projection.pixel_centre);
   read_world_to_camera(value, camera);
   read_number(value, "near", camera.near);
   if (const auto far = value.find("far"); far && !far->is_null()) camera.far = far->number();
@@ -175,17 +175,17 @@ std::string to_json(const Camera& camera) {
   const auto member = [&](const char* key, const std::string& value) {
     text += (text.empty() ? "{\n" : ",\n") + ("  \"" + std::string(key) + "\": ") + value;
   };
-  const bool perspective = camera.projection == Projection::perspective;
+  const bool perspective = is_perspective(camera.projection);
   if (!camera.name.empty()) member("name", json_string(camera.name));
   member("width", std::to_string(camera.width));
   member("height", std::to_string(camera.height));
   member("projection", perspective ? "\"perspective\"" : "\"orthographic\"");
-  member("fx", to_json(camera.fx));
-  member("fy", to_json(camera.fy));
-  member("cx", to_json(camera.cx));
-  member("cy", to_json(camera.cy));
-  member("skew", to_json(camera.skew));
-  member("pixel_centre", to_json(camera.pixel_centre));
+  member("fx", to_json(camera.projection.fx));
+  member("fy", to_json(camera.projection.fy));
+  member("cx", to_json(camera.projection.cx));
+  member("cy", to_json(camera.projection.cy));
+  member("skew", to_json(camera.projection.skew));
+  member("pixel_centre", to_json(camera.projection.pixel_centre));
   std::string rows;
   for (const auto& [r0, r1, r2, t] : camera.world_to_camera)
     rows += (rows.empty() ? "[" : ",\n    [") + to_json(r0) + ", " + to_json(r1) + ", " +

@@ -92,28 +92,28 @@ void expect_finite(const Vector3& v, const std::string& name) {
   for (const double x : v) expect(std::isfinite(x), name + " is not finite");
 }
 
-Camera with_lens(const Lens& lens) {
+Camera with_lens(const LensChoice& lens) {
   Camera camera;
   camera.width = lens.width;
   camera.height = lens.height;
-  camera.projection = lens.projection;
-  camera.cx = lens.width / 2.0;
-  camera.cy = lens.height / 2.0;
+  camera.projection.model = lens.model;
+  camera.projection.cx = lens.width / 2.0;
+  camera.projection.cy = lens.height / 2.0;
   camera.near = lens.near;
   camera.far = lens.far;
-  if (lens.projection == Projection::orthographic) {
+  if (lens.model == ProjectionModel::orthographic) {
     expect(lens.vertical_extent.has_value(), "an orthographic camera needs a vertical extent");
     expect(*lens.vertical_extent > 0, "the vertical extent must be greater than 0");
-    camera.fx = lens.height / *lens.vertical_extent;
+    camera.projection.fx = lens.height / *lens.vertical_extent;
   } else if (lens.focal) {
     expect(*lens.focal > 0, "the focal length must be greater than 0");
-    camera.fx = *lens.focal;
+    camera.projection.fx = *lens.focal;
   } else {
     expect(lens.vertical_fov > 0 && lens.vertical_fov < 180,
            "the field of view must be between 0 and 180 degrees");
-    camera.fx = focal_of_degrees(lens.height, lens.vertical_fov);
+    camera.projection.fx = focal_of_degrees(lens.height, lens.vertical_fov);
   }
-  camera.fy = camera.fx;
+  camera.projection.fy = camera.projection.fx;
   return camera;
 }
 
@@ -156,7 +156,8 @@ View turned(View view, std::uint32_t step, std::uint32_t count) {
 
 using namespace camera;
 
-Camera look_at(const Vector3& eye, const Vector3& target, const Vector3& up, const Lens& lens) {
+Camera look_at(const Vector3& eye, const Vector3& target, const Vector3& up,
+               const LensChoice& lens) {
   const StandardArithmetic standard;
   expect_finite(eye, "the eye");
   expect_finite(target, "the target");
@@ -173,7 +174,7 @@ Camera look_at(const Vector3& eye, const Vector3& target, const Vector3& up, con
   return checked(camera);
 }
 
-Camera look_from(const View& view, const Vector3& centre, double distance, const Lens& lens) {
+Camera look_from(const View& view, const Vector3& centre, double distance, const LensChoice& lens) {
   const StandardArithmetic standard;
   expect_finite(centre, "the centre");
   expect(distance > 0 && std::isfinite(distance), "the distance must be greater than 0");
@@ -184,7 +185,7 @@ Camera look_from(const View& view, const Vector3& centre, double distance, const
 }
 
 std::vector<Camera> orbit(const View& first, std::uint32_t count, const Vector3& centre,
-                          double distance, const Lens& lens,
+                          double distance, const LensChoice& lens,
                           const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   expect_count(count);

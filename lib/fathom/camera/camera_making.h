@@ -15,10 +15,10 @@ namespace fathom {
 
 /// Image size and angle of view. Square pixels, the principal point in the middle of the image,
 /// pixel_centre ½, no skew.
-struct Lens {
+struct LensChoice {
   std::uint32_t width = 1280;
   std::uint32_t height = 720;
-  Projection projection = Projection::perspective;
+  ProjectionModel model = ProjectionModel::perspective;
   /// Perspective: the degrees, in (0, 180), that the height spans; fx is ½·height / tan(½·angle).
   double vertical_fov = 40;
   /// Perspective: fx = fy in pixels; takes the place of vertical_fov.
@@ -39,7 +39,8 @@ using Vector3 = std::array<double, 3>;
 ///          exactly from the rounded R and rounded once.
 /// Fails    UsageError if eye and target coincide, if `up` is zero or along the line of sight (both
 ///          tested exactly), if a number is not finite, or if the lens is not valid.
-Camera look_at(const Vector3& eye, const Vector3& target, const Vector3& up, const Lens& lens = {});
+Camera look_at(const Vector3& eye, const Vector3& target, const Vector3& up,
+               const LensChoice& lens = {});
 
 /// The direction of an eye, seen from the point that it looks at; in degrees.
 ///
@@ -65,7 +66,8 @@ struct View {
 ///          once.
 /// Fails    UsageError if distance ≤ 0, elevation is outside [−90, 90], `up` is zero, a number is
 ///          not finite, or the lens is not valid.
-Camera look_from(const View& view, const Vector3& centre, double distance, const Lens& lens = {});
+Camera look_from(const View& view, const Vector3& centre, double distance,
+                 const LensChoice& lens = {});
 
 /// A camera path of `count` views around `centre`, the first at `first`, the others at azimuths
 /// 360°/count apart, each azimuth rounded once.
@@ -73,7 +75,7 @@ Camera look_from(const View& view, const Vector3& centre, double distance, const
 /// call.
 /// Fails    UsageError as look_from(), and if count is 0 or above 1,000,000.
 std::vector<Camera> orbit(const View& first, std::uint32_t count, const Vector3& centre,
-                          double distance, const Lens& lens = {},
+                          double distance, const LensChoice& lens = {},
                           const std::function<void(double)>& progress = {});
 
 }  // namespace fathom

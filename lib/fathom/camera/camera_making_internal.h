@@ -4,7 +4,7 @@
 #include <string>
 
 #include "fathom/camera/camera_making.h"
-#include "fathom/camera/pose.h"
+#include "fathom/camera/rounded_poses.h"
 
 /// What all cameras made from a description share, whether they look at a point or have to see a
 /// whole scene (scene/framing.h).
@@ -14,7 +14,7 @@ namespace fathom::camera {
 void expect_finite(const Vector3& v, const std::string& name);
 
 /// A camera with the intrinsics of a lens, at the world's origin.
-Camera with_lens(const Lens& lens);
+Camera with_lens(const LensChoice& lens);
 
 /// The camera, if find_fault() finds nothing.
 Camera checked(Camera camera);

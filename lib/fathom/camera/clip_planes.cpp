@@ -5,8 +5,7 @@
 namespace fathom {
 
 bool has_clip_planes(const Camera& camera) {
-  return std::isfinite(camera.far) &&
-         (camera.near > 0 || camera.projection == Projection::orthographic);
+  return std::isfinite(camera.far) && (camera.near > 0 || is_orthographic(camera.projection));
 }
 
 }  // namespace fathom

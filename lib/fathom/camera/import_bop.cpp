@@ -32,7 +32,7 @@ void read_intrinsics(const JsonValue& cam_K, Camera& camera) {
   IntrinsicMatrix K;
   std::copy(numbers.begin(), numbers.end(), K.begin());
   set_intrinsics(camera, K, cam_K.where());
-  camera.pixel_centre = 0;
+  camera.projection.pixel_centre = 0;
 }
 
 void read_pose(const JsonValue& entry, Camera& camera) {

@@ -9,7 +9,7 @@
 
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/camera/import_lines.h"
-#include "fathom/camera/pose.h"
+#include "fathom/camera/rounded_poses.h"
 #include "fathom/failures/errors.h"
 #include "fathom/failures/unknown_name.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -92,10 +92,10 @@ ImportedCamera make_camera(const CameraRecord& record, const Model& model,
   Camera& camera = result.camera;
   camera.width = static_cast<std::uint32_t>(record.width);
   camera.height = static_cast<std::uint32_t>(record.height);
-  camera.fx = record.parameters[0];
-  camera.fy = record.parameters[model.focals - 1];
-  camera.cx = record.parameters[model.focals];
-  camera.cy = record.parameters[model.focals + 1];
+  camera.projection.fx = record.parameters[0];
+  camera.projection.fy = record.parameters[model.focals - 1];
+  camera.projection.cx = record.parameters[model.focals];
+  camera.projection.cy = record.parameters[model.focals + 1];
   if (const auto fault = find_fault(camera)) result.fault = about + *fault;
   return result;
 }

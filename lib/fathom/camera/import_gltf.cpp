@@ -73,7 +73,7 @@ double times_root(const Dyadic& x, const Dyadic& over, const Dyadic& of) {
 /// has the rows
 /// |cᵢ|·(C⁻¹)ᵢ and −|cᵢ|·(C⁻¹)ᵢ·eye; the rows of the adjugate of C are the cross products of its
 /// columns.
-Matrix34 view_of(const WorldFromMesh& world_from_node, const JsonValue& node) {
+Pose view_of(const WorldFromMesh& world_from_node, const JsonValue& node) {
   const auto column = [&](std::size_t k) {
     const auto& rows = world_from_node.rows;
     return ExactVector3{rows[0][k], rows[1][k], rows[2][k]};
@@ -85,7 +85,7 @@ Matrix34 view_of(const WorldFromMesh& world_from_node, const JsonValue& node) {
   if (det.is_zero()) node.fail("its transform is singular");
   const std::array<ExactVector3, 3> adjugate{cross(axes[1], axes[2]), cross(axes[2], axes[0]),
                                              cross(axes[0], axes[1])};
-  Matrix34 view;
+  Pose view;
   for (std::size_t i = 0; i < 3; ++i) {
     const Dyadic squared_length = dot(axes[i], axes[i]);
     for (std::size_t k = 0; k < 3; ++k)
@@ -99,7 +99,7 @@ void read_perspective(const JsonValue& lens, Camera& camera) {
   const JsonValue yfov = lens.at("yfov");
   if (!(yfov.number() > 0 && yfov.number() < std::numbers::pi))
     yfov.fail("expected an angle in radians between 0 and π");
-  camera.fx = camera.fy = focal_of_radians(camera.height, yfov.number());
+  camera.projection.fx = camera.projection.fy = focal_of_radians(camera.height, yfov.number());
   const auto aspect = lens.find("aspectRatio");
   if (!aspect) return;
   const double ratio = aspect->number();
@@ -111,14 +111,14 @@ void read_perspective(const JsonValue& lens, Camera& camera) {
 
 /// fx = ½·width / xmag, and so on.
 void read_orthographic(const JsonValue& lens, Camera& camera) {
-  camera.projection = Projection::orthographic;
+  camera.projection.model = ProjectionModel::orthographic;
   const auto pixels_per_unit = [&](const char* key, std::uint32_t size) {
     const JsonValue half = lens.at(key);
     if (half.number() == 0) half.fail("is 0, expected any other number");
     return round_to_binary64(Ratio(Dyadic(size / 2.0), Dyadic(half.number())));
   };
-  camera.fx = pixels_per_unit("xmag", camera.width);
-  camera.fy = pixels_per_unit("ymag", camera.height);
+  camera.projection.fx = pixels_per_unit("xmag", camera.width);
+  camera.projection.fy = pixels_per_unit("ymag", camera.height);
 }
 
 void read_lens(const JsonValue& definition, Camera& camera) {
@@ -127,8 +127,8 @@ void read_lens(const JsonValue& definition, Camera& camera) {
   if (name != "perspective" && name != "orthographic")
     type.fail("expected \"perspective\" or \"orthographic\"");
   const JsonValue lens = definition.at(name);
-  camera.cx = camera.width / 2.0;
-  camera.cy = camera.height / 2.0;
+  camera.projection.cx = camera.width / 2.0;
+  camera.projection.cy = camera.height / 2.0;
   if (name == "perspective")
     read_perspective(lens, camera);
   else

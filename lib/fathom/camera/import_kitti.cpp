@@ -20,12 +20,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
+using ProjectionMatrix = std::array<std::array<double, 4>, 3>;
+
 /// P = K·[I | t] of a rectified camera, from rectified camera 0.
 struct RectifiedCamera {
   /// Of the folder with its images.
   std::string name;
   std::string where;
-  Matrix34 P{};
+  ProjectionMatrix P{};
   std::uint32_t width = 0, height = 0;
 };
 
@@ -56,7 +58,7 @@ std::uint32_t size_of(const Entry& entry, std::size_t i) {
   return static_cast<std::uint32_t>(size);
 }
 
-Matrix34 projection_of(const Entry& entry) {
+ProjectionMatrix projection_of(const Entry& entry) {
   if (entry.numbers.size() != 12)
     throw InputError(entry.where + ": expected 3 rows of 4 numbers, found " +
                      std::to_string(entry.numbers.size()));
@@ -89,7 +91,7 @@ std::vector<RectifiedCamera> read_rectified(const NamedText& file) {
 }
 
 ImportedCamera lens_of(const RectifiedCamera& camera, const GivenLens& given) {
-  const Matrix34& P = camera.P;
+  const ProjectionMatrix& P = camera.P;
   if (given.K) throw UsageError("the calibration has K: another one cannot be given");
   if (given.width == 0 && camera.width == 0)
     throw UsageError("the calibration has no image size: give one, as 1241x376");
@@ -105,7 +107,7 @@ ImportedCamera lens_of(const RectifiedCamera& camera, const GivenLens& given) {
 }
 
 /// t = K⁻¹·p of the last column p of P, exactly; K is upper triangular with 1 in its corner.
-std::array<Ratio, 3> offset_of(const Matrix34& P) {
+std::array<Ratio, 3> offset_of(const ProjectionMatrix& P) {
   const Dyadic fx = P[0][0], s = P[0][1], cx = P[0][2], fy = P[1][1], cy = P[1][2];
   const Dyadic z = P[2][3];
   const Dyadic fy_y = Dyadic(P[1][3]) - cy * z;
@@ -114,11 +116,11 @@ std::array<Ratio, 3> offset_of(const Matrix34& P) {
 }
 
 /// [A⁻¹ | t − A⁻¹·b] of camera 0's pose [A | b] in the world, each entry rounded once.
-Matrix34 beside(const Matrix34& world_from_camera0, const std::array<Ratio, 3>& t,
-                const std::string& where) {
+Pose beside(const Pose& world_from_camera0, const std::array<Ratio, 3>& t,
+            const std::string& where) {
   // The inverse's rotation as it is; of its translation the exact one, plus t.
-  Matrix34 pose = camera_from_world(world_from_camera0, PoseDirection::camera_to_world,
-                                    CameraAxes::opencv, where);
+  Pose pose = camera_from_world(world_from_camera0, PoseDirection::camera_to_world,
+                                CameraAxes::opencv, where);
   const auto exact = exact_inverse(world_from_camera0);
   for (std::size_t i = 0; i < 3; ++i) pose[i][3] = round_to_binary64(t[i] + exact->at(i)[3]);
   return pose;

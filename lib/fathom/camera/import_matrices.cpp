@@ -73,7 +73,7 @@ std::vector<ImportedCamera> import_matrices(const std::vector<NamedPose>& poses,
     const ImportedCamera lens = imported_camera("", where, [&](ImportedCamera& one) {
       one.camera.width = width;
       one.camera.height = height;
-      one.camera.pixel_centre = convention.pixel_centre;
+      one.camera.projection.pixel_centre = convention.pixel_centre;
       set_intrinsics(one.camera, K[K.size() == 1 ? 0 : i], where + ": K");
     });
     cameras.push_back(placed(lens, poses[i], convention.direction, convention.axes, where));

@@ -96,20 +96,20 @@ void read_intrinsics(const Frame& frame, Camera& camera) {
   const auto fl_x = frame.number("fl_x"), fl_y = frame.number("fl_y");
   if (!fov_x && !fl_x && !angle_x && !fov_y)
     frame.own.fail("the focal length is missing: expected fl_x, camera_angle_x or x_fov");
-  camera.fx = fov_x     ? *fov_x
-              : fl_x    ? *fl_x
-              : angle_x ? focal_of_radians(camera.width, *angle_x)
-                        : *fov_y;
-  camera.fy = fov_y              ? *fov_y
-              : fl_y             ? *fl_y
-              : angle_y && !fl_x ? focal_of_radians(camera.height, *angle_y)
-                                 : camera.fx;
-  camera.cx = frame.number("cx").value_or(camera.width / 2.0);
-  camera.cy = frame.number("cy").value_or(camera.height / 2.0);
+  camera.projection.fx = fov_x     ? *fov_x
+                         : fl_x    ? *fl_x
+                         : angle_x ? focal_of_radians(camera.width, *angle_x)
+                                   : *fov_y;
+  camera.projection.fy = fov_y              ? *fov_y
+                         : fl_y             ? *fl_y
+                         : angle_y && !fl_x ? focal_of_radians(camera.height, *angle_y)
+                                            : camera.projection.fx;
+  camera.projection.cx = frame.number("cx").value_or(camera.width / 2.0);
+  camera.projection.cy = frame.number("cy").value_or(camera.height / 2.0);
 }
 
 /// World to camera, in our axes, of a camera-to-world matrix in OpenGL's.
-Matrix34 world_to_camera(const JsonValue& matrix) {
+Pose world_to_camera(const JsonValue& matrix) {
   const auto rows = matrix.elements();
   if (rows.size() != 3 && rows.size() != 4)
     matrix.fail("expected a 4×4 matrix, found " + std::to_string(rows.size()) + " rows");

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "fathom/camera/camera_import_internal.h"
-#include "fathom/camera/pose.h"
+#include "fathom/camera/rounded_poses.h"
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
 #include "fathom/numeric/rounding.h"
@@ -108,19 +108,19 @@ void set_intrinsics(const Matrix4& P, Camera& camera) {
     refuse("expected a perspective projection without translation of x and y");
   if (!perspective && (P[0][2] != 0 || P[1][2] != 0))
     refuse("an oblique orthographic projection cannot be expressed");
-  camera.projection = perspective ? Projection::perspective : Projection::orthographic;
+  camera.projection.model =
+      perspective ? ProjectionModel::perspective : ProjectionModel::orthographic;
   const Dyadic w = camera.width, h = camera.height, twice_k = k + k;
-  camera.fx = rounded(w * P[0][0], twice_k);
-  camera.skew = rounded(-(w * P[0][1]), twice_k);
-  camera.fy = rounded(h * P[1][1], twice_k);
-  camera.cx = rounded(w * (perspective ? k - P[0][2] : k + P[0][3]), twice_k);
-  camera.cy = rounded(h * (perspective ? k + P[1][2] : k - P[1][3]), twice_k);
+  camera.projection.fx = rounded(w * P[0][0], twice_k);
+  camera.projection.skew = rounded(-(w * P[0][1]), twice_k);
+  camera.projection.fy = rounded(h * P[1][1], twice_k);
+  camera.projection.cx = rounded(w * (perspective ? k - P[0][2] : k + P[0][3]), twice_k);
+  camera.projection.cy = rounded(h * (perspective ? k + P[1][2] : k - P[1][3]), twice_k);
 }
 
 /// Depth of the plane where z_ndc = (P₂₃ − P₂₂·z)/W is `ndc`; infinite if there is none.
-double depth_of_plane(const Matrix4& P, Projection projection, double ndc) {
+double depth_of_plane(const Matrix4& P, bool perspective, double ndc) {
   const Dyadic a = P[2][2], b = P[2][3];
-  const bool perspective = projection == Projection::perspective;
   const Dyadic k = perspective ? -Dyadic(P[3][2]) : Dyadic(P[3][3]);
   const Dyadic numerator = perspective ? b : b - k * ndc;
   const Dyadic denominator = perspective ? a + k * ndc : a;
@@ -129,8 +129,9 @@ double depth_of_plane(const Matrix4& P, Projection projection, double ndc) {
 }
 
 void set_near_and_far(const Matrix4& P, double nearest, Camera& camera) {
-  const double one = depth_of_plane(P, camera.projection, nearest);
-  const double other = depth_of_plane(P, camera.projection, 1);
+  const bool perspective = is_perspective(camera.projection);
+  const double one = depth_of_plane(P, perspective, nearest);
+  const double other = depth_of_plane(P, perspective, 1);
   camera.near = std::min(one, other);
   camera.far = std::max(one, other);
   if (!(camera.near >= 0 && camera.near < camera.far)) {

@@ -34,13 +34,13 @@ std::vector<std::pair<std::uint64_t, fs::path>> numbered_files(const fs::path& f
   return files;
 }
 
-bool is_finite(const Matrix34& pose) {
+bool is_finite(const Pose& pose) {
   return std::ranges::all_of(pose, [](const auto& row) {
     return std::ranges::all_of(row, [](double x) { return std::isfinite(x); });
   });
 }
 
-Matrix34 pose_of_rows(const text::JsonValue& matrix) {
+Pose pose_of_rows(const text::JsonValue& matrix) {
   std::vector<double> numbers;
   for (const text::JsonValue& row : matrix.elements()) {
     const std::vector<double> own = row.numbers(4);
@@ -60,7 +60,7 @@ IntrinsicMatrix intrinsics_of_rows(const text::JsonValue& matrix) {
 }  // namespace
 
 IntrinsicMatrix camera::parse_scannet_intrinsics(const NamedText& file) {
-  const Matrix34 matrix = parse_pose(file.text, file.name);
+  const Pose matrix = parse_pose(file.text, file.name);
   IntrinsicMatrix K;
   for (std::size_t i = 0; i < 9; ++i) K[i] = matrix[i / 3][i % 3];
   return K;
@@ -70,7 +70,7 @@ ImportedCamera camera::parse_scannet(const NamedText& pose, const std::string& f
                                      const Camera& lens) {
   return imported_camera(frame, pose.name, [&](ImportedCamera& one) {
     one.camera = lens;
-    const Matrix34 matrix = parse_pose(pose.text, pose.name);
+    const Pose matrix = parse_pose(pose.text, pose.name);
     if (!is_finite(matrix)) {
       one.absence = pose.name + ": the frame was not tracked: its pose is not finite";
       return;

@@ -99,13 +99,13 @@ void read_lens_type(const JsonValue& intrinsic, Version version, ImportedCamera&
 /// a ratio, whose meaning changed twice.
 void read_focal_lengths(const JsonValue& intrinsic, Version version, Camera& camera) {
   if (version < Version{1, 2, 0}) {
-    camera.fx = camera.fy = number_in(intrinsic.at("pxFocalLength"));
+    camera.projection.fx = camera.projection.fy = number_in(intrinsic.at("pxFocalLength"));
     return;
   }
   if (version < Version{1, 2, 2}) {
     const auto focal = numbers_in<2>(intrinsic.at("pxFocalLength"));
-    camera.fx = focal[0];
-    camera.fy = focal[1];
+    camera.projection.fx = focal[0];
+    camera.projection.fy = focal[1];
     return;
   }
   const auto number = [&](const char* key, double otherwise) {
@@ -118,14 +118,14 @@ void read_focal_lengths(const JsonValue& intrinsic, Version version, Camera& cam
   if (ratio.sign() != Sign::positive) intrinsic.fail("expected a positive pixelRatio");
   const Dyadic pixels = focal * width;  // times the sensor's width
   if (version < Version{1, 2, 5}) {
-    camera.fx = rounded_quotient(pixels, sensor);
-    camera.fy = rounded_quotient(pixels, sensor * ratio);
+    camera.projection.fx = rounded_quotient(pixels, sensor);
+    camera.projection.fy = rounded_quotient(pixels, sensor * ratio);
   } else if (version < Version{1, 2, 11}) {
-    camera.fx = rounded_quotient(pixels, sensor);
-    camera.fy = rounded_quotient(pixels * ratio, sensor);
+    camera.projection.fx = rounded_quotient(pixels, sensor);
+    camera.projection.fy = rounded_quotient(pixels * ratio, sensor);
   } else {
-    camera.fx = rounded_quotient(pixels, sensor * ratio);
-    camera.fy = rounded_quotient(pixels, sensor);
+    camera.projection.fx = rounded_quotient(pixels, sensor * ratio);
+    camera.projection.fy = rounded_quotient(pixels, sensor);
   }
 }
 
@@ -138,21 +138,23 @@ ImportedCamera read_intrinsic(const JsonValue& intrinsic, Version version) {
     };
     camera.width = size("width");
     camera.height = size("height");
-    camera.pixel_centre = 0;
+    camera.projection.pixel_centre = 0;
     read_lens_type(intrinsic, version, one);
     read_focal_lengths(intrinsic, version, camera);
     const auto principal = numbers_in<2>(intrinsic.at("principalPoint"));
-    camera.cx = principal[0];
-    camera.cy = principal[1];
+    camera.projection.cx = principal[0];
+    camera.projection.cy = principal[1];
     if (version >= Version{1, 2, 1}) {  // from then on it counts from the middle of the image
-      camera.cx = round_to_binary64(Ratio(Dyadic(principal[0]) + Dyadic(camera.width / 2.0)));
-      camera.cy = round_to_binary64(Ratio(Dyadic(principal[1]) + Dyadic(camera.height / 2.0)));
+      camera.projection.cx =
+          round_to_binary64(Ratio(Dyadic(principal[0]) + Dyadic(camera.width / 2.0)));
+      camera.projection.cy =
+          round_to_binary64(Ratio(Dyadic(principal[1]) + Dyadic(camera.height / 2.0)));
     }
   });
 }
 
 /// [R | −R·c]: R takes world to camera and stands column by column, c is the eye.
-Matrix34 read_pose(const JsonValue& pose) {
+Pose read_pose(const JsonValue& pose) {
   const JsonValue transform = pose.at("pose").at("transform");
   const auto flat = numbers_in<9>(transform.at("rotation"));
   const auto eye = numbers_in<3>(transform.at("center"));

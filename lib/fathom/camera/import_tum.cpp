@@ -37,7 +37,7 @@ constexpr std::array<PublishedLens, 4> published{
 struct TimedPose {
   double time = 0;
   std::string name;
-  Matrix34 world_to_camera{};
+  Pose world_to_camera{};
   /// "FILE: line N".
   std::string where;
   /// Why it is none.

@@ -1,94 +1,30 @@
 #include "fathom/camera/pose.h"
 
-#include "fathom/numeric/rounding.h"
+#include "fathom/camera/rounded_poses.h"
+#include "fathom/failures/errors.h"
+#include "fathom/numeric/certified.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
-namespace fathom::camera {
+namespace fathom {
 
-std::array<double, 3> unit_vector(const ExactVector3& v) {
-  const Dyadic squared_length = dot(v, v);
-  // vᵢ/|v| = ±√(vᵢ²/v·v): one square root of a rational, rounded once.
-  const auto entry = [&](int i) {
-    const double magnitude = round_sqrt_to_binary64(Ratio(v[i] * v[i], squared_length));
-    return v[i].sign() == Sign::negative ? -magnitude : magnitude;
+Dyadic determinant_of_rotation(const Pose& pose) {
+  const auto row = [&](int i) { return ExactVector3{pose[i][0], pose[i][1], pose[i][2]}; };
+  return determinant(row(0), row(1), row(2));
+}
+
+CameraPoint to_camera(const Pose& world_to_camera, const WorldPoint& X) {
+  const auto row = [&](int i) {
+    const auto& [r0, r1, r2, t] = world_to_camera[i];
+    return r0 * X.x + r1 * X.y + r2 * X.z + t;
   };
-  return {entry(0), entry(1), entry(2)};
-}
-
-namespace {
-
-/// The rotation of a quaternion times n, the square of its length.
-struct ScaledRotation {
-  std::array<ExactVector3, 3> rows;
-  Dyadic n;
-};
-
-ScaledRotation scaled_rotation_of(const std::array<double, 4>& quaternion) {
-  const Dyadic w = quaternion[0], x = quaternion[1], y = quaternion[2], z = quaternion[3];
-  const auto twice = [](const Dyadic& a) { return a + a; };
-  return {{{{w * w + x * x - y * y - z * z, twice(x * y - w * z), twice(x * z + w * y)},
-            {twice(x * y + w * z), w * w - x * x + y * y - z * z, twice(y * z - w * x)},
-            {twice(x * z - w * y), twice(y * z + w * x), w * w - x * x - y * y + z * z}}},
-          w * w + x * x + y * y + z * z};
-}
-
-}  // namespace
-
-Matrix3 rotation_of(const std::array<double, 4>& quaternion) {
-  const auto [rows, n] = scaled_rotation_of(quaternion);
-  Matrix3 R;
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) R[i][k] = round_to_binary64(Ratio(rows[i][k], n));
-  return R;
-}
-
-Matrix34 view_from(const ExactVector3& eye, const std::array<double, 4>& quaternion) {
-  const auto [rows, n] = scaled_rotation_of(quaternion);
-  Matrix34 view;
-  for (int i = 0; i < 3; ++i) {
-    const ExactVector3 column{rows[0][i], rows[1][i], rows[2][i]};
-    for (int k = 0; k < 3; ++k) view[i][k] = round_to_binary64(Ratio(column[k], n));
-    view[i][3] = round_to_binary64(Ratio(-dot(column, eye), n));
-  }
-  return view;
-}
-
-ExactVector3 rotate(const Matrix3& R, const ExactVector3& X) {
-  const auto row = [&](int i) { return dot(ExactVector3{R[i][0], R[i][1], R[i][2]}, X); };
   return {row(0), row(1), row(2)};
 }
 
-Matrix34 pose_that_takes(const Matrix3& R, const ExactVector3& X, const ExactVector3& target) {
-  const ExactVector3 rotated = rotate(R, X);
-  Matrix34 pose;
-  for (int i = 0; i < 3; ++i)
-    pose[i] = {R[i][0], R[i][1], R[i][2], round_to_binary64(Ratio(target[i] - rotated[i]))};
-  return pose;
+Pose camera_to_world(const Pose& world_to_camera) {
+  const StandardArithmetic standard;
+  const auto inverse = camera::inverse(world_to_camera);
+  if (!inverse) throw InputError("the camera cannot be inverted: its matrix is singular");
+  return *inverse;
 }
 
-// A⁻¹ = adj A / det A; the rows of the adjugate are the cross products of the columns of A.
-std::optional<std::array<std::array<Ratio, 4>, 3>> exact_inverse(const Matrix34& pose) {
-  const auto column = [&](std::size_t k) {
-    return ExactVector3{pose[0][k], pose[1][k], pose[2][k]};
-  };
-  const ExactVector3 a0 = column(0), a1 = column(1), a2 = column(2), b = column(3);
-  const Dyadic det = determinant(a0, a1, a2);
-  if (det.is_zero()) return std::nullopt;
-  const std::array<ExactVector3, 3> adjugate{cross(a1, a2), cross(a2, a0), cross(a0, a1)};
-  const auto over_det = [&](const Dyadic& x) { return Ratio(x, det); };
-  std::array<std::array<Ratio, 4>, 3> inverse;
-  for (std::size_t i = 0; i < 3; ++i)
-    inverse[i] = {over_det(adjugate[i][0]), over_det(adjugate[i][1]), over_det(adjugate[i][2]),
-                  over_det(-dot(adjugate[i], b))};
-  return inverse;
-}
-
-std::optional<Matrix34> inverse(const Matrix34& pose) {
-  const auto exact = exact_inverse(pose);
-  if (!exact) return std::nullopt;
-  Matrix34 rounded;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t k = 0; k < 4; ++k) rounded[i][k] = round_to_binary64((*exact)[i][k]);
-  return rounded;
-}
-
-}  // namespace fathom::camera
+}  // namespace fathom

@@ -1,38 +1,23 @@
 #pragma once
 
 #include <array>
-#include <optional>
 
-#include "fathom/numeric/certified.h"
-#include "fathom/numeric/ratio.h"
+#include "fathom/geometry/frames.h"
 
-/// Poses whose entries are rounded once. Only for .cpp files of this room and of scene/.
-namespace fathom::camera {
+namespace fathom {
 
-using Matrix3 = std::array<std::array<double, 3>, 3>;
-using Matrix34 = std::array<std::array<double, 4>, 3>;
+/// Where a camera stands, or another affine map of points: [R | t], 3×4; R need not be a rotation.
+/// Every number is the real number that it denotes.
+using Pose = std::array<std::array<double, 4>, 3>;
 
-/// `v` scaled to length 1, each entry the exact one rounded to nearest. v must not be zero.
-std::array<double, 3> unit_vector(const ExactVector3& v);
+/// det R, exactly.
+Dyadic determinant_of_rotation(const Pose& pose);
 
-/// The rotation of a Hamilton quaternion (w, x, y, z) of any length but 0, each entry the exact one
-/// rounded once.
-Matrix3 rotation_of(const std::array<double, 4>& quaternion);
+/// R·X + t, exactly; scene units.
+CameraPoint to_camera(const Pose& world_to_camera, const WorldPoint& X);
 
-/// World to camera, [R⁻¹ | −R⁻¹·eye], of a camera at `eye` whose axes in the world are the columns
-/// of that rotation R: each entry the exact one rounded once.
-Matrix34 view_from(const ExactVector3& eye, const std::array<double, 4>& quaternion);
+/// Camera to world, [R⁻¹ | −R⁻¹·t]: each entry is the exact one, rounded to nearest once.
+/// Fails    InputError where R is singular.
+Pose camera_to_world(const Pose& world_to_camera);
 
-/// R·X, exactly.
-ExactVector3 rotate(const Matrix3& R, const ExactVector3& X);
-
-/// [R | target − R·X]: the pose that takes the world point X to the camera point `target`; its
-/// translation is the exact one rounded once.
-Matrix34 pose_that_takes(const Matrix3& R, const ExactVector3& X, const ExactVector3& target);
-
-/// [A⁻¹ | −A⁻¹·b] of a pose [A | b], exactly; nothing where A is singular.
-std::optional<std::array<std::array<Ratio, 4>, 3>> exact_inverse(const Matrix34& pose);
-/// The same, each entry rounded once.
-std::optional<Matrix34> inverse(const Matrix34& pose);
-
-}  // namespace fathom::camera
+}  // namespace fathom

@@ -16,11 +16,11 @@ namespace fs = std::filesystem;
 void set_intrinsics(Camera& camera, const IntrinsicMatrix& K, const std::string& where) {
   if (K[3] != 0 || K[6] != 0 || K[7] != 0 || K[8] != 1)
     throw InputError(where + ": expected fx s cx, 0 fy cy, 0 0 1");
-  camera.fx = K[0];
-  camera.skew = K[1];
-  camera.cx = K[2];
-  camera.fy = K[4];
-  camera.cy = K[5];
+  camera.projection.fx = K[0];
+  camera.projection.skew = K[1];
+  camera.projection.cx = K[2];
+  camera.projection.fy = K[4];
+  camera.projection.cy = K[5];
 }
 
 IntrinsicMatrix intrinsic_matrix(double fx, double fy, double cx, double cy) {
@@ -31,7 +31,7 @@ Camera lens_of(const GivenLens& given, const GivenLens& data_set, const std::str
   Camera camera;
   camera.width = given.width != 0 ? given.width : data_set.width;
   camera.height = given.height != 0 ? given.height : data_set.height;
-  camera.pixel_centre = given.pixel_centre.value_or(data_set.pixel_centre.value_or(0));
+  camera.projection.pixel_centre = given.pixel_centre.value_or(data_set.pixel_centre.value_or(0));
   if (const auto& K = given.K ? given.K : data_set.K) set_intrinsics(camera, *K, where);
   return camera;
 }
@@ -39,23 +39,23 @@ Camera lens_of(const GivenLens& given, const GivenLens& data_set, const std::str
 namespace {
 
 /// y and z of the camera turned round. A difference, so that no zero becomes negative.
-void turn_column(Matrix34& world_from_camera, std::size_t k) {
+void turn_column(Pose& world_from_camera, std::size_t k) {
   for (auto& row : world_from_camera) row[k] = 0.0 - row[k];
 }
 
-void turn_row(Matrix34& camera_from_world, std::size_t i) {
+void turn_row(Pose& camera_from_world, std::size_t i) {
   for (double& entry : camera_from_world[i]) entry = 0.0 - entry;
 }
 
 }  // namespace
 
-Matrix34 camera_from_world(const Matrix34& pose, PoseDirection direction, CameraAxes axes,
-                           const std::string& where) {
+Pose camera_from_world(const Pose& pose, PoseDirection direction, CameraAxes axes,
+                       const std::string& where) {
   for (const auto& row : pose)
     for (const double entry : row)
       if (!std::isfinite(entry))
         throw InputError(where + ": the pose has a number that is not finite");
-  Matrix34 turned = pose;
+  Pose turned = pose;
   if (direction == PoseDirection::world_to_camera) {
     if (axes == CameraAxes::opengl)
       for (const std::size_t i : {1, 2}) turn_row(turned, i);
@@ -90,7 +90,7 @@ void require_different_names(const std::vector<ImportedCamera>& cameras, const s
                        "'");
 }
 
-Matrix34 pose_of_numbers(const std::vector<double>& numbers, const std::string& where) {
+Pose pose_of_numbers(const std::vector<double>& numbers, const std::string& where) {
   if (numbers.size() != 12 && numbers.size() != 16)
     throw InputError(where + ": expected a matrix of 3 or 4 rows of 4 numbers, found " +
                      std::to_string(numbers.size()) + " numbers");
@@ -98,12 +98,12 @@ Matrix34 pose_of_numbers(const std::vector<double>& numbers, const std::string& 
       !std::equal(numbers.begin() + 12, numbers.end(), std::array<double, 4>{0, 0, 0, 1}.begin()) &&
       std::all_of(numbers.begin() + 12, numbers.end(), [](double x) { return std::isfinite(x); }))
     throw InputError(where + ": expected the last row to be 0 0 0 1");
-  Matrix34 pose;
+  Pose pose;
   for (std::size_t i = 0; i < 12; ++i) pose[i / 4][i % 4] = numbers[i];
   return pose;
 }
 
-Matrix34 parse_pose(std::string_view text, const std::string& name) {
+Pose parse_pose(std::string_view text, const std::string& name) {
   std::vector<double> numbers;
   for (Line& line : lines_of(text, name)) {
     const std::vector<double> row = rest_of(line);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fathom/camera/camera_import_internal.h"
-#include "fathom/camera/pose.h"
+#include "fathom/camera/rounded_poses.h"
 
 /// From a lens and the poses of a data set to its cameras: what all layouts share. Only for .cpp
 /// files of this room.
@@ -23,8 +23,8 @@ Camera lens_of(const GivenLens& given, const GivenLens& data_set, const std::str
 
 /// World to camera, in our axes, of a pose [A | b]: exact, or each entry of the inverse rounded
 /// once. Fails where an entry is not finite, and where a pose that has to be inverted is singular.
-Matrix34 camera_from_world(const Matrix34& pose, PoseDirection direction, CameraAxes axes,
-                           const std::string& where);
+Pose camera_from_world(const Pose& pose, PoseDirection direction, CameraAxes axes,
+                       const std::string& where);
 
 /// A lens with a pose; a fault of either is the camera's fault.
 ImportedCamera placed(const ImportedCamera& lens, const NamedPose& pose, PoseDirection direction,
@@ -35,10 +35,10 @@ void require_different_names(const std::vector<ImportedCamera>& cameras, const s
 
 /// A matrix of 3 or 4 rows by 4, in order; the last of four has to be 0 0 0 1. Entries that are not
 /// finite are let through.
-Matrix34 pose_of_numbers(const std::vector<double>& numbers, const std::string& where);
+Pose pose_of_numbers(const std::vector<double>& numbers, const std::string& where);
 
 /// A text with one matrix of 3 or 4 lines of 4 numbers. `name` is the file's.
-Matrix34 parse_pose(std::string_view text, const std::string& name);
+Pose parse_pose(std::string_view text, const std::string& name);
 
 /// The files of a folder whose names end with `suffix`, by name. Fails if there is no such file.
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder,

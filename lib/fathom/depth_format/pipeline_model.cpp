@@ -59,11 +59,11 @@ Number divide(const Number& a, const Number& b, bool rounds) {
 }
 
 /// z_clip = A·depth + B, w_clip = depth; exactly.
-struct Projection {
+struct DepthProjection {
   Ratio A, B;
 };
 
-Projection projection_of(const DepthFormat& format) {
+DepthProjection projection_of(const DepthFormat& format) {
   const Ratio n = Dyadic(format.near), one = Dyadic(1.0), two = Dyadic(2.0);
   switch (format.mapping) {
     case Mapping::infinite:
@@ -110,7 +110,7 @@ struct Clip {
 };
 
 Clip clip_coordinates(const PipelineModel& model, const Vertex& vertex) {
-  const Projection projection = projection_of(model.format);
+  const DepthProjection projection = projection_of(model.format);
   const Number A = rounded(projection.A, model.rounding.matrix);
   const Number B = rounded(projection.B, model.rounding.matrix);
   const Row view = view_row(model);

@@ -84,12 +84,11 @@ PointSight::PointSight(const TriangleSource& source, const PlacedTriangles& tria
   }
   near_ = scaled(camera.near, power);
   one_ = scaled(1, power);
-  lens_ = fathom::sign_of((camera.fx > 0) == (camera.fy > 0) ? 1 : -1);
-  const auto inverse = camera_to_world(camera);
+  lens_ = fathom::sign_of((camera.projection.fx > 0) == (camera.projection.fy > 0) ? 1 : -1);
+  const auto inverse = camera_to_world(camera.world_to_camera);
   for (std::size_t k = 0; k < 3; ++k) {
-    eye_[k] = camera.projection == Projection::perspective
-                  ? std::ldexp(inverse[k][3], static_cast<int>(power))
-                  : -inverse[k][2];
+    eye_[k] = is_perspective(camera.projection) ? std::ldexp(inverse[k][3], static_cast<int>(power))
+                                                : -inverse[k][2];
   }
 }
 
@@ -103,7 +102,7 @@ PointSight::View PointSight::view_of(const Vector& near, double error) const {
 }
 
 PointSight::Image PointSight::image_of(const View& view) const {
-  const bool perspective = camera_.projection == Projection::perspective;
+  const bool perspective = is_perspective(camera_.projection);
   return {view.x, view.y, perspective ? view.z : one_};
 }
 
@@ -131,17 +130,18 @@ bool PointSight::is_in_range(const PlacedPoint& p, const View& view) const {
   if (in_front == Sign::negative || beyond_near == Sign::negative) return false;
   if (in_front == Sign::positive && beyond_near == Sign::positive && std::isinf(camera_.far))
     return true;
-  const Dyadic depth = to_camera(camera_, p.exact).z;
+  const Dyadic depth = to_camera(camera_.world_to_camera, p.exact).z;
   return depth.sign() == Sign::positive && depth >= Dyadic(camera_.near) &&
          (std::isinf(camera_.far) || depth <= Dyadic(camera_.far));
 }
 
 bool PointSight::is_in_image(const PlacedPoint& p, const View& view) const {
   const auto& [x, y, W] = image_of(view);
-  const Number half_less_centre = exactly(0.5) + exactly(-camera_.pixel_centre);
+  const Number half_less_centre = exactly(0.5) + exactly(-camera_.projection.pixel_centre);
   const auto centred = [&](double c) { return exactly(c) + half_less_centre; };
-  const Number u = exactly(camera_.fx) * x + exactly(camera_.skew) * y + centred(camera_.cx) * W;
-  const Number v = exactly(camera_.fy) * y + centred(camera_.cy) * W;
+  const Number u = exactly(camera_.projection.fx) * x + exactly(camera_.projection.skew) * y +
+                   centred(camera_.projection.cx) * W;
+  const Number v = exactly(camera_.projection.fy) * y + centred(camera_.projection.cy) * W;
   bool certain = true;
   for (const Number& inside :
        {u, minus(exactly(camera_.width) * W, u), v, minus(exactly(camera_.height) * W, v)}) {
@@ -150,7 +150,8 @@ bool PointSight::is_in_image(const PlacedPoint& p, const View& view) const {
     certain = certain && sign;
   }
   if (certain) return true;
-  const auto [U, V, exact_W] = to_image(camera_, to_camera(camera_, p.exact));
+  const auto [U, V, exact_W] =
+      to_image(camera_.projection, to_camera(camera_.world_to_camera, p.exact));
   return U.sign() != Sign::negative && V.sign() != Sign::negative &&
          U <= exact_W * Dyadic(camera_.width) && V <= exact_W * Dyadic(camera_.height);
 }
@@ -162,7 +163,7 @@ bool PointSight::is_in_image(const PlacedPoint& p, const View& view) const {
 // line may meet the box.
 PointSight::Line PointSight::line_to(const PlacedPoint& p) const {
   Vector end = eye_;
-  if (camera_.projection == Projection::orthographic) {
+  if (is_orthographic(camera_.projection)) {
     const double size = std::max({std::abs(eye_[0]), std::abs(eye_[1]), std::abs(eye_[2])});
     for (std::size_t k = 0; k < 3; ++k) end[k] = p.near[k] + eye_[k] / size * 8;
   }
@@ -220,8 +221,8 @@ bool PointSight::hides_exactly(std::uint32_t number, const PlacedPoint& p) const
   const triangle::ProjectedTriangle t =
       triangle::project(source_.world_corners(number), number, camera_, counts);
   if (t.orientation == Sign::zero || !triangle::is_kept(t, cull_)) return false;
-  const CameraPoint at = to_camera(camera_, p.exact);
-  const ExactVector3 q = to_vector(to_image(camera_, at));
+  const CameraPoint at = to_camera(camera_.world_to_camera, p.exact);
+  const ExactVector3 q = to_vector(to_image(camera_.projection, at));
   for (const ImageForm& edge : t.edges)
     if (dot(edge.coefficients(), q).sign() == Sign::negative) return false;
   const Ratio depth(dot(t.depth_numerator.coefficients(), q), dot(t.weight.coefficients(), q));

@@ -15,7 +15,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// √(1 + x'² + y'²) at the centre of pixel (i, j): ray distance over planar depth.
 double stretch_at(const Camera& camera, double i, double j) {
-  if (camera.projection == Projection::orthographic) return 1;
+  if (is_orthographic(camera.projection)) return 1;
   const auto [x, y, one] = point_at(camera, i, j, 1);
   return std::hypot(one, x, y);
 }
@@ -39,7 +39,7 @@ struct Converter {
       throw InputError("pixel (" + std::to_string(static_cast<long>(i)) + ", " +
                        std::to_string(static_cast<long>(j)) +
                        "): the disparity with its offset is negative, so nothing can be there");
-    return std::abs(camera.fx) * rig.baseline / (value + rig.doffs);
+    return std::abs(camera.projection.fx) * rig.baseline / (value + rig.doffs);
   }
 
   /// +∞ where there is no number for it: of an overflowed depth, or a NaN.
@@ -49,14 +49,15 @@ struct Converter {
     const double z = planar(value, i, j);
     if (to == DepthQuantity::planar_depth) return z;
     if (to == DepthQuantity::ray_distance) return z * stretch_at(camera, i, j);
-    return std::isfinite(z) ? std::abs(camera.fx) * rig.baseline / z - rig.doffs : infinity;
+    return std::isfinite(z) ? std::abs(camera.projection.fx) * rig.baseline / z - rig.doffs
+                            : infinity;
   }
 };
 
 StereoRig checked(const Camera& camera, const std::optional<StereoRig>& rig) {
   if (!rig || !(rig->baseline > 0) || !std::isfinite(rig->baseline) || !std::isfinite(rig->doffs))
     throw UsageError("disparity needs a baseline that is a positive number");
-  if (camera.projection == Projection::orthographic)
+  if (is_orthographic(camera.projection))
     throw UsageError("there is no disparity between orthographic views");
   return *rig;
 }
@@ -89,9 +90,12 @@ double usual_background(const DepthMap& map, DepthQuantity from, DepthQuantity t
 std::array<double, 3> point_at(const Camera& camera, double i, double j, double z) {
   const StandardArithmetic standard;
   // (i + ½) − (c + ½ − pixel_centre) = i − c + pixel_centre
-  const double y = (j - camera.cy + camera.pixel_centre) / camera.fy;
-  const double x = (i - camera.cx + camera.pixel_centre - camera.skew * y) / camera.fx;
-  if (camera.projection == Projection::orthographic) return {x, y, z};
+  const double y =
+      (j - camera.projection.cy + camera.projection.pixel_centre) / camera.projection.fy;
+  const double x =
+      (i - camera.projection.cx + camera.projection.pixel_centre - camera.projection.skew * y) /
+      camera.projection.fx;
+  if (is_orthographic(camera.projection)) return {x, y, z};
   return {x * z, y * z, z};
 }
 

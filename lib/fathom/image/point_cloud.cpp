@@ -45,7 +45,7 @@ class Points {
  public:
   Points(const DepthMap& map, const Camera& camera, PointFrame frame)
       : map_(map), camera_(camera), frame_(frame), position_(map, "P"), normal_(map, "N") {
-    world_from_camera_ = camera_to_world(camera);
+    world_from_camera_ = camera_to_world(camera.world_to_camera);
     if (position_) {
       source_ = map.find("P.X");
     } else {
@@ -92,7 +92,7 @@ class Points {
     const std::size_t column = k % map_.width, row = k / map_.width;
     const auto i = static_cast<double>(column), j = static_cast<double>(row);
     double z = depth_[k];
-    if (ray_distance_ && camera_.projection == Projection::perspective) {
+    if (ray_distance_ && is_perspective(camera_.projection)) {
       const Vector ray = point_at(camera_, i, j, 1);
       z /= std::hypot(ray[0], ray[1], ray[2]);
     }

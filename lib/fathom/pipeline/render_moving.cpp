@@ -60,8 +60,8 @@ Camera moved_within_pixel(const Camera& camera, int k, std::array<double, 2>& of
   offset = {static_cast<double>(p.x) / static_cast<double>(grid_one),
             static_cast<double>(p.y) / static_cast<double>(grid_one)};
   Camera moved = camera;
-  moved.cx -= offset[0];
-  moved.cy -= offset[1];
+  moved.projection.cx -= offset[0];
+  moved.projection.cy -= offset[1];
   return moved;
 }
 

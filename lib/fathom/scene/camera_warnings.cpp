@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "fathom/camera/pose.h"
+#include "fathom/camera/rounded_poses.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/view_warnings.h"
 
@@ -16,7 +16,7 @@ namespace {
 using Kind = ViewWarning::Kind;
 
 /// The largest magnitude in the 3×3 part.
-double largest_entry(const Matrix34& pose) {
+double largest_entry(const Pose& pose) {
   double largest = 0;
   for (const auto& row : pose)
     for (std::size_t k = 0; k < 3; ++k) largest = std::max(largest, std::abs(row[k]));
@@ -24,7 +24,7 @@ double largest_entry(const Matrix34& pose) {
 }
 
 /// RᵀR of the 3×3 part, divided by `unit` first so that nothing overflows.
-Matrix3 gram_matrix(const Matrix34& pose, double unit) {
+Matrix3 gram_matrix(const Pose& pose, double unit) {
   Matrix3 G{};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t k = 0; k < 3; ++k)
@@ -42,8 +42,8 @@ double distance_from_identity(const Matrix3& G, double square) {
 }
 
 void add_warnings_of_rotation(const Camera& camera, std::vector<ViewWarning>& warnings) {
-  const bool lens_mirrors = (camera.fx < 0) != (camera.fy < 0);
-  if (!lens_mirrors && determinant_of_rotation(camera).sign() == Sign::negative) {
+  const bool lens_mirrors = (camera.projection.fx < 0) != (camera.projection.fy < 0);
+  if (!lens_mirrors && determinant_of_rotation(camera.world_to_camera).sign() == Sign::negative) {
     warnings.push_back(
         {Kind::mirrored,
          "world_to_camera mirrors: the determinant of its 3×3 part is negative; negate one row, or "
@@ -55,7 +55,7 @@ void add_warnings_of_rotation(const Camera& camera, std::vector<ViewWarning>& wa
   if (distance <= rotation_tolerance) return;
   const double square = (G[0][0] + G[1][1] + G[2][2]) / 3;
   if (distance_from_identity(G, square) <= rotation_tolerance) {
-    const bool perspective = camera.projection == Projection::perspective;
+    const bool perspective = is_perspective(camera.projection);
     warnings.push_back(
         {Kind::scaled,
          fmt::format("world_to_camera scales by {:.6g}: depths are so many times those of the "
@@ -79,8 +79,8 @@ bool in_middle(double x, double size, double part) {
 }
 
 void add_warning_of_principal_point(const Camera& camera, std::vector<ViewWarning>& warnings) {
-  if (camera.projection != Projection::perspective) return;
-  const auto [x, y] = principal_point(camera);
+  if (!is_perspective(camera.projection)) return;
+  const auto [x, y] = principal_point(camera.projection);
   const auto lies_in_middle = [&, x = x, y = y](double part) {
     return in_middle(x, camera.width, part) && in_middle(y, camera.height, part);
   };
@@ -90,7 +90,8 @@ void add_warning_of_principal_point(const Camera& camera, std::vector<ViewWarnin
   // K of a landscape image and the size of a portrait one.
   const bool fits_the_other_way = would_lie_there_if_swapped(0.02) && !lies_in_middle(0.0625);
   if (lies_in_middle(0.25) && !fits_the_other_way) return;
-  const bool are_fractions = camera.cx > 0 && camera.cx <= 1 && camera.cy > 0 && camera.cy <= 1;
+  const bool are_fractions = camera.projection.cx > 0 && camera.projection.cx <= 1 &&
+                             camera.projection.cy > 0 && camera.projection.cy <= 1;
   const bool are_swapped = would_lie_there_if_swapped(0.0625);
   warnings.push_back(
       {Kind::principal_point,

@@ -43,16 +43,17 @@ bool sees_corners(const Camera& camera, const Box& box) {
   const Dyadic reach_u = Dyadic(camera.width) * Dyadic(filled / 2);
   const Dyadic reach_v = Dyadic(camera.height) * Dyadic(filled / 2);
   return std::all_of(box.corners.begin(), box.corners.end(), [&](const ExactVector3& corner) {
-    const CameraPoint p = to_camera(camera, {corner[0], corner[1], corner[2]});
-    const auto [U, V, W] = to_image(camera, p);
-    return p.z.sign() == Sign::positive && abs(U - Dyadic(camera.cx) * W) <= reach_u * W &&
-           abs(V - Dyadic(camera.cy) * W) <= reach_v * W;
+    const CameraPoint p = to_camera(camera.world_to_camera, {corner[0], corner[1], corner[2]});
+    const auto [U, V, W] = to_image(camera.projection, p);
+    return p.z.sign() == Sign::positive &&
+           abs(U - Dyadic(camera.projection.cx) * W) <= reach_u * W &&
+           abs(V - Dyadic(camera.projection.cy) * W) <= reach_v * W;
   });
 }
 
 bool in_front(const Camera& camera, const Box& box) {
   return std::all_of(box.corners.begin(), box.corners.end(), [&](const ExactVector3& c) {
-    return to_camera(camera, {c[0], c[1], c[2]}).z.sign() == Sign::positive;
+    return to_camera(camera.world_to_camera, {c[0], c[1], c[2]}).z.sign() == Sign::positive;
   });
 }
 
@@ -63,7 +64,7 @@ struct Placement {
 };
 
 /// An estimate in floating point of the least placement that frames the box; the caller proves it.
-Placement estimate_placement(const Box& box, const Matrix3& R, const Lens& lens) {
+Placement estimate_placement(const Box& box, const Matrix3& R, const LensChoice& lens) {
   std::array<ExactVector3, 8> offsets;
   long power = 0;  // of two, of the largest coordinate
   bool single_point = true;
@@ -78,8 +79,8 @@ Placement estimate_placement(const Box& box, const Matrix3& R, const Lens& lens)
   }
   if (single_point) return {};
   const Camera camera = with_lens(lens);
-  const double reach_x = filled / 2 * camera.width / camera.fx;
-  const double reach_y = filled / 2 * camera.height / camera.fy;
+  const double reach_x = filled / 2 * camera.width / camera.projection.fx;
+  const double reach_y = filled / 2 * camera.height / camera.projection.fy;
   double distance = 0, half_height = 0, radius = 0;
   for (const ExactVector3& offset : offsets) {
     const auto scaled = [&](int k) { return round_to_binary64(Ratio(offset[k].scaled(-power))); };
@@ -90,7 +91,7 @@ Placement estimate_placement(const Box& box, const Matrix3& R, const Lens& lens)
   }
   if (half_height == 0) half_height = radius;  // a line seen end on
   // Stay half a radius in front of a box that is thin across the view or seen through a wide lens.
-  if (lens.projection == Projection::orthographic) distance = 0;
+  if (lens.model == ProjectionModel::orthographic) distance = 0;
   distance = std::max(distance, 1.5 * radius) * (1 + 0x1p-40);
   const auto unscaled = [&](double x) { return round_to_binary64(Ratio(Dyadic(x).scaled(power))); };
   return {unscaled(distance), unscaled(2 / filled * half_height * (1 + 0x1p-40))};
@@ -107,7 +108,7 @@ bool are_finite(const WorldBounds& bounds) {
          std::all_of(bounds.upper.begin(), bounds.upper.end(), is_finite);
 }
 
-Camera place(const Box& box, const Matrix3& R, const Lens& lens, double distance) {
+Camera place(const Box& box, const Matrix3& R, const LensChoice& lens, double distance) {
   Camera camera = with_lens(lens);
   camera.world_to_camera = pose_that_takes(R, box.middle, {0.0, 0.0, distance});
   return camera;
@@ -116,12 +117,12 @@ Camera place(const Box& box, const Matrix3& R, const Lens& lens, double distance
 }  // namespace
 
 std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBounds& bounds,
-                          const Lens& lens, const std::function<void(double)>& progress) {
+                          const LensChoice& lens, const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   expect_count(count);
   const Box box = box_of(bounds);
-  const bool extent_is_free = lens.projection == Projection::orthographic && !lens.vertical_extent;
-  Lens chosen = lens;
+  const bool extent_is_free = lens.model == ProjectionModel::orthographic && !lens.vertical_extent;
+  LensChoice chosen = lens;
   if (extent_is_free) chosen.vertical_extent = 1;
   checked(with_lens(chosen));
   std::vector<Matrix3> rotations;
@@ -133,7 +134,7 @@ std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBou
     placement.vertical_extent = std::max(placement.vertical_extent, one.vertical_extent);
     if (progress) progress((i + 1.0) / count / 4);  // about a quarter of the work
   }
-  const bool all_must_be_seen = lens.projection == Projection::perspective || extent_is_free;
+  const bool all_must_be_seen = lens.model == ProjectionModel::perspective || extent_is_free;
   // Rounding of the pose can move a small scene that is far from the origin out of the picture;
   // moving farther away mends that.
   for (; std::isfinite(placement.distance);
@@ -152,13 +153,14 @@ std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBou
   throw InputError("no camera with finite numbers sees the whole scene");
 }
 
-Camera frame(const WorldBounds& bounds, const View& view, const Lens& lens) {
+Camera frame(const WorldBounds& bounds, const View& view, const LensChoice& lens) {
   const StandardArithmetic standard;
   return orbit(view, 1, bounds, lens).front();
 }
 
 std::vector<Camera> orbit_scene(const View& first, std::uint32_t count, const Scene& scene,
-                                const Lens& lens, const std::function<void(double)>& progress) {
+                                const LensChoice& lens,
+                                const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   const auto bounds = world_bounds(scene);
   if (!bounds) throw InputError("the scene has no triangle that a camera could frame");
@@ -172,7 +174,7 @@ std::vector<Camera> orbit_scene(const View& first, std::uint32_t count, const Sc
   }
 }
 
-Camera frame_scene(const Scene& scene, const View& view, const Lens& lens) {
+Camera frame_scene(const Scene& scene, const View& view, const LensChoice& lens) {
   const StandardArithmetic standard;
   return orbit_scene(view, 1, scene, lens).front();
 }

@@ -17,7 +17,7 @@ template <class Visit>
 void visit_corners(const Scene& scene, std::size_t step, const Visit& visit) {
   for (const Object& object : scene.objects) {
     const Mesh& mesh = scene.meshes[object.mesh];
-    const Matrix34 placement = rounded_placement(object);
+    const Pose placement = rounded_placement(object);
     const auto place = [&](double x, double y, double z) {
       visit(object.placed_as_is ? Vector{x, y, z} : applied(placement, {x, y, z}));
     };
@@ -39,7 +39,7 @@ void visit_corners(const Scene& scene, std::size_t step, const Visit& visit) {
 
 }  // namespace
 
-Vector applied(const Matrix34& map, const Vector& X) {
+Vector applied(const Pose& map, const Vector& X) {
   Vector result;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto& [x, y, z, t] = map[i];
@@ -48,8 +48,8 @@ Vector applied(const Matrix34& map, const Vector& X) {
   return result;
 }
 
-Matrix34 rounded_placement(const Object& object) {
-  Matrix34 placement;
+Pose rounded_placement(const Object& object) {
+  Pose placement;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t k = 0; k < 4; ++k)
       placement[i][k] = round_to_binary64(object.world_from_mesh.rows[i][k]);
@@ -70,17 +70,17 @@ Vector Sight::middle() const {
   return m;
 }
 
-ApproximateCamera::ApproximateCamera(const Camera& camera, const Matrix34& pose, double scale)
-    : camera_(camera), pose_(pose), principal_(principal_point(camera)), scale_(scale) {}
+ApproximateCamera::ApproximateCamera(const Camera& camera, const Pose& pose, double scale)
+    : camera_(camera), pose_(pose), principal_(principal_point(camera.projection)), scale_(scale) {}
 
 Vector ApproximateCamera::camera_point(const Vector& X) const {
   return applied(pose_, {scale_ * X[0], scale_ * X[1], scale_ * X[2]});
 }
 
 std::array<double, 2> ApproximateCamera::image_point(const Vector& p) const {
-  const double w = camera_.projection == Projection::perspective ? p[2] : 1;
-  return {(camera_.fx * p[0] + camera_.skew * p[1]) / w + principal_.x,
-          camera_.fy * p[1] / w + principal_.y};
+  const double w = is_perspective(camera_.projection) ? p[2] : 1;
+  return {(camera_.projection.fx * p[0] + camera_.projection.skew * p[1]) / w + principal_.x,
+          camera_.projection.fy * p[1] / w + principal_.y};
 }
 
 double ApproximateCamera::distance_from_middle(const Vector& X) const {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "fathom/camera/camera.h"
-#include "fathom/camera/pose.h"
+#include "fathom/camera/rounded_poses.h"
 #include "fathom/scene/scene.h"
 
 /// Visibility of a scene's corners in binary64: good for a warning, not for a decision about a
@@ -16,10 +16,10 @@ namespace fathom::scene {
 using Vector = std::array<double, 3>;
 
 /// An affine map of a point.
-Vector applied(const camera::Matrix34& map, const Vector& X);
+Vector applied(const Pose& map, const Vector& X);
 
 /// An object's transform, each entry rounded.
-camera::Matrix34 rounded_placement(const Object& object);
+Pose rounded_placement(const Object& object);
 
 /// Counts of points by their visibility for a camera.
 struct Sight {
@@ -37,7 +37,7 @@ struct Sight {
 /// A camera with another pose, for the scene scaled by `scale` about the world's origin.
 class ApproximateCamera {
  public:
-  ApproximateCamera(const Camera& camera, const camera::Matrix34& pose, double scale = 1);
+  ApproximateCamera(const Camera& camera, const Pose& pose, double scale = 1);
 
   [[nodiscard]] Vector camera_point(const Vector& X) const;
   /// Of a camera point in front; pixels.
@@ -52,7 +52,7 @@ class ApproximateCamera {
   void look_at(const Vector& X, Sight& sight) const;
 
   const Camera& camera_;
-  camera::Matrix34 pose_;
+  Pose pose_;
   PrincipalPoint principal_;
   double scale_;
 };

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <optional>
 
-#include "fathom/camera/pose.h"
+#include "fathom/camera/rounded_poses.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"
@@ -62,7 +62,7 @@ std::optional<ViewWarning> warning_of_units(const Scene& scene, const Camera& ca
 }
 
 /// diag(1, −1, −1) · pose: OpenGL's camera axes to ours.
-Matrix34 with_axes_of_opengl(Matrix34 pose) {
+Pose with_axes_of_opengl(Pose pose) {
   for (std::size_t i : {1, 2})
     for (double& entry : pose[i]) entry = 0.0 - entry;
   return pose;
@@ -70,12 +70,12 @@ Matrix34 with_axes_of_opengl(Matrix34 pose) {
 
 /// Another way to read world_to_camera, and what to do if it is the one that was meant.
 struct Reading {
-  Matrix34 pose;
+  Pose pose;
   const char* advice;
 };
 
 /// The likeliest first.
-std::vector<Reading> other_readings(const Matrix34& pose) {
+std::vector<Reading> other_readings(const Pose& pose) {
   std::vector<Reading> readings;
   readings.push_back({with_axes_of_opengl(pose),
                       "; with OpenGL's axes (y up, z backward) the scene would be seen: negate the "
@@ -171,7 +171,7 @@ std::optional<ViewWarning> warning_of_nothing(const Scene& scene, const Camera& 
 /// The eye in the frame of an object's mesh; nothing where its transform has no inverse.
 std::optional<Vector> eye_in_mesh(const Object& object, const Vector& eye) {
   if (object.placed_as_is) return eye;
-  const Matrix34 placement = rounded_placement(object);
+  const Pose placement = rounded_placement(object);
   for (const auto& row : placement)
     if (!std::ranges::all_of(row, [](double x) { return std::isfinite(x); })) return std::nullopt;
   const auto mesh_from_world = inverse(placement);
@@ -181,8 +181,8 @@ std::optional<Vector> eye_in_mesh(const Object& object, const Vector& eye) {
 
 /// The object that a perspective camera's eye is in.
 const Object* object_around_eye(const Scene& scene, const Camera& camera) {
-  if (camera.projection != Projection::perspective) return nullptr;
-  const Matrix34 world_from_camera = camera_to_world(camera);
+  if (!is_perspective(camera.projection)) return nullptr;
+  const Pose world_from_camera = camera_to_world(camera.world_to_camera);
   const Vector eye{world_from_camera[0][3], world_from_camera[1][3], world_from_camera[2][3]};
   for (const Object& object : scene.objects) {
     const Mesh& mesh = scene.meshes[object.mesh];

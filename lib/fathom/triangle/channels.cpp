@@ -54,11 +54,11 @@ void fail(const EncodingFault& fault, const DepthMap& map) {
 ChannelWriter::ChannelWriter(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                              const RenderOptions& options)
     : triangles_(triangles),
-      perspective_(camera.projection == Projection::perspective),
+      perspective_(is_perspective(camera.projection)),
       encoding_(options.depth_encoding),
       code_factor_(code_factor_of(encoding_)),
-      image_handedness_(Dyadic(camera.fx).sign() * Dyadic(camera.fy).sign()),
-      handedness_(image_handedness_ * determinant_of_rotation(camera).sign()),
+      image_handedness_(Dyadic(camera.projection.fx).sign() * Dyadic(camera.projection.fy).sign()),
+      handedness_(image_handedness_ * determinant_of_rotation(camera.world_to_camera).sign()),
       values_(map),
       exact_corner_normals_([this] { return ExactCornerNormals(corner_normals_); }) {
   segments_ = segments_for(values_, triangles_);

@@ -7,7 +7,8 @@ namespace fathom::triangle {
 // An affine function is known from its values at four points.
 std::array<std::array<Dyadic, 4>, 3> image_rows(const Object& object, const Camera& camera) {
   const auto image = [&](const MeshPoint& p) {
-    const HomogeneousImagePoint a = to_image(camera, to_camera(camera, object.world_from_mesh(p)));
+    const HomogeneousImagePoint a =
+        to_image(camera.projection, to_camera(camera.world_to_camera, object.world_from_mesh(p)));
     return ExactVector3{a.U, a.V, a.W};
   };
   const ExactVector3 origin = image({0, 0, 0}), x = image({1, 0, 0}), y = image({0, 1, 0}),

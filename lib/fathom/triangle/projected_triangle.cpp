@@ -63,8 +63,8 @@ ProjectedTriangle project(const std::array<WorldPoint, 3>& world, std::uint32_t 
   std::array<ExactVector3, 3> image;  // a, b, c
   std::array<Dyadic, 3> depths;       // D_A, D_B, D_C
   for (std::size_t i = 0; i < 3; ++i) {
-    t.camera[i] = to_camera(camera, world[i]);
-    const HomogeneousImagePoint p = to_image(camera, t.camera[i]);
+    t.camera[i] = to_camera(camera.world_to_camera, world[i]);
+    const HomogeneousImagePoint p = to_image(camera.projection, t.camera[i]);
     image[i] = {p.U, p.V, p.W};
     depths[i] = t.camera[i].z;
   }
@@ -123,7 +123,7 @@ PixelBox bounding_box(const ProjectedTriangle& triangle, const Camera& camera) {
   std::array<HomogeneousImagePoint, 3> corners;
   int in_front = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    corners[i] = to_image(camera, triangle.camera[i]);
+    corners[i] = to_image(camera.projection, triangle.camera[i]);
     if (corners[i].W.sign() == Sign::positive) ++in_front;
   }
   if (in_front == 0) return box;

@@ -45,8 +45,8 @@ Object identity() {
 /// Rows of (U, V, D) as affine functions of the mesh point.
 std::array<ExactRow, 3> image_rows_of(const Object& object, const Camera& camera) {
   const auto image = [&](const MeshPoint& X) {
-    const CameraPoint p = to_camera(camera, object.world_from_mesh(X));
-    const HomogeneousImagePoint a = to_image(camera, p);
+    const CameraPoint p = to_camera(camera.world_to_camera, object.world_from_mesh(X));
+    const HomogeneousImagePoint a = to_image(camera.projection, p);
     return ExactVector3{a.U, a.V, p.z};
   };
   const ExactVector3 origin = image({0, 0, 0});
@@ -168,15 +168,16 @@ ObjectRays::ObjectRays(const Object& object, const Camera& camera)
 SceneRays::SceneRays(const TriangleSource& triangles, const Camera& camera)
     : triangles_(triangles),
       camera_(camera),
-      perspective_(camera.projection == Projection::perspective),
+      perspective_(is_perspective(camera.projection)),
       greatest_u_(camera.width),
       greatest_v_(camera.height),
-      handedness_(determinant_of_rotation(camera).sign()),
+      handedness_(determinant_of_rotation(camera.world_to_camera).sign()),
       world_(identity(), camera),
       objects_(triangles.objects().size()) {
-  const Dyadic half_less_centre = Dyadic(0.5) - camera.pixel_centre;
-  const Dyadic fx(camera.fx), fy(camera.fy), skew(camera.skew);
-  const Dyadic cx = Dyadic(camera.cx) + half_less_centre, cy = Dyadic(camera.cy) + half_less_centre;
+  const Dyadic half_less_centre = Dyadic(0.5) - camera.projection.pixel_centre;
+  const Dyadic fx(camera.projection.fx), fy(camera.projection.fy), skew(camera.projection.skew);
+  const Dyadic cx = Dyadic(camera.projection.cx) + half_less_centre,
+               cy = Dyadic(camera.projection.cy) + half_less_centre;
   const Dyadic product = fx * fy;
   const std::array<std::array<Ratio, 3>, 2> exact{
       {{Ratio(1.0, fx), Ratio(-skew, product), Ratio(skew * cy - cx * fy, product)},

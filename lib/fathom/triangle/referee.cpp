@@ -92,7 +92,7 @@ bool Referee::lie_in_one_plane(std::uint32_t a, std::uint32_t b) {
   if (wide_ && wide_->lie_in_one_plane(a, b)) return true;
   make_room();
   const ProjectedTriangle& ta = remember(a);
-  return in_one_plane(ta, remember(b), camera_.projection == Projection::perspective);
+  return in_one_plane(ta, remember(b), is_perspective(camera_.projection));
 }
 
 bool Referee::hides(std::uint32_t a, std::uint32_t b, const ImagePoint& s,

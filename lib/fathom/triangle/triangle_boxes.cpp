@@ -54,7 +54,7 @@ void TriangleBoxes::project(const MeshPoint& p, Corner& corner) const {
 
 void TriangleBoxes::project_exactly(const MeshPoint& p, Corner& corner) const {
   const HomogeneousImagePoint image =
-      to_image(camera_, to_camera(camera_, object_.world_from_mesh(p)));
+      to_image(camera_.projection, to_camera(camera_.world_to_camera, object_.world_from_mesh(p)));
   if (image.W.sign() != Sign::positive) return;
   set_place(enclose(image.U), enclose(image.V), enclose(image.W), corner);
 }

@@ -37,9 +37,9 @@ double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
 
 /// Its intrinsics and view, without the model transform.
 Camera described(vtkCamera& c, std::uint32_t width, std::uint32_t height) {
-  Lens lens{.width = width, .height = height};
+  LensChoice lens{.width = width, .height = height};
   if (c.GetParallelProjection() != 0) {
-    lens.projection = Projection::orthographic;
+    lens.model = ProjectionModel::orthographic;
     lens.vertical_extent = 2 * c.GetParallelScale();
   } else {
     const double spanned = c.GetUseHorizontalViewAngle() != 0 ? width : height;
@@ -47,8 +47,8 @@ Camera described(vtkCamera& c, std::uint32_t width, std::uint32_t height) {
   }
   Camera camera = look_at(array_of(c.GetPosition()), array_of(c.GetFocalPoint()),
                           array_of(c.GetViewUp()), lens);
-  camera.cx = (1 - c.GetWindowCenter()[0]) * width / 2;
-  camera.cy = (1 + c.GetWindowCenter()[1]) * height / 2;
+  camera.projection.cx = (1 - c.GetWindowCenter()[0]) * width / 2;
+  camera.projection.cy = (1 + c.GetWindowCenter()[1]) * height / 2;
   camera.near = c.GetClippingRange()[0];
   camera.far = c.GetClippingRange()[1];
   return camera;
@@ -107,7 +107,7 @@ class Check {
 };
 
 void check_clip_planes(Check& check, const Camera& is, const Camera& should) {
-  const bool perspective = should.projection == Projection::perspective;
+  const bool perspective = is_perspective(should.projection);
   const double ratio = perspective ? should.far / should.near : 1;
   check.expect("near", is.near, should.near, 4 * (should.near + (perspective ? 0 : should.far)));
   if (std::isfinite(is.far)) check.expect("far", is.far, should.far, 4 * should.far * (1 + ratio));
@@ -134,11 +134,15 @@ std::optional<std::string> fault_of_matrices(vtkRenderer& renderer, const Camera
   try {
     const Camera should = described(theirs, is.width, is.height);
     Check check;
-    check.expect("fx, in pixels,", is.fx, should.fx, std::abs(should.fx));
-    check.expect("fy, in pixels,", is.fy, should.fy, std::abs(should.fy));
-    check.expect("the skew", is.skew, 0, 0);
-    check.expect("cx, in pixels,", is.cx, should.cx, is.width + std::abs(should.cx));
-    check.expect("cy, in pixels,", is.cy, should.cy, is.height + std::abs(should.cy));
+    check.expect("fx, in pixels,", is.projection.fx, should.projection.fx,
+                 std::abs(should.projection.fx));
+    check.expect("fy, in pixels,", is.projection.fy, should.projection.fy,
+                 std::abs(should.projection.fy));
+    check.expect("the skew", is.projection.skew, 0, 0);
+    check.expect("cx, in pixels,", is.projection.cx, should.projection.cx,
+                 is.width + std::abs(should.projection.cx));
+    check.expect("cy, in pixels,", is.projection.cy, should.projection.cy,
+                 is.height + std::abs(should.projection.cy));
     check_clip_planes(check, is, should);
     check_view(check, is, theirs, should);
     return check.fault();

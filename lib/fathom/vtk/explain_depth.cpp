@@ -92,7 +92,7 @@ attribution::OtherMap map_of(const DepthBuffer& buffer, const Camera& camera) {
   attribution::OtherMap map{
       .width = camera.width, .height = camera.height, .windows = buffer.windows};
   const attribution::WindowDepth window =
-      attribution::window_depth(camera.projection, Mapping::opengl, camera.near, camera.far);
+      attribution::window_depth(camera.projection.model, Mapping::opengl, camera.near, camera.far);
   for (const double z : map.windows) {
     map.depths.push_back(z == 1 ? std::numeric_limits<double>::infinity() : window.to_depth(z));
   }

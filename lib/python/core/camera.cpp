@@ -20,7 +20,6 @@ namespace fathom::python {
 namespace {
 
 using Path = std::filesystem::path;
-using Rows = std::array<std::array<double, 4>, 3>;
 using Named = std::vector<std::pair<py::str, Camera>>;
 
 /// Names of files may be any bytes: what is no UTF-8 becomes U+FFFD, as in camera files.
@@ -32,18 +31,19 @@ py::str as_text(const std::string& name) {
 }
 
 Camera make_camera(std::uint32_t width, std::uint32_t height, bool orthographic,
-                   const std::array<double, 5>& intrinsics, double pixel_centre, const Rows& pose,
+                   const std::array<double, 5>& intrinsics, double pixel_centre, const Pose& pose,
                    double near, double far, std::string name) {
   Camera camera;
   camera.width = width;
   camera.height = height;
-  camera.projection = orthographic ? Projection::orthographic : Projection::perspective;
-  camera.fx = intrinsics[0];
-  camera.fy = intrinsics[1];
-  camera.cx = intrinsics[2];
-  camera.cy = intrinsics[3];
-  camera.skew = intrinsics[4];
-  camera.pixel_centre = pixel_centre;
+  camera.projection.model =
+      orthographic ? ProjectionModel::orthographic : ProjectionModel::perspective;
+  camera.projection.fx = intrinsics[0];
+  camera.projection.fy = intrinsics[1];
+  camera.projection.cx = intrinsics[2];
+  camera.projection.cy = intrinsics[3];
+  camera.projection.skew = intrinsics[4];
+  camera.projection.pixel_centre = pixel_centre;
   camera.world_to_camera = pose;
   camera.near = near;
   camera.far = far;
@@ -52,13 +52,13 @@ Camera make_camera(std::uint32_t width, std::uint32_t height, bool orthographic,
   return camera;
 }
 
-Lens make_lens(std::uint32_t width, std::uint32_t height, bool orthographic,
-               std::optional<double> fov, std::optional<double> focal, std::optional<double> extent,
-               double near, double far) {
-  Lens lens;
+LensChoice make_lens(std::uint32_t width, std::uint32_t height, bool orthographic,
+                     std::optional<double> fov, std::optional<double> focal,
+                     std::optional<double> extent, double near, double far) {
+  LensChoice lens;
   lens.width = width;
   lens.height = height;
-  lens.projection = orthographic ? Projection::orthographic : Projection::perspective;
+  lens.model = orthographic ? ProjectionModel::orthographic : ProjectionModel::perspective;
   if (fov) lens.vertical_fov = *fov;
   lens.focal = focal;
   lens.vertical_extent = extent;
@@ -84,26 +84,25 @@ std::pair<Named, Warnings> named(const std::vector<ImportedCamera>& imported, co
 }
 
 void bind_making(Module& core) {
-  Class<Lens>(core, "Lens").def(py::init(&make_lens));
+  Class<LensChoice>(core, "Lens").def(py::init(&make_lens));
   Class<View>(core, "View").def(py::init(&make_view));
   core.def("look_at", &look_at);
   core.def("orbit", [](const View& first, std::uint32_t count, const Vector3& centre,
-                       double distance, const Lens& lens) {
+                       double distance, const LensChoice& lens) {
     return run([&](const auto& progress) {
       return orbit(first, count, centre, distance, lens, progress);
     });
   });
-  core.def("frame_scene", [](const SharedScene& shared, const View& view, const Lens& lens) {
+  core.def("frame_scene", [](const SharedScene& shared, const View& view, const LensChoice& lens) {
     const std::shared_ptr<const Scene> scene = shared.scene;
     return run([&](const auto&) { return frame_scene(*scene, view, lens); });
   });
-  core.def("orbit_scene",
-           [](const SharedScene& shared, const View& first, std::uint32_t count, const Lens& lens) {
-             const std::shared_ptr<const Scene> scene = shared.scene;
-             return run([&](const auto& progress) {
-               return orbit_scene(first, count, *scene, lens, progress);
-             });
-           });
+  core.def("orbit_scene", [](const SharedScene& shared, const View& first, std::uint32_t count,
+                             const LensChoice& lens) {
+    const std::shared_ptr<const Scene> scene = shared.scene;
+    return run(
+        [&](const auto& progress) { return orbit_scene(first, count, *scene, lens, progress); });
+  });
 }
 
 void bind_importing(Module& core) {
@@ -146,7 +145,7 @@ void bind_data_sets(Module& core) {
         return GivenLens{width, height, K, pixel_centre};
       }));
   core.def("import_matrices",
-           [](const std::vector<std::pair<std::string, Rows>>& poses,
+           [](const std::vector<std::pair<std::string, Pose>>& poses,
               const std::vector<IntrinsicMatrix>& K, bool camera_to_world, bool opengl,
               double pixel_centre, std::uint32_t width, std::uint32_t height) {
              std::vector<NamedPose> named_poses;
@@ -167,7 +166,7 @@ void bind_data_sets(Module& core) {
                published->camera.height = given.height;
              }
              if (published && given.pixel_centre)
-               published->camera.pixel_centre = *given.pixel_centre;
+               published->camera.projection.pixel_centre = *given.pixel_centre;
              return named(import_tum(trajectory, images, published ? *published : tum_lens(given)),
                           trajectory, ignore_distortion);
            });
@@ -190,6 +189,11 @@ void bind_data_sets(Module& core) {
   });
 }
 
+/// Python shows the numbers of the projection as attributes of the camera.
+auto number(double Projection::*member) {
+  return [member](const Camera& camera) { return camera.projection.*member; };
+}
+
 }  // namespace
 
 void bind_camera(Module& core) {
@@ -198,20 +202,20 @@ void bind_camera(Module& core) {
       .def_readonly("width", &Camera::width)
       .def_readonly("height", &Camera::height)
       .def_property_readonly(
-          "orthographic",
-          [](const Camera& camera) { return camera.projection == Projection::orthographic; })
-      .def_readonly("fx", &Camera::fx)
-      .def_readonly("fy", &Camera::fy)
-      .def_readonly("cx", &Camera::cx)
-      .def_readonly("cy", &Camera::cy)
-      .def_readonly("skew", &Camera::skew)
-      .def_readonly("pixel_centre", &Camera::pixel_centre)
+          "orthographic", [](const Camera& camera) { return is_orthographic(camera.projection); })
+      .def_property_readonly("fx", number(&Projection::fx))
+      .def_property_readonly("fy", number(&Projection::fy))
+      .def_property_readonly("cx", number(&Projection::cx))
+      .def_property_readonly("cy", number(&Projection::cy))
+      .def_property_readonly("skew", number(&Projection::skew))
+      .def_property_readonly("pixel_centre", number(&Projection::pixel_centre))
       .def_readonly("world_to_camera", &Camera::world_to_camera)
       .def_readonly("near", &Camera::near)
       .def_readonly("far", &Camera::far)
       .def_property_readonly("name", [](const Camera& camera) { return as_text(camera.name); })
-      .def_property_readonly("camera_to_world",
-                             [](const Camera& camera) { return camera_to_world(camera); });
+      .def_property_readonly("camera_to_world", [](const Camera& camera) {
+        return camera_to_world(camera.world_to_camera);
+      });
   bind_making(core);
   bind_importing(core);
   bind_data_sets(core);

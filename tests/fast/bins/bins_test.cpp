@@ -122,8 +122,8 @@ TEST(Bins, SayWhichTrianglesCoverNoSample) {
   }
   const Scene scene = testing::scene_of(vertices, triangles);
   Camera camera = camera_of(128, 128, 1);
-  camera.projection = Projection::orthographic;
-  camera.cx = camera.cy = 0;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.cx = camera.projection.cy = 0;
   Filling filling(scene, camera);
   const Bins bins = filling.filled(Cull::none, true);
   int without = 0, with = 0, not_told = 0;

@@ -102,7 +102,7 @@ TEST(Boxes, WhatIsSettledIsSo) {
 TEST(Boxes, CornersThatAreNoVerticesAreFound) {
   const std::vector<MeshPoint> points{{1, 1, 1}, {3, 1, 1}, {1, 3, 1}};
   Camera camera = testing::camera_of(6, 5, 1);
-  camera.projection = Projection::orthographic;
+  camera.projection.model = ProjectionModel::orthographic;
   const VertexTransform transform(Object{}, camera);
   std::array<ImageVertex, 3> vertices;
   transform(points, vertices.data());
@@ -142,8 +142,8 @@ TEST(Boxes, AFullBatchOnPaper) {
     triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   Camera camera = testing::camera_of(width, 64, 1);
-  camera.projection = Projection::orthographic;
-  camera.cx = camera.cy = 0;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.cx = camera.projection.cy = 0;
   const VertexTransform transform(Object{}, camera);
   const auto vertices = std::make_unique<ImageVertex[]>(points.size());
   transform(points, vertices.get());

@@ -73,9 +73,9 @@ void expect_both(const Counts& counts) {
 /// The camera's numbers are powers of two: rays are exact, and all errors those of q.
 Camera plain_camera(bool perspective) {
   Camera camera = testing::camera_of(64, 64, 64);
-  camera.cx = camera.cy = 96;  // no ray has a coordinate of 0
+  camera.projection.cx = camera.projection.cy = 96;  // no ray has a coordinate of 0
   camera.world_to_camera[0][3] = -2;
-  if (!perspective) camera.projection = Projection::orthographic;
+  if (!perspective) camera.projection.model = ProjectionModel::orthographic;
   return camera;
 }
 

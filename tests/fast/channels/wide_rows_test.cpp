@@ -56,15 +56,15 @@ class WideRows : public ::testing::TestWithParam<Kind> {
   }
   Camera make_camera() {
     Camera c = testing::camera_of(64, 64, 70);
-    c.cx += unit();
+    c.projection.cx += unit();
     if (GetParam() == Kind::skewed) {
-      c.skew = 11.3;
+      c.projection.skew = 11.3;
       c.world_to_camera[0][1] = 0.3;
       c.world_to_camera[1][2] = -0.2;
     }
     if (GetParam() == Kind::orthographic) {
-      c.projection = Projection::orthographic;
-      c.fx = c.fy = 9.7;
+      c.projection.model = ProjectionModel::orthographic;
+      c.projection.fx = c.projection.fy = 9.7;
     }
     return c;
   }

@@ -25,8 +25,8 @@ std::vector<CoverageTriangle> classes_of(const Scene& scene, const Camera& camer
 
 TEST(CoverageClasses, OnPaper) {
   Camera camera = testing::camera_of(100, 100, 1);
-  camera.projection = Projection::orthographic;
-  camera.cx = camera.cy = 0;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.cx = camera.projection.cy = 0;
   camera.near = 1;
   camera.far = 9;
   const Scene scene = testing::scene_of({{2.25, 3.25, 2},

@@ -56,7 +56,7 @@ void add_edges(const ImageTriangle& t, const Camera& camera, Numbers& n, Share& 
   const auto edges =
       edges_over_tile({t.vertices[order[0]], t.vertices[order[1]], t.vertices[order[2]]}, tile);
   std::array<Dyadic, 3> W;
-  for (std::size_t i = 0; i < 3; ++i) W[i] = to_image(camera, t.exact.camera[i]).W;
+  for (std::size_t i = 0; i < 3; ++i) W[i] = to_image(camera.projection, t.exact.camera[i]).W;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t corner = order[i];
     const Dyadic scale = W[(corner + 1) % 3] * W[(corner + 2) % 3];

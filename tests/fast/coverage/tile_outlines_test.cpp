@@ -18,8 +18,8 @@ using namespace triangle;
 /// An orthographic camera that takes (x, y) to column x and row y of an image of 128 by 128 pixels.
 Camera flat_camera() {
   Camera camera = testing::camera_of(128, 128, 1);
-  camera.projection = Projection::orthographic;
-  camera.cx = camera.cy = 0;
+  camera.projection.model = ProjectionModel::orthographic;
+  camera.projection.cx = camera.projection.cy = 0;
   return camera;
 }
 

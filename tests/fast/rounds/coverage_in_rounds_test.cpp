@@ -78,7 +78,7 @@ TEST(CoverageInRounds, Meshes) {
     SCOPED_TRACE(name);
     Warnings warnings;
     const Scene scene = read_scene({path}, {}, warnings);
-    const Lens lens{.width = 400U / effort, .height = 300U / effort};
+    const LensChoice lens{.width = 400U / effort, .height = 300U / effort};
     for (const bool as_stl : {true, false}) {
       const Both both({as_stl ? files.stl(scene.meshes[0]) : files.ply(scene.meshes[0])});
       Camera camera = frame_scene(both.scene, {.azimuth = 20, .elevation = 10}, lens);
@@ -99,7 +99,7 @@ TEST(CoverageInRounds, SeveralObjects) {
   const Scene house = read_scene({data / "meshes" / "house.gltf"}, {}, warnings);
   const fs::path cube = data / "meshes" / "cube.stl", ply = files.ply(spot.meshes[0]);
   const Both both({files.stl(spot.meshes[0]), cube, files.ply(house.meshes[0]), ply, ply});
-  const Lens lens{.width = 330U / effort, .height = 250U / effort};
+  const LensChoice lens{.width = 330U / effort, .height = 250U / effort};
   expect_same_coverage(both, frame_scene(both.scene, {.azimuth = 40, .elevation = 20}, lens));
 }
 

@@ -56,7 +56,7 @@ TEST(DepthRange, WithoutLimitsEverythingInFrontCounts) {
   Camera c = testing::camera_of(9, 9, 2);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(depth_range(c).certainly_contains(-infinity, infinity));
-  c.projection = Projection::orthographic;  // q = −D
+  c.projection.model = ProjectionModel::orthographic;  // q = −D
   EXPECT_TRUE(depth_range(c).certainly_contains(-infinity, -0x1p-1074));
   EXPECT_FALSE(depth_range(c).certainly_contains(-1, 0));
   EXPECT_FALSE(depth_range(c).certainly_misses(0, 0));  // not known: asked exactly
@@ -65,7 +65,7 @@ TEST(DepthRange, WithoutLimitsEverythingInFrontCounts) {
 
 TEST(DepthRange, OrthographicLimitsAreTheNegatedDepths) {
   Camera c = testing::camera_of(9, 9, 2);
-  c.projection = Projection::orthographic;
+  c.projection.model = ProjectionModel::orthographic;
   c.near = 2;
   c.far = 4;
   const DepthRange range = depth_range(c);

@@ -48,7 +48,7 @@ struct SetupShares {
 
 void check_certified(const ImageTriangle& t, const Camera& camera, Numbers& n,
                      SetupShares& shares) {
-  const bool perspective = camera.projection == Projection::perspective;
+  const bool perspective = is_perspective(camera.projection);
   constexpr CornerIndices corners{0, 1, 2};
   const auto orientation = certified_orientation(t.vertices.data(), corners);
   if (orientation) {
@@ -69,7 +69,7 @@ void check_certified(const ImageTriangle& t, const Camera& camera, Numbers& n,
   const bool turned = t.exact.orientation == Sign::negative;
   const std::size_t order[] = {0, turned ? 2U : 1U, turned ? 1U : 2U};
   std::array<Dyadic, 3> W;
-  for (std::size_t i = 0; i < 3; ++i) W[i] = to_image(camera, t.exact.camera[i]).W;
+  for (std::size_t i = 0; i < 3; ++i) W[i] = to_image(camera.projection, t.exact.camera[i]).W;
   for (int k = 0; k < 6; ++k) {
     const ImagePoint s = sample_of(n, box);
     const double x = s.u - 0.5 - setup.column, y = s.v - 0.5 - setup.row;
@@ -162,7 +162,7 @@ Dyadic factor_of_forms(const Camera& camera) {
   };
   const Dyadic det =
       Dyadic(m[0][0]) * minor(1, 2) - Dyadic(m[0][1]) * minor(0, 2) + Dyadic(m[0][2]) * minor(0, 1);
-  return abs(Dyadic(camera.fx) * Dyadic(camera.fy) * det);
+  return abs(Dyadic(camera.projection.fx) * Dyadic(camera.projection.fy) * det);
 }
 
 TEST(WideSetups, BoundsHoldAndAreTight) {

@@ -126,7 +126,7 @@ TEST(Tile, ShowsTheNearestInColumnsBeyondTheRangeOfInt) {
   int seen = 0;
   for (const std::uint32_t first_column : {0x7FFFFFC0U, 0x80000000U, 0xFFFFFFC0U}) {
     Camera camera = testing::camera_of(0xFFFFFFFF, 140, 64);
-    camera.cx = first_column + 32.0;
+    camera.projection.cx = first_column + 32.0;
     TileScene x(testing::soup(random, 20, true), camera);
     const TileGrid grid(camera.width, camera.height);
     const PixelBox area = grid.area(grid.columns + first_column / Tile::size);

@@ -18,12 +18,12 @@ using testing::Share;
 
 Camera camera_from(Numbers& n, bool perspective) {
   Camera c = testing::camera_of(1000, 800, 0);
-  c.projection = perspective ? Projection::perspective : Projection::orthographic;
+  c.projection.model = perspective ? ProjectionModel::perspective : ProjectionModel::orthographic;
   do {
-    c.fx = 700 * (1 + n.unit() / 2);
-    c.fy = (n.below(2) ? 1 : -1) * 700 * (1 + n.unit() / 2);
-    c.skew = n.below(2) ? n.unit() : 0;
-    c.cx = 500 + n.unit();
+    c.projection.fx = 700 * (1 + n.unit() / 2);
+    c.projection.fy = (n.below(2) ? 1 : -1) * 700 * (1 + n.unit() / 2);
+    c.projection.skew = n.below(2) ? n.unit() : 0;
+    c.projection.cx = 500 + n.unit();
     for (auto& row : c.world_to_camera) {
       for (double& entry : row) entry = n.below(6) == 0 ? n.wild(20) : n.unit();
     }
@@ -48,8 +48,8 @@ struct Exact {
   Dyadic D;
 };
 Exact exact_image(const Object& object, const Camera& camera, const MeshPoint& X) {
-  const CameraPoint p = to_camera(camera, object.world_from_mesh(X));
-  return {to_image(camera, p), p.z};
+  const CameraPoint p = to_camera(camera.world_to_camera, object.world_from_mesh(X));
+  return {to_image(camera.projection, p), p.z};
 }
 
 class Vertices : public ::testing::TestWithParam<bool> {};
@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(Fast, Vertices, ::testing::Bool());
 /// An entry that is not 0 but rounds to 0 would count as exact.
 TEST(Fast, MatricesWithEntriesThatUnderflowAreNotUsable) {
   Camera camera = testing::camera_of(16, 12, 8);
-  camera.fx = 2e-162;
+  camera.projection.fx = 2e-162;
   EXPECT_FALSE(VertexTransform(Object{}, camera)({0, 0, 1}).is_usable());  // below 2⁻²⁰⁰
   camera.world_to_camera[0][0] = 1e-162;
   EXPECT_FALSE(VertexTransform(Object{}, camera)({0, 0, 1}).is_usable());  // rounds to 0
@@ -138,7 +138,7 @@ TEST(Fast, VerticesOfMagnitudesBeyondTheBoundsAreNotUsable) {
   EXPECT_TRUE(transform({1, 1, -1}).is_behind());
   EXPECT_FALSE(transform({1, 1, 0}).is_behind());
   Camera vast = camera;
-  vast.fx = 1e250;
+  vast.projection.fx = 1e250;
   EXPECT_FALSE(VertexTransform(Object{}, vast)({1, 1, 1}).is_usable());
 }
 

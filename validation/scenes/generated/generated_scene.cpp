@@ -31,14 +31,14 @@ struct Reach {
   double right, up;
 };
 
-Reach reach_of(const Lens& lens) {
+Reach reach_of(const LensChoice& lens) {
   const double up = std::tan(lens.vertical_fov * (std::acos(-1.0) / 360));
   return {up * lens.width / lens.height, up};
 }
 
 /// The whole image shows the plane of the lowest points within the square: what is in front of that
 /// is landscape. The eye stands on the side of the greatest z, above the square.
-Camera camera_of_terrain(const Lens& lens) {
+Camera camera_of_terrain(const LensChoice& lens) {
   const Reach reach = reach_of(lens);
   // From an eye at distance 1, at 45°: where the upper corners of the image lie in that plane.
   const double along_ray = 1 / (1 - reach.up);
@@ -48,7 +48,7 @@ Camera camera_of_terrain(const Lens& lens) {
 }
 
 /// From so near that the image ends within the cube, where it passes through its middle.
-Camera camera_of_soup(const Lens& lens) {
+Camera camera_of_soup(const LensChoice& lens) {
   const Reach reach = reach_of(lens);
   return look_from(oblique, {0.5, 0.5, 0.5}, 0.4 / std::max(reach.right, reach.up), lens);
 }
@@ -74,7 +74,7 @@ StreamedScene generated_scene(const GeneratedArguments& arguments) {
 }
 
 Camera camera_of(GeneratedKind kind, const ImageSize& size) {
-  const Lens lens{.width = size.width, .height = size.height};
+  const LensChoice lens{.width = size.width, .height = size.height};
   return kind == GeneratedKind::terrain ? camera_of_terrain(lens) : camera_of_soup(lens);
 }
 

@@ -123,11 +123,11 @@ Camera deviating(const Camera& camera, const Deviation& d) {
     view = (Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() * view).eval();
   }
   view.col(3) += Eigen::Vector3d(d[3], d[4], d[5]);
-  result.fx *= 1 + of(d, P::focal_x);
-  result.fy *= 1 + of(d, P::focal_y);
-  result.cx += of(d, P::centre_x);
-  result.cy += of(d, P::centre_y);
-  result.skew += of(d, P::skew);
+  result.projection.fx *= 1 + of(d, P::focal_x);
+  result.projection.fy *= 1 + of(d, P::focal_y);
+  result.projection.cx += of(d, P::centre_x);
+  result.projection.cy += of(d, P::centre_y);
+  result.projection.skew += of(d, P::skew);
   return result;
 }
 
@@ -136,12 +136,12 @@ std::optional<WindowSteps> window_steps(const Camera& camera, const RendererMode
   const auto* const raster = std::get_if<RasterModel>(&model.kind);
   if (raster == nullptr) return std::nullopt;
   return WindowSteps{
-      window_depth(camera.projection, raster->stored_mapping(), camera.near, camera.far),
+      window_depth(camera.projection.model, raster->stored_mapping(), camera.near, camera.far),
       storage_step(*raster, typical_window)};
 }
 
 DepthDeviation::DepthDeviation(const Camera& c, const RendererModel& model, const Deviation& d)
-    : perspective_(c.projection == Projection::perspective),
+    : perspective_(is_perspective(c.projection)),
       decodes_(false),
       scale_(1 + attribution::of(d, P::scale)),
       offset_(attribution::of(d, P::offset)) {

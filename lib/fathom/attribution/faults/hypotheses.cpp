@@ -123,14 +123,17 @@ double ray_length(const Camera& camera, std::size_t pixel) {
   const std::size_t column = pixel % camera.width, row = pixel / camera.width;
   const double u = static_cast<double>(column) + 0.5;
   const double v = static_cast<double>(row) + 0.5;
-  const double y = (v - camera.cy - (0.5 - camera.pixel_centre)) / camera.fy;
-  const double x = (u - camera.cx - (0.5 - camera.pixel_centre) - camera.skew * y) / camera.fx;
+  const double y =
+      (v - camera.projection.cy - (0.5 - camera.projection.pixel_centre)) / camera.projection.fy;
+  const double x = (u - camera.projection.cx - (0.5 - camera.projection.pixel_centre) -
+                    camera.projection.skew * y) /
+                   camera.projection.fx;
   return std::sqrt(1 + x * x + y * y);
 }
 
 std::optional<Hypothesis> ray_distance(const Camera& camera, const OtherMap& other,
                                        const RendererModel& model) {
-  if (camera.projection != Projection::perspective) return std::nullopt;
+  if (!is_perspective(camera.projection)) return std::nullopt;
   Hypothesis h{"ray-distance", "distances along the rays are given for planar depths", model,
                other};
   h.map.windows.clear();

@@ -81,11 +81,12 @@ struct SamplePoint {
 };
 
 SamplePoint sample_point(const Camera& c, const SamplePosition& sample, std::size_t pixel) {
-  const auto [cx, cy] = principal_point(c);
+  const auto [cx, cy] = principal_point(c.projection);
   const std::size_t column = pixel % c.width, row = pixel / c.width;
   SamplePoint s;
-  s.shown_y = (static_cast<double>(row) + sample.y - cy) / c.fy;
-  s.shown_x = (static_cast<double>(column) + sample.x - cx - c.skew * s.shown_y) / c.fx;
+  s.shown_y = (static_cast<double>(row) + sample.y - cy) / c.projection.fy;
+  s.shown_x = (static_cast<double>(column) + sample.x - cx - c.projection.skew * s.shown_y) /
+              c.projection.fx;
   const auto [x, y] = undistorted(s.shown_x, s.shown_y, sample.k1, sample.k2);
   s.x = x;
   s.y = y;
@@ -108,14 +109,14 @@ void set_view_slopes(const Camera& c, const AffineValue& v, const SamplePoint& s
                      Eigen::Ref<Eigen::Matrix<double, 1, parameter_count>> slopes) {
   slopes.segment<3>(index_of(P::turn_x)) = v.by_turn.transpose();
   slopes.segment<3>(index_of(P::move_x)) = v.by_move.transpose();
-  const double skew = c.skew / c.fx;
+  const double skew = c.projection.skew / c.projection.fx;
   const Vector2d by = by_shown(v, s, lens);
   slopes[index_of(P::focal_x)] = -by.x() * s.shown_x;
   slopes[index_of(P::focal_y)] = -by.y() * s.shown_y + by.x() * skew * s.shown_y;
-  slopes[index_of(P::centre_x)] = -by.x() / c.fx;
-  slopes[index_of(P::centre_y)] = (-by.y() + by.x() * skew) / c.fy;
-  slopes[index_of(P::skew)] = -by.x() * s.shown_y / c.fx;
-  if (c.projection != Projection::perspective) return;
+  slopes[index_of(P::centre_x)] = -by.x() / c.projection.fx;
+  slopes[index_of(P::centre_y)] = (-by.y() + by.x() * skew) / c.projection.fy;
+  slopes[index_of(P::skew)] = -by.x() * s.shown_y / c.projection.fx;
+  if (!is_perspective(c.projection)) return;
   const double square = s.x * s.x + s.y * s.y;
   const double outwards = -(by.x() * s.x + by.y() * s.y) * square;
   slopes[index_of(P::k1)] = outwards;
@@ -208,7 +209,7 @@ double ResidualSource::relative_width(std::size_t pixel) const {
 
 Residuals ResidualSource::of(const Truth& seen, const Deviation& deviation) const {
   const Camera& camera = seen.camera;
-  const bool perspective = camera.projection == Projection::perspective;
+  const bool perspective = is_perspective(camera.projection);
   SamplePosition sample = model_.sample;
   sample.k1 += attribution::of(deviation, P::k1);
   sample.k2 += attribution::of(deviation, P::k2);

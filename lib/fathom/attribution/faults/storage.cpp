@@ -65,7 +65,7 @@ RecordedDepth multiples_of(double step) {
 RecordedDepth codes(const Camera& c, bool of_windows, Mapping mapping, int bits) {
   RecordedDepth r{.rounding = RecordedDepth::Rounding::nearest,
                   .step = 1 / (std::ldexp(1.0, bits) - 1)};
-  const WindowDepth window = window_depth(c.projection, mapping, c.near, c.far);
+  const WindowDepth window = window_depth(c.projection.model, mapping, c.near, c.far);
   if (of_windows && window.perspective) {
     r.term = DepthTerm::inverse;
     r.factor = window.b;
@@ -82,7 +82,7 @@ void add_codes(const Camera& camera, const RendererModel& model,
   if (!has_clip_planes(camera)) return;
   const auto* const raster = std::get_if<RasterModel>(&model.kind);
   for (const int bits : {8, 10, 12, 16}) {
-    if (camera.projection == Projection::perspective) {
+    if (is_perspective(camera.projection)) {
       storages.push_back(
           {codes(camera, true, raster != nullptr ? raster->mapping : Mapping::opengl, bits),
            fmt::format("window depths in {} bits", bits)});
@@ -108,7 +108,7 @@ double own_coarseness(const Camera& camera, const RendererModel& model, double d
   const auto* const raster = std::get_if<RasterModel>(&model.kind);
   if (raster == nullptr) return binary32_spacing(depth);
   const WindowDepth window =
-      window_depth(camera.projection, raster->stored_mapping(), camera.near, camera.far);
+      window_depth(camera.projection.model, raster->stored_mapping(), camera.near, camera.far);
   const double z = window.of_depth(depth);
   const double step = storage_step(*raster, z);
   return std::abs(window.to_depth(z + step / 2) - window.to_depth(z - step / 2));

@@ -123,8 +123,8 @@ std::optional<double> codes_of(const Camera& camera, const OtherMap& other,
   const auto* const raster = std::get_if<RasterModel>(&model.kind);
   const bool has_codes = raster != nullptr && raster->mapping == Mapping::opengl &&
                          is_unorm(raster->storage) && !raster->written && !model.recorded;
-  const bool is_decoded = camera.projection == Projection::perspective && has_clip_planes(camera) &&
-                          other.windows.empty();
+  const bool is_decoded =
+      is_perspective(camera.projection) && has_clip_planes(camera) && other.windows.empty();
   if (!has_codes || !is_decoded) return std::nullopt;
   return greatest_code(raster->storage);
 }

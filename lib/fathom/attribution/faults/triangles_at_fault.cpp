@@ -65,7 +65,7 @@ bool is_turned_away(const Truth& truth, std::uint32_t triangle) {
     return view.leftCols<3>() * p + view.col(3);
   };
   const Eigen::Vector3d a = corner(0), n = (corner(1) - a).cross(corner(2) - a);
-  return truth.camera.projection == Projection::perspective ? n.dot(a) > 0 : n.z() > 0;
+  return is_perspective(truth.camera.projection) ? n.dot(a) > 0 : n.z() > 0;
 }
 
 /// Whether surfaces behind the missing triangles are shown.

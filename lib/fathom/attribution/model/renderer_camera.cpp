@@ -23,7 +23,7 @@ ClipRange clip_range(const WorldMesh& mesh, const Camera& camera) {
   if (greatest == 0) return {1, 2};  // nothing lies in front
   const double far = std::min(greatest * 1.001, camera.far);
   const double near = std::max(least * 0.999, camera.near);
-  const bool perspective = camera.projection == Projection::perspective;
+  const bool perspective = is_perspective(camera.projection);
   return {perspective ? std::max(near, far / 1e4) : near, far};
 }
 
@@ -35,7 +35,7 @@ Matrix4 eye_from_world(const Camera& camera) {
 
 Matrix4 clip_from_eye(const Camera& camera, const ClipRange& range, ClipDepth depth) {
   const double w = camera.width, h = camera.height;
-  const auto [cx, cy] = principal_point(camera);
+  const auto [cx, cy] = principal_point(camera.projection);
   const double length = range.far - range.near, sum = range.far + range.near;
   const bool reversed = depth == ClipDepth::one_to_zero;
   // The row of z: of the eye's z, and constant.
@@ -43,9 +43,10 @@ Matrix4 clip_from_eye(const Camera& camera, const ClipRange& range, ClipDepth de
   const double one_orthographic = (reversed ? range.far : -sum) / length;
   const double z_perspective = (reversed ? range.near : -sum) / length;
   const double one_perspective = (reversed ? 1 : -2) * range.far * range.near / length;
-  const double xx = 2 * camera.fx / w, xy = -2 * camera.skew / w, yy = 2 * camera.fy / h;
+  const double xx = 2 * camera.projection.fx / w, xy = -2 * camera.projection.skew / w,
+               yy = 2 * camera.projection.fy / h;
   // clang-format off
-  if (camera.projection == Projection::orthographic) {
+  if (is_orthographic(camera.projection)) {
     return {xx, xy, 0,              2 * cx / w - 1,
             0,  yy, 0,              1 - 2 * cy / h,
             0,  0,  z_orthographic, one_orthographic,
@@ -62,13 +63,13 @@ CameraRays camera_rays(const Camera& camera) {
   const auto camera_from_world = as_matrix(camera.world_to_camera);
   const Eigen::Matrix3d rotation = camera_from_world.leftCols<3>();
   const Eigen::Matrix3d world_from_camera = rotation.inverse();
-  const auto [cx, cy] = principal_point(camera);
+  const auto [cx, cy] = principal_point(camera.projection);
 
   // y = (v − cy)/fy, x = (u − cx − skew·y)/fx on the plane z = 1 (orthographic: on every plane).
-  const double skew = camera.skew / (camera.fx * camera.fy);
-  const Vector3 corner(-cx / camera.fx + skew * cy, -cy / camera.fy, 0);
-  const Vector3 per_u(1 / camera.fx, 0, 0), per_v(-skew, 1 / camera.fy, 0);
-  const bool perspective = camera.projection == Projection::perspective;
+  const double skew = camera.projection.skew / (camera.projection.fx * camera.projection.fy);
+  const Vector3 corner(-cx / camera.projection.fx + skew * cy, -cy / camera.projection.fy, 0);
+  const Vector3 per_u(1 / camera.projection.fx, 0, 0), per_v(-skew, 1 / camera.projection.fy, 0);
+  const bool perspective = is_perspective(camera.projection);
   const Vector3 forward(0, 0, 1), origin = -camera_from_world.col(3);
 
   CameraRays rays;

@@ -36,11 +36,12 @@ SampleGrid::SampleGrid(const Camera& camera, const SamplePosition& sample)
 std::array<double, 2> SampleGrid::at(std::uint32_t column, std::uint32_t row) const {
   const double u = column + sample_.x, v = row + sample_.y;
   if (sample_.k1 == 0 && sample_.k2 == 0) return {u, v};
-  const auto [cx, cy] = principal_point(camera_);
-  const double y = (v - cy) / camera_.fy;
-  const double x = (u - cx - camera_.skew * y) / camera_.fx;
+  const auto [cx, cy] = principal_point(camera_.projection);
+  const double y = (v - cy) / camera_.projection.fy;
+  const double x = (u - cx - camera_.projection.skew * y) / camera_.projection.fx;
   const auto [ideal_x, ideal_y] = undistorted(x, y, sample_.k1, sample_.k2);
-  return {camera_.fx * ideal_x + camera_.skew * ideal_y + cx, camera_.fy * ideal_y + cy};
+  return {camera_.projection.fx * ideal_x + camera_.projection.skew * ideal_y + cx,
+          camera_.projection.fy * ideal_y + cy};
 }
 
 }  // namespace fathom::attribution

@@ -24,8 +24,8 @@ double WindowDepth::to_depth(double window) const {
   return b / beyond;
 }
 
-WindowDepth window_depth(Projection projection, Mapping mapping, double near, double far) {
-  WindowDepth window{.perspective = projection == Projection::perspective,
+WindowDepth window_depth(ProjectionModel projection, Mapping mapping, double near, double far) {
+  WindowDepth window{.perspective = projection == ProjectionModel::perspective,
                      .minus_one_to_one = mapping == Mapping::opengl};
   if (mapping == Mapping::log_ulrich) {
     window.near = near;
@@ -85,8 +85,8 @@ Interval WrittenDepth::values(double q, double q_error) const {
   return {std::min(a[0], b[0]), std::max(a[1], b[1])};
 }
 
-WrittenDepth written_depth(Projection projection, Mapping mapping, double near, double far) {
-  const bool perspective = projection == Projection::perspective;
+WrittenDepth written_depth(ProjectionModel projection, Mapping mapping, double near, double far) {
+  const bool perspective = projection == ProjectionModel::perspective;
   const double range = far - near;
   WrittenDepth written{.mapping = mapping, .of_w = perspective};
   if (mapping == Mapping::log_ulrich) {

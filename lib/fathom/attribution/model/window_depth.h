@@ -28,7 +28,7 @@ struct WindowDepth {
 
 /// `mapping` is standard, opengl, log_ulrich or one of the reversed and infinite ones; `near` and
 /// `far` are depths.
-WindowDepth window_depth(Projection projection, Mapping mapping, double near, double far);
+WindowDepth window_depth(ProjectionModel projection, Mapping mapping, double near, double far);
 
 /// A window depth z that a fragment shader computes in binary32 from q, which is 1/w as it is
 /// interpolated (perspective), or the interpolated window depth (orthographic):
@@ -48,7 +48,7 @@ struct WrittenDepth {
 /// The constants for a mapping, `reversed` or `log_ulrich`, from OpenGL's window depths. `near` and
 /// `far` are depths in scene units.
 /// Fails    InputError for a logarithmic depth whose near plane is not in front of the eye.
-WrittenDepth written_depth(Projection projection, Mapping mapping, double near, double far);
+WrittenDepth written_depth(ProjectionModel projection, Mapping mapping, double near, double far);
 
 /// The greatest error that a shader's log2 may have in binary32 where its exact value is `log2_x`:
 /// 3 ulp, but 2⁻²¹ for x from ½ to 2 ([GLSL46] 4.7.1).

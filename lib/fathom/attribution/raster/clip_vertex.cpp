@@ -16,9 +16,10 @@ namespace {
 /// Rows of x, y (up), z, w over the camera frame (x, y, depth, 1), as OpenGL has them.
 Eigen::Matrix4d clip_from_camera(const Camera& camera, const WindowDepth& window) {
   const double w = camera.width, h = camera.height;
-  const auto [cx, cy] = principal_point(camera);
-  const double xx = 2 * camera.fx / w, xy = 2 * camera.skew / w, x1 = 2 * cx / w - 1;
-  const double yy = -2 * camera.fy / h, y1 = 1 - 2 * cy / h;
+  const auto [cx, cy] = principal_point(camera.projection);
+  const double xx = 2 * camera.projection.fx / w, xy = 2 * camera.projection.skew / w,
+               x1 = 2 * cx / w - 1;
+  const double yy = -2 * camera.projection.fy / h, y1 = 1 - 2 * cy / h;
   double a = window.a, b = window.b;
   if (window.minus_one_to_one) {  // 2z − w
     a = window.perspective ? 2 * a - 1 : 2 * a;
@@ -75,7 +76,8 @@ Place place_of(const std::array<std::array<double, 4>, 3>& world_from_part,
 
 std::array<ClipRow, 4> rows_from(const Camera& camera, Mapping mapping, const Place& place,
                                  bool premultiplied) {
-  const WindowDepth window = window_depth(camera.projection, mapping, camera.near, camera.far);
+  const WindowDepth window =
+      window_depth(camera.projection.model, mapping, camera.near, camera.far);
   const Eigen::Matrix4d projection = clip_from_camera(camera, window);
   const Eigen::Matrix4d view = camera_from_world(camera);
   const Eigen::Matrix4d placed_view = view * place.value;

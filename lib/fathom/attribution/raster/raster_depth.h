@@ -18,7 +18,8 @@ class RasterDepth {
   RasterDepth(const Camera& camera, const RasterModel& model, double sample_error)
       : model_(model),
         sample_error_(sample_error),
-        stored_(window_depth(camera.projection, model.stored_mapping(), camera.near, camera.far)),
+        stored_(
+            window_depth(camera.projection.model, model.stored_mapping(), camera.near, camera.far)),
         sign_(stored_.reversed() ? -1 : 1) {}
 
   /// Sets the fragment's value and what is expected without roundings, and lowers its coverage

@@ -32,7 +32,7 @@ class RasterPolygons {
   RasterPolygons(const Camera& camera, const RasterModel& model)
       : camera_(camera),
         model_(model),
-        window_(window_depth(camera.projection, model.mapping, camera.near, camera.far)) {}
+        window_(window_depth(camera.projection.model, model.mapping, camera.near, camera.far)) {}
 
   [[nodiscard]] std::vector<RasterPolygon> of(
       const std::array<const ClipVertex*, 3>& triangle) const;

@@ -18,8 +18,8 @@ class RasterValues final : public StoredValues {
   RasterValues(const Truth& truth, const OtherMap& other, const RasterModel& model)
       : other_(other),
         model_(model),
-        window_(window_depth(truth.camera.projection, model.stored_mapping(), truth.camera.near,
-                             truth.camera.far)),
+        window_(window_depth(truth.camera.projection.model, model.stored_mapping(),
+                             truth.camera.near, truth.camera.far)),
         sign_(window_.reversed() ? -1 : 1),
         roundings_(truth.camera, model, truth.mesh) {}
 

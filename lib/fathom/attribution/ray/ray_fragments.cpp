@@ -176,22 +176,23 @@ class RayFragments final : public FragmentSource {
 
 PixelBox RayFragments::box(std::uint32_t triangle) const {
   const Camera& c = rays_.camera();
-  const auto [cx, cy] = principal_point(c);
+  const auto [cx, cy] = principal_point(c.projection);
   ImageBox box;
   bool before = false, behind = false;
   for (const Vector3& p : corners(triangle)) {
     const auto [q, size] = in_camera(c, p);
-    const double w = c.projection == Projection::perspective ? q[2] : 1;
+    const double w = is_perspective(c.projection) ? q[2] : 1;
     if (q[2] < 64 * u * size) {
       behind = true;
       continue;
     }
     before = true;
-    const double x = (c.fx * q[0] + c.skew * q[1]) / w + cx, y = c.fy * q[1] / w + cy;
+    const double x = (c.projection.fx * q[0] + c.projection.skew * q[1]) / w + cx,
+                 y = c.projection.fy * q[1] / w + cy;
     // displaced corners: 64u of the coordinates that the position is the sum of
     const double margin = (64 * u + 8 * model_.rotation_error) * size / w *
-                              (std::abs(c.fx) + std::abs(c.fy) + std::abs(c.skew) +
-                               std::abs(x - cx) + std::abs(y - cy)) +
+                              (std::abs(c.projection.fx) + std::abs(c.projection.fy) +
+                               std::abs(c.projection.skew) + std::abs(x - cx) + std::abs(y - cy)) +
                           sample_.error + 1 + grid_.reach();
     box.add(x, y, margin, margin);
   }

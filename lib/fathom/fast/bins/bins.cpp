@@ -116,7 +116,7 @@ void Bins::add_exactly(const ImageObject& object, std::uint32_t number, const Co
     lists.add(number, never_hidden, box, grid);
     return;
   }
-  const bool perspective = context.camera.projection == Projection::perspective;
+  const bool perspective = is_perspective(context.camera.projection);
   const ProjectedTriangle& projected = context.referee.projected(object.number_in_scene(number));
   add_where_met(exact_setup(projected, perspective, box), box);
 }

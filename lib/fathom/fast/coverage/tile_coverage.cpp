@@ -107,8 +107,9 @@ std::pair<SquarePoint, SquarePoint> TileCoverage::exact_ends(const OutlineEdge& 
   const Object& object = triangles.objects()[triangles.origin(number).object];
   const auto exact = [&](std::uint32_t vertex) {
     const Camera& camera = scene_.frame.camera;
-    const auto [U, V, W] =
-        to_image(camera, to_camera(camera, to_world(object, edge.object->mesh.vertices[vertex])));
+    const auto [U, V, W] = to_image(
+        camera.projection,
+        to_camera(camera.world_to_camera, to_world(object, edge.object->mesh.vertices[vertex])));
     return ExactPoint{U, V, W};
   };
   const ExactPoint from = exact(edge.from_vertex), to = exact(edge.to_vertex);

@@ -21,7 +21,7 @@ double below(double x) {
 // Perspective: a covered sample has D > 0 always; 1/far and 1/near are rounded, so the numbers next
 // to them enclose them (far = ∞ gives 0 and near = 0 gives ∞, exact: no limit).
 DepthRange depth_range(const Camera& camera) {
-  if (camera.projection == Projection::orthographic) {
+  if (is_orthographic(camera.projection)) {
     const double nearest = camera.near > 0 ? -camera.near : below(0.0);
     return {-camera.far, nearest, -camera.far, camera.near > 0 ? -camera.near : 0.0};
   }

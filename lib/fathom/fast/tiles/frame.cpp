@@ -14,7 +14,7 @@ FastFrame::FastFrame(const Camera& the_camera, const RenderOptions& the_options,
       keeps_memory(keeps),
       grid(camera.width, camera.height),
       range(depth_range(camera)),
-      perspective(camera.projection == Projection::perspective),
+      perspective(is_perspective(camera.projection)),
       by_area(std::ranges::count(options.channels, Channel::A) != 0) {}
 
 std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t first,

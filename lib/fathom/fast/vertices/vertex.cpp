@@ -38,8 +38,8 @@ Row magnitudes(const Row& a, const Row& b) {
 
 /// U, V, W, D of a mesh point, exactly.
 std::array<Dyadic, 4> exact_image(const Object& object, const Camera& camera, const MeshPoint& X) {
-  const CameraPoint p = to_camera(camera, object.world_from_mesh(X));
-  const HomogeneousImagePoint image = to_image(camera, p);
+  const CameraPoint p = to_camera(camera.world_to_camera, object.world_from_mesh(X));
+  const HomogeneousImagePoint image = to_image(camera.projection, p);
   return {image.U, image.V, image.W, p.z};
 }
 
@@ -103,7 +103,7 @@ bool apply_exactly(const Row& m, const MeshPoint& X, double& value) {
 }  // namespace
 
 VertexTransform::VertexTransform(const Object& object, const Camera& camera)
-    : perspective_(camera.projection == Projection::perspective),
+    : perspective_(fathom::is_perspective(camera.projection)),
       width_(camera.width),
       height_(camera.height) {
   const RoundedRows rounded = rounded_rows(object, camera);

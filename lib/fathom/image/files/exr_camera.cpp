@@ -31,13 +31,14 @@ Matrix4 camera_from_world(const Camera& camera) {
 /// The image after division by the last component.
 Matrix4 ndc_from_world(const Camera& camera) {
   const auto& [x, y, z] = camera.world_to_camera;
-  const bool perspective = camera.projection == Projection::perspective;
-  const auto [cx, cy] = principal_point(camera);
+  const bool perspective = is_perspective(camera.projection);
+  const auto [cx, cy] = principal_point(camera.projection);
   Matrix4 m{};
   m[3] = perspective ? z : std::array<double, 4>{0, 0, 0, 1};
   for (std::size_t k = 0; k < 4; ++k) {
-    m[0][k] = (camera.fx * x[k] + camera.skew * y[k] + cx * m[3][k]) / camera.width;
-    m[1][k] = (camera.fy * y[k] + cy * m[3][k]) / camera.height;
+    m[0][k] =
+        (camera.projection.fx * x[k] + camera.projection.skew * y[k] + cx * m[3][k]) / camera.width;
+    m[1][k] = (camera.projection.fy * y[k] + cy * m[3][k]) / camera.height;
     m[2][k] = z[k];
   }
   return m;
@@ -72,14 +73,15 @@ void set_window(Imf::Header& header, const ExrNumbers& numbers) {
 }  // namespace
 
 ExrNumbers exr_numbers(const Camera& camera) {
-  const auto [cx, cy] = principal_point(camera);
+  const auto [cx, cy] = principal_point(camera.projection);
   // The window is on the plane z = 1; for an orthographic camera it is the image's extent.
   return {{"worldToCamera", for_row_vectors(camera_from_world(camera))},
           {"worldToNDC", for_row_vectors(ndc_from_world(camera))},
-          {"pixelAspectRatio", {std::abs(camera.fy / camera.fx)}},
+          {"pixelAspectRatio", {std::abs(camera.projection.fy / camera.projection.fx)}},
           {"screenWindowCenter",
-           {(camera.width / 2.0 - cx) / camera.fx, (cy - camera.height / 2.0) / camera.fy}},
-          {"screenWindowWidth", {camera.width / std::abs(camera.fx)}}};
+           {(camera.width / 2.0 - cx) / camera.projection.fx,
+            (cy - camera.height / 2.0) / camera.projection.fy}},
+          {"screenWindowWidth", {camera.width / std::abs(camera.projection.fx)}}};
 }
 
 void set_numbers(Imf::Header& header, const ExrNumbers& numbers) {

@@ -19,7 +19,7 @@ ImageVector operator-(const ImageVector& a, const ImageVector& b) {
 
 /// Of an orthographic camera, so that nothing is divided.
 ImageVector image_of(const Camera& camera, const WorldPoint& X) {
-  const HomogeneousImagePoint p = to_image(camera, to_camera(camera, X));
+  const HomogeneousImagePoint p = to_image(camera.projection, to_camera(camera.world_to_camera, X));
   return {p.U, p.V};
 }
 
@@ -27,7 +27,7 @@ ImageVector image_of(const Camera& camera, const WorldPoint& X) {
 
 std::optional<WorldFromImage> world_from_image(const Camera& camera) {
   const StandardArithmetic standard;
-  if (camera.projection != Projection::orthographic || find_fault(camera)) return std::nullopt;
+  if (!is_orthographic(camera.projection) || find_fault(camera)) return std::nullopt;
   const ImageVector o = image_of(camera, {0, 0, 0});
   const ImageVector x = image_of(camera, {1, 0, 0}) - o;
   const ImageVector y = image_of(camera, {0, 1, 0}) - o;

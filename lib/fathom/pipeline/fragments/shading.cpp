@@ -47,11 +47,11 @@ Lighting lighting_of(const Camera& camera, const PipelineOptions& options) {
   const Vector towards = given / given.cwiseAbs().maxCoeff();
   lighting.towards_light =
       as_array((options.light.in_world ? towards : to_world(towards)).normalized());
-  lighting.orthographic = camera.projection == Projection::orthographic;
+  lighting.orthographic = is_orthographic(camera.projection);
   lighting.eye = as_array(lighting.orthographic ? to_world({0, 0, -1}).normalized()
                                                 : to_world(-camera_from_world.col(3)));
-  lighting.mirrored = ((camera.fx < 0) != (camera.fy < 0)) !=
-                      (determinant_of_rotation(camera).sign() == Sign::negative);
+  lighting.mirrored = ((camera.projection.fx < 0) != (camera.projection.fy < 0)) !=
+                      (determinant_of_rotation(camera.world_to_camera).sign() == Sign::negative);
   lighting.material = options.material;
   return lighting;
 }

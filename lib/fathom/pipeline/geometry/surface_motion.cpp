@@ -18,15 +18,15 @@ using Map34 = geometry::RowMatrix<double, 3, 4>;
 
 /// (U, V, W) of points in the camera frame.
 Map34 image_from_camera(const Camera& camera) {
-  const PrincipalPoint centre = principal_point(camera);
+  const PrincipalPoint centre = principal_point(camera.projection);
   Map34 m;
-  if (camera.projection == Projection::perspective) {
-    m << camera.fx, camera.skew, centre.x, 0,  //
-        0, camera.fy, centre.y, 0,             //
+  if (is_perspective(camera.projection)) {
+    m << camera.projection.fx, camera.projection.skew, centre.x, 0,  //
+        0, camera.projection.fy, centre.y, 0,                        //
         0, 0, 1, 0;
   } else {
-    m << camera.fx, camera.skew, 0, centre.x,  //
-        0, camera.fy, 0, centre.y,             //
+    m << camera.projection.fx, camera.projection.skew, 0, centre.x,  //
+        0, camera.projection.fy, 0, centre.y,                        //
         0, 0, 0, 1;
   }
   return m;

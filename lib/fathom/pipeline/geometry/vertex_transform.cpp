@@ -59,16 +59,16 @@ std::array<double, 2> depth_row(const DepthFormat& f, bool perspective) {
 }
 
 Matrix4<double> projection_matrix(const Camera& camera, const DepthFormat& format) {
-  const bool perspective = camera.projection == Projection::perspective;
+  const bool perspective = is_perspective(camera.projection);
   const double w = camera.width, h = camera.height;
-  const PrincipalPoint centre = principal_point(camera);
+  const PrincipalPoint centre = principal_point(camera.projection);
   const double cx = 2 * centre.x / w - 1;
   const double cy = 1 - 2 * centre.y / h;
   const auto [za, zb] = depth_row(format, perspective);
   Matrix4<double> m;
-  m << 2 * camera.fx / w, -2 * camera.skew / w, 0, 0,  //
-      0, 2 * camera.fy / h, 0, 0,                      //
-      0, 0, za, zb,                                    //
+  m << 2 * camera.projection.fx / w, -2 * camera.projection.skew / w, 0, 0,  //
+      0, 2 * camera.projection.fy / h, 0, 0,                                 //
+      0, 0, za, zb,                                                          //
       0, 0, 0, 0;
   m(0, perspective ? 2 : 3) = perspective ? -cx : cx;
   m(1, perspective ? 2 : 3) = perspective ? -cy : cy;
@@ -164,7 +164,7 @@ bool is_per_fragment(Mapping mapping) {
 }
 
 void fill_in_range(const Scene& scene, const Camera& camera, DepthFormat& format) {
-  if (camera.projection == Projection::orthographic && takes_infinite_far(format.mapping))
+  if (is_orthographic(camera.projection) && takes_infinite_far(format.mapping))
     throw UsageError(Setting{"mapping"},
                      std::string(name_of(format.mapping)) + " needs a perspective camera");
   format.near = camera.near;

@@ -93,8 +93,7 @@ class AreaSampler {
     const WindowVertex<Real>& corner = t.corners[k];
     if (!is_per_fragment(options_.depth_format.mapping))
       return static_cast<double>(corner.z) + static_cast<double>(t.depth_offset);
-    if (camera_.projection == Projection::perspective)
-      return -static_cast<double>(corner.inverse_w);
+    if (is_perspective(camera_.projection)) return -static_cast<double>(corner.inverse_w);
     return static_cast<double>(corner.attributes[attribute::depth]);
   }
 

@@ -17,6 +17,6 @@ inline fathom::Scene one_triangle() {
 inline fathom::Camera small_camera() {
   fathom::Camera camera;
   camera.width = camera.height = 4;
-  camera.projection = fathom::Projection::orthographic;
+  camera.projection.model = fathom::ProjectionModel::orthographic;
   return camera;
 }

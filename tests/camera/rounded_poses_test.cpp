@@ -1,4 +1,4 @@
-#include "fathom/camera/pose.h"
+#include "fathom/camera/rounded_poses.h"
 
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ TEST(Pose, TakesThePointToItsTarget) {
     }
     const ExactVector3 X{n.unit(), n.unit(), n.unit()};
     const ExactVector3 target{n.unit(), n.unit() * 1e-9, 0.0};
-    const Matrix34 pose = pose_that_takes(R, X, target);
+    const Pose pose = pose_that_takes(R, X, target);
     for (int k = 0; k < 3; ++k) {
       const Dyadic rotated =
           Dyadic(R[k][0]) * X[0] + Dyadic(R[k][1]) * X[1] + Dyadic(R[k][2]) * X[2];
