@@ -73,8 +73,10 @@ class Candidates {
   Candidates(const Truth& truth, const OtherMap& other, std::string except)
       : truth_(truth), other_(other), except_(std::move(except)) {}
 
-  /// The one with the narrowest bounds that explains the map.
+  /// The one with the narrowest bounds that explains the map; VTK's only where no other does.
   std::optional<ModelTrial> explaining();
+  /// The same, of VTK's models alone.
+  std::optional<ModelTrial> explaining_of_vtk() { return explaining(true); }
   /// Faults of a map that no model explains, by the model that fits best. Call after
   /// explaining().
   std::optional<ModelTrial> at_fault();
@@ -299,9 +301,17 @@ ModelTrial judged_by(const Truth& truth, const OtherMap& other, const RendererMo
   const bool is_named = unexplained(mine.attribution) == 0;
 
   Candidates candidates(truth, other, named.name);
+  const auto has_too_wide_bounds = [&](const ModelTrial& trial) {
+    return comes_before(mine.attribution, trial.attribution, other);
+  };
   std::optional<ModelTrial> right = candidates.explaining();
   if (right && !is_vacuous(right->attribution, other)) {
-    if (comes_before(mine.attribution, right->attribution, other)) {
+    if (has_too_wide_bounds(*right) && !is_of_vtk(right->model)) {
+      // Where coordinates are large, VTK's shift narrows the bounds of the same storage.
+      std::optional<ModelTrial> shifted = candidates.explaining_of_vtk();
+      if (shifted && !is_vacuous(shifted->attribution, other)) right = std::move(shifted);
+    }
+    if (has_too_wide_bounds(*right)) {
       faults.front().alternatives.emplace_back("model");
       return mine;
     }
