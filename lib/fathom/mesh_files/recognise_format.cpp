@@ -22,7 +22,7 @@ std::string in_small_letters(std::string_view text) {
   return result;
 }
 
-std::optional<FileFormat> kind_by_suffix(const std::filesystem::path& path) {
+std::optional<FileFormat> format_by_suffix(const std::filesystem::path& path) {
   const std::string suffix = in_small_letters(path.extension().string());
   if (suffix == ".obj") return FileFormat::obj;
   if (suffix == ".ply") return FileFormat::ply;
@@ -63,10 +63,10 @@ std::optional<FileFormat> recognise_format(std::span<const std::byte> bytes, std
 
   const std::string no_name;
   TextCursor cursor(text, no_name, {.comments = true, .continuation = false});
-  if (!cursor.next_line_with_words()) return kind_by_suffix(path);
+  if (!cursor.next_line_with_words()) return format_by_suffix(path);
   const char first = *cursor.position();
   if (first == '{' || first == '[') {
-    const std::optional<FileFormat> by_suffix = kind_by_suffix(path);
+    const std::optional<FileFormat> by_suffix = format_by_suffix(path);
     if (by_suffix == FileFormat::gltf) return by_suffix;
     return has_asset_key(text) ? FileFormat::gltf : FileFormat::scene_json;
   }
@@ -74,7 +74,7 @@ std::optional<FileFormat> recognise_format(std::span<const std::byte> bytes, std
   if (read_off_keyword(word)) return FileFormat::off;
   if (in_small_letters(word.substr(0, 6)) == "solid") return FileFormat::stl;
   if (is_obj_keyword(word)) return FileFormat::obj;
-  return kind_by_suffix(path);
+  return format_by_suffix(path);
 }
 
 }  // namespace fathom::mesh_files

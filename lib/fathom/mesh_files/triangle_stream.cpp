@@ -28,19 +28,19 @@ std::vector<std::byte> beginning_of(const RandomAccessFile& file, std::size_t si
   return bytes;
 }
 
-FileFormat kind_of(const RandomAccessFile& file, const std::filesystem::path& path,
-                   const ReadOptions& options) {
+FileFormat format_of(const RandomAccessFile& file, const std::filesystem::path& path,
+                     const ReadOptions& options) {
   if (file.size() == 0) throw InputError(file.name() + ": is empty, expected a mesh");
-  const auto kind = options.format ? options.format
-                                   : recognise_format(beginning_of(file, 512), file.size(), path);
-  if (kind != FileFormat::stl && kind != FileFormat::ply) fail_format(file.name());
-  return *kind;
+  const auto format = options.format ? options.format
+                                     : recognise_format(beginning_of(file, 512), file.size(), path);
+  if (format != FileFormat::stl && format != FileFormat::ply) fail_format(file.name());
+  return *format;
 }
 
-std::unique_ptr<TriangleStream> open(std::unique_ptr<RandomAccessFile> file, FileFormat kind,
+std::unique_ptr<TriangleStream> open(std::unique_ptr<RandomAccessFile> file, FileFormat format,
                                      const ReadOptions& options, Warnings& warnings) {
   const std::string name = file->name();
-  if (kind == FileFormat::stl) {
+  if (format == FileFormat::stl) {
     if (!is_binary_stl(beginning_of(*file, 512), file->size())) fail_format(name);
     return open_stl_stream(std::move(file), options.check_when_opened, warnings);
   }
@@ -58,7 +58,7 @@ std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path
                                                      Warnings& warnings) {
   const StandardArithmetic standard;
   auto file = std::make_unique<RandomAccessFile>(path);
-  const FileFormat kind = kind_of(*file, path, options);
+  const FileFormat format = format_of(*file, path, options);
   // The hash is computed during the reading, in a thread of its own if the system gives one, from
   // a file of its own.
   std::future<std::string> hash;
@@ -69,7 +69,7 @@ std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path
                         return sha256(RandomAccessFile(path));
                       });
   }
-  std::unique_ptr<TriangleStream> stream = open(std::move(file), kind, options, warnings);
+  std::unique_ptr<TriangleStream> stream = open(std::move(file), format, options, warnings);
   stream->source.path = path.string();
   if (hash.valid()) stream->source.sha256 = hash.get();
   return stream;
@@ -78,7 +78,7 @@ std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path
 bool is_streamable(const std::filesystem::path& path, const ReadOptions& options) {
   try {
     const RandomAccessFile file(path);
-    if (kind_of(file, path, options) == FileFormat::stl)
+    if (format_of(file, path, options) == FileFormat::stl)
       return is_binary_stl(beginning_of(file, 512), file.size());
     const std::vector<std::byte> head = beginning_of(file, longest_ply_header);
     Warnings warnings;

@@ -31,9 +31,9 @@ using namespace text;
 
 namespace {
 
-Mesh read_mesh(FileFormat kind, const InputFile& input, const std::string& file,
+Mesh read_mesh(FileFormat format, const InputFile& input, const std::string& file,
                const ReadOptions& options, Warnings& warnings) {
-  switch (kind) {
+  switch (format) {
     case FileFormat::obj:
       return read_obj(input.text(), file, options, warnings);
     case FileFormat::ply:
@@ -59,10 +59,10 @@ class SceneReader {
 
   void add_input(const InputFile& input, const std::filesystem::path& path) {
     const std::string file = path.string();
-    const FileFormat kind = options_.format ? *options_.format : recognise(input, path);
-    if (kind != FileFormat::scene_json) {
+    const FileFormat format = options_.format ? *options_.format : recognise(input, path);
+    if (format != FileFormat::scene_json) {
       const std::size_t first = scene_.objects.size();
-      add_mesh_file(kind, input, path);
+      add_mesh_file(format, input, path);
       check_objects(first, file);
       return;
     }
@@ -91,7 +91,7 @@ class SceneReader {
     if (input.bytes().empty())
       throw InputError((path == "-" ? "standard input" : path.string()) +
                        ": is empty, expected a mesh or a scene file");
-    if (const auto kind = recognise_format(input.bytes(), path)) return *kind;
+    if (const auto format = recognise_format(input.bytes(), path)) return *format;
     throw InputError(path.string() +
                      ": its format is not recognised, expected OBJ, PLY, STL, OFF, glTF, a scene "
                      "file (JSON), or the suffix of a format that assimp reads (.fbx, .dae, .3ds, "
@@ -105,7 +105,7 @@ class SceneReader {
   }
 
   /// The hash is computed during the reading, in a thread of its own if the system gives one.
-  void add_mesh_file(FileFormat kind, const InputFile& input, const std::filesystem::path& path) {
+  void add_mesh_file(FileFormat format, const InputFile& input, const std::filesystem::path& path) {
     std::future<std::string> hash;
     if (options_.hash) {
       hash = std::async(std::launch::async | std::launch::deferred,
@@ -117,17 +117,18 @@ class SceneReader {
     const std::string file = path.string();
     const std::size_t source = scene_.sources.size(), first = scene_.objects.size();
     scene_.sources.push_back({file, ""});
-    if (kind == FileFormat::gltf) {
+    if (format == FileFormat::gltf) {
       GltfAsset asset = read_gltf(input.bytes(), path, options_, warnings_);
-      scene_.sources[source].reader = asset.reader;
-      append(std::move(asset));
-    } else if (kind == FileFormat::foreign) {
+      scene_.sources[source].reader = std::move(asset.reader);
+      append(std::move(asset.meshes), std::move(asset.objects));
+      std::move(asset.buffers.begin(), asset.buffers.end(), std::back_inserter(scene_.sources));
+    } else if (format == FileFormat::foreign) {
       ForeignMeshes foreign = read_by_assimp(input.bytes(), path, options_, warnings_);
-      append({std::move(foreign.meshes), std::move(foreign.objects), {}, {}});
       scene_.sources[source].reader = std::move(foreign.reader);
+      append(std::move(foreign.meshes), std::move(foreign.objects));
     } else {
       if (input.bytes().empty()) throw InputError(file + ": is empty, expected a mesh");
-      Mesh mesh = read_mesh(kind, input, file, options_, warnings_);
+      Mesh mesh = read_mesh(format, input, file, options_, warnings_);
       leave_out_odd_attributes(mesh, file, warnings_);
       if (mesh.is_empty()) warnings_.push_back(file + ": has no faces");
       Object object;
@@ -140,13 +141,13 @@ class SceneReader {
     if (hash.valid()) scene_.sources[source].sha256 = hash.get();
   }
 
-  void append(GltfAsset asset) {
-    for (Object& object : asset.objects) {
+  /// Objects whose numbers of meshes count from the first of these.
+  void append(std::vector<Mesh> meshes, std::vector<Object> objects) {
+    for (Object& object : objects) {
       object.mesh += scene_.meshes.size();
       scene_.objects.push_back(std::move(object));
     }
-    std::move(asset.meshes.begin(), asset.meshes.end(), std::back_inserter(scene_.meshes));
-    std::move(asset.buffers.begin(), asset.buffers.end(), std::back_inserter(scene_.sources));
+    std::move(meshes.begin(), meshes.end(), std::back_inserter(scene_.meshes));
   }
 
   /// The objects from `first` on, which come from this file.
@@ -171,11 +172,11 @@ class SceneReader {
       scene_.objects.insert(scene_.objects.end(), found->second.begin(), found->second.end());
     } else {
       const InputFile input(placed.file, boundaries_of(options_), reading_of(options_));
-      const FileFormat kind = recognise(input, placed.file);
-      if (kind == FileFormat::scene_json)
+      const FileFormat format = recognise(input, placed.file);
+      if (format == FileFormat::scene_json)
         throw InputError(file + ": is no mesh, expected a mesh file");
       placements.budget.add_input(input.bytes().size());
-      add_mesh_file(kind, input, placed.file);
+      add_mesh_file(format, input, placed.file);
       input.expect_unchanged();
       placements.known[file].assign(scene_.objects.begin() + static_cast<std::ptrdiff_t>(first),
                                     scene_.objects.end());
