@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "apps/render/render_outputs.h"
+#include "apps/render/depth_format_json.h"
 #include "apps/shell/console.h"
 #include "fathom/area/sampled_coverage.h"
 #include "fathom/image/map_texts.h"

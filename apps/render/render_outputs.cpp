@@ -1,21 +1,8 @@
 #include "apps/render/render_outputs.h"
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-
 #include "apps/options/output_names.h"
 
 namespace fathom::app {
-
-nlohmann::ordered_json json_of(const DepthFormat& format) {
-  using Json = nlohmann::ordered_json;
-  Json json{{"mapping", name_of(format.mapping)},
-            {"storage", name_of(format.storage)},
-            {"near", format.near},
-            {"far", std::isfinite(format.far) ? Json(format.far) : Json(nullptr)}};
-  if (format.mapping == Mapping::log) json["c"] = format.c;
-  return json;
-}
 
 RenderOutputs::RenderOutputs(const RenderArguments& arguments, const std::vector<Camera>& cameras)
     : names_(names_of_outputs("-o", arguments.output, cameras)),

@@ -1,17 +1,12 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "apps/render/render_arguments.h"
 #include "apps/shell/output_file.h"
-#include "fathom/depth_format/depth_format.h"
 
 namespace fathom::app {
-
-/// Description of the depth format for a map's `fathom.depth_format` and for `render --stats`.
-nlohmann::ordered_json json_of(const DepthFormat& format);
 
 /// The outputs of `render`: for each camera a map and, if requested, a picture and a description of
 /// the codes; the cameras; the statistics. All are opened before the work and published together

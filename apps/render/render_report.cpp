@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
-#include "apps/render/render_outputs.h"
+#include "apps/render/depth_format_json.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/rendering/deciders.h"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/options/map_arguments.h"
+#include "apps/render/depth_format_json.h"
 #include "apps/render/render_outputs.h"
 #include "apps/shell/console.h"
 #include "apps/shell/failures.h"
