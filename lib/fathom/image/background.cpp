@@ -8,6 +8,7 @@
 #include "fathom/image/pixel_place.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/text/shortest_decimal.h"
 
 namespace fathom {
 namespace {
@@ -15,9 +16,7 @@ namespace {
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 std::string background_as_text(double value) {
-  if (std::isnan(value)) return "nan";
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+  return std::isnan(value) ? "nan" : text::shortest_decimal(value);
 }
 
 /// The values of one channel; `surface` is what it shows.

@@ -11,6 +11,7 @@
 #include "fathom/image/files/raw_pixels.h"
 #include "fathom/image/pixel_place.h"
 #include "fathom/image/surface.h"
+#include "fathom/text/shortest_decimal.h"
 
 /// The dense maps of COLMAP ([SZPF16], src/colmap/mvs/mat.h and .cc): width, height and channels in
 /// decimal, each ended by "&", then binary32, little endian: one channel after the other, row by
@@ -23,15 +24,11 @@
 ///               0 0 where there is none (normal_map.cc)
 namespace fathom::image {
 using namespace files;
+using namespace text;
 
 namespace {
 
 constexpr std::array<const char*, 3> normal_channels{"Nc.X", "Nc.Y", "Nc.Z"};
-
-std::string as_decimal(float value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
 
 struct ColmapHeader {
   std::uint32_t width = 0, height = 0, channels = 0;
@@ -69,27 +66,27 @@ ColmapHeader colmap_header(ByteView bytes, const std::string& name) {
 float depth_from(float stored, std::size_t k, std::uint32_t width, const std::string& name) {
   if (stored == 0) return std::numeric_limits<float>::infinity();
   if (stored > 0 && std::isfinite(stored)) return stored;
-  throw InputError(name + ": " + place_of_pixel(k, width) + "depth " + as_decimal(stored) +
+  throw InputError(name + ": " + place_of_pixel(k, width) + "depth " + shortest_decimal(stored) +
                    " in a COLMAP map: expected a finite number above 0, or 0 for none");
 }
 
 float normal_from(float stored, std::size_t k, std::uint32_t width, const std::string& name) {
   if (std::isfinite(stored)) return stored;
-  throw InputError(name + ": " + place_of_pixel(k, width) + "a normal with " + as_decimal(stored) +
-                   " in a COLMAP map: expected finite numbers");
+  throw InputError(name + ": " + place_of_pixel(k, width) + "a normal with " +
+                   shortest_decimal(stored) + " in a COLMAP map: expected finite numbers");
 }
 
 float depth_to(float depth, std::size_t k, std::uint32_t width, const std::string& name) {
   if (depth > 0 && std::isfinite(depth)) return depth;
   throw OutputError(
-      name + ": " + place_of_pixel(k, width) + "depth " + as_decimal(depth) +
+      name + ": " + place_of_pixel(k, width) + "depth " + shortest_decimal(depth) +
       " cannot be in a COLMAP map, which holds finite numbers above 0; .exr holds all");
 }
 
 float normal_to(float component, std::size_t k, std::uint32_t width, const std::string& name) {
   if (std::isfinite(component)) return component;
   throw OutputError(name + ": " + place_of_pixel(k, width) + "a normal with " +
-                    as_decimal(component) +
+                    shortest_decimal(component) +
                     " cannot be in a COLMAP map, which holds finite numbers; .exr holds all");
 }
 

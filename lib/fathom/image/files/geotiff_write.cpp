@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -16,6 +15,7 @@
 #include "fathom/image/files/world_from_image.h"
 #include "fathom/image/pixel_place.h"
 #include "fathom/image/surface.h"
+#include "fathom/text/shortest_decimal.h"
 #include "fathom/text/version.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
@@ -66,9 +66,7 @@ float value_of_none(const DepthMap& map) {
 }
 
 std::string none_as_text(float value) {
-  if (std::isnan(value)) return "nan";
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+  return std::isnan(value) ? "nan" : shortest_decimal(value);
 }
 
 /// A channel as a band: `none` where it shows no surface.

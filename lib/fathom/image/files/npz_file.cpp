@@ -11,6 +11,7 @@
 #include "fathom/text/json_text.h"
 #include "fathom/text/json_value.h"
 #include "fathom/text/printable.h"
+#include "fathom/text/shortest_decimal.h"
 #include "fathom/text/version.h"
 
 /// NPZ ([Ker07]): a ZIP archive with a file NAME.npy for each channel or, where channels are the
@@ -26,15 +27,10 @@ constexpr const char* texts_array = "fathom";
 constexpr const char* scale_text = "fathom:scale";
 constexpr std::string_view suffix = ".npy";
 
-std::string scale_as_text(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
-
 std::string texts_as_json(const DepthMap& map) {
   std::map<std::string, std::string> texts = texts_of(map);
   for (auto& [key, text] : name_tables(map)) texts[key] = text;
-  if (map.png_scale) texts[scale_text] = scale_as_text(*map.png_scale);
+  if (map.png_scale) texts[scale_text] = shortest_decimal(*map.png_scale);
   texts["software"] = software_in_outputs();
   std::vector<std::string> members;
   members.reserve(texts.size());

@@ -6,6 +6,7 @@
 #include "fathom/files/byte_order.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/raw_pixels.h"
+#include "fathom/text/shortest_decimal.h"
 
 /// PFM ([Netpbm]): "Pf" or "PF", width, height and scale, one white space after each, then binary32
 /// rows from the bottom up. A negative scale means little endian. The scale's magnitude is a unit
@@ -13,6 +14,7 @@
 /// it is kept as the text `pfm.scale`.
 namespace fathom::image {
 using namespace files;
+using namespace text;
 
 namespace {
 
@@ -100,10 +102,7 @@ DepthMap decode_pfm(ByteView bytes, const std::string& name) {
       }
     map.channels.push_back({channels == 1 ? "Z" : std::string(1, "RGB"[c]), std::move(values)});
   }
-  if (std::abs(scale) != 1) {
-    char text[32];
-    map.texts["pfm.scale"] = {text, std::to_chars(text, text + sizeof text, std::abs(scale)).ptr};
-  }
+  if (std::abs(scale) != 1) map.texts["pfm.scale"] = shortest_decimal(std::abs(scale));
   return map;
 }
 

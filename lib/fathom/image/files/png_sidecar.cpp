@@ -1,11 +1,10 @@
 #include "fathom/image/png_sidecar.h"
 
-#include <charconv>
-
 #include "fathom/failures/errors.h"
 #include "fathom/image/missing_channel.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/json_text.h"
+#include "fathom/text/shortest_decimal.h"
 
 namespace fathom {
 using namespace text;
@@ -23,11 +22,6 @@ const ImageChannel& channel_in_png(const DepthMap& map, const std::string& name)
   throw ambiguous_channel(names_of_channels(map), "the map has", "describe");
 }
 
-std::string scale_as_json(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
 }  // namespace
 
 std::string png_sidecar(const DepthMap& map, const std::string& name) {
@@ -38,7 +32,7 @@ std::string png_sidecar(const DepthMap& map, const std::string& name) {
   std::string json = "{" + json_member("channel", json_string(channel.name));
   if (!identifiers && map.png_scale) {
     json += ", " + json_member("unit", json_string("codes per scene unit")) + ", " +
-            json_member("scale", scale_as_json(*map.png_scale));
+            json_member("scale", shortest_decimal(*map.png_scale));
   }
   json += ", " + json_member("none", identifiers ? "65535" : "0");
   if (!identifiers)

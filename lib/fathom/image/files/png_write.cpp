@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <csetjmp>
 #include <new>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "fathom/image/mask_picture.h"
 #include "fathom/image/rgb_image.h"
 #include "fathom/image/surface.h"
+#include "fathom/text/shortest_decimal.h"
 #include "fathom/text/version.h"
 
 namespace fathom::image {
@@ -122,18 +122,13 @@ std::vector<std::uint16_t> identifiers_as_codes(const Samples<std::uint32_t>& id
   return codes;
 }
 
-std::string to_shortest(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
 void add_texts(Picture& picture, const DepthMap& map, const ImageChannel& channel,
                const std::string& name) {
   picture.texts = {{"Software", software_in_outputs()}, {"fathom:channel", channel.name}};
   if (std::holds_alternative<Samples<std::uint32_t>>(channel.values))
     picture.texts.emplace_back("fathom:type", "identifier");
   else if (map.png_scale)
-    picture.texts.emplace_back("fathom:scale", to_shortest(*map.png_scale));
+    picture.texts.emplace_back("fathom:scale", shortest_decimal(*map.png_scale));
   if (map.codes_beyond && std::holds_alternative<Samples<std::uint16_t>>(channel.values))
     picture.texts.emplace_back("fathom:beyond", std::to_string(*map.codes_beyond));
   for (const auto& [key, text] : name_tables(map)) picture.texts.emplace_back(key, text);
