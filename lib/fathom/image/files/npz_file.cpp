@@ -1,9 +1,8 @@
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <set>
 
 #include "fathom/failures/errors.h"
+#include "fathom/image/files/code_texts.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/name_tables.h"
 #include "fathom/image/files/npy_array.h"
@@ -24,7 +23,6 @@ using namespace text;
 namespace {
 
 constexpr const char* texts_array = "fathom";
-constexpr const char* scale_text = "fathom:scale";
 constexpr std::string_view suffix = ".npy";
 
 std::string texts_as_json(const DepthMap& map) {
@@ -45,14 +43,7 @@ void take_texts(const std::string& json, DepthMap& map, const std::string& name)
     if (is_name_table(key)) {
       take_name_table(key, value.string(), map);
     } else if (key == scale_text) {
-      const std::string& text = value.string();
-      double scale = 0;
-      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), scale);
-      if (error != std::errc() || end != text.data() + text.size() || !(scale > 0) ||
-          !std::isfinite(scale))
-        throw InputError(name + ": its fathom:scale is '" + text.substr(0, 40) +
-                         "': expected a positive number");
-      map.png_scale = scale;
+      map.png_scale = read_scale(value.string(), name);
     } else {
       map.texts[key] = value.string();
     }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <csetjmp>
 #include <cstdlib>
 #include <cstring>
@@ -10,6 +9,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/byte_order.h"
 #include "fathom/image/channel_table.h"
+#include "fathom/image/files/code_texts.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/map_memory.h"
 #include "fathom/image/files/name_tables.h"
@@ -114,8 +114,8 @@ void take_name_tables(DepthMap& map) {
 
 /// Codes, or identifiers if the file says so (png_write.cpp).
 ImageChannel channel_from(Samples<std::uint16_t> codes, DepthMap& map) {
-  const std::string channel = take_text(map, "fathom:channel").value_or("Z");
-  if (take_text(map, "fathom:type") != "identifier") return {channel, std::move(codes)};
+  const std::string channel = take_text(map, channel_text).value_or("Z");
+  if (take_text(map, type_text) != "identifier") return {channel, std::move(codes)};
   Samples<std::uint32_t> ids(codes.size());
   const bool segments = shows_segments(channel);
   for (std::size_t k = 0; k < codes.size(); ++k) {
@@ -163,16 +163,8 @@ DepthMap decode_png(ByteView bytes, const std::string& name, const MapMemory& me
   for (std::size_t k = 0; k < pixels; ++k)
     codes[k] = load<std::uint16_t>(data + 2 * k, std::endian::big);
   read_texts(reading, map);
-  if (const auto text = take_text(map, "fathom:scale")) {
-    double scale = 0;
-    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), scale);
-    if (error != std::errc() || end != text->data() + text->size() || !std::isfinite(scale) ||
-        scale <= 0)
-      throw InputError(name + ": its fathom:scale is '" + text->substr(0, 40) +
-                       "': expected a positive number");
-    map.png_scale = scale;
-  }
-  if (const auto text = take_text(map, "fathom:beyond")) {
+  if (const auto text = take_text(map, scale_text)) map.png_scale = read_scale(*text, name);
+  if (const auto text = take_text(map, beyond_text)) {
     std::uint64_t beyond = 0;
     const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), beyond);
     if (error != std::errc() || end != text->data() + text->size() || beyond > pixels)

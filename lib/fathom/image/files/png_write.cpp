@@ -6,6 +6,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/byte_order.h"
 #include "fathom/image/channel_table.h"
+#include "fathom/image/files/code_texts.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/name_tables.h"
 #include "fathom/image/files/png_stream.h"
@@ -124,13 +125,13 @@ std::vector<std::uint16_t> identifiers_as_codes(const Samples<std::uint32_t>& id
 
 void add_texts(Picture& picture, const DepthMap& map, const ImageChannel& channel,
                const std::string& name) {
-  picture.texts = {{"Software", software_in_outputs()}, {"fathom:channel", channel.name}};
+  picture.texts = {{"Software", software_in_outputs()}, {channel_text, channel.name}};
   if (std::holds_alternative<Samples<std::uint32_t>>(channel.values))
-    picture.texts.emplace_back("fathom:type", "identifier");
+    picture.texts.emplace_back(type_text, "identifier");
   else if (map.png_scale)
-    picture.texts.emplace_back("fathom:scale", shortest_decimal(*map.png_scale));
+    picture.texts.emplace_back(scale_text, shortest_decimal(*map.png_scale));
   if (map.codes_beyond && std::holds_alternative<Samples<std::uint16_t>>(channel.values))
-    picture.texts.emplace_back("fathom:beyond", std::to_string(*map.codes_beyond));
+    picture.texts.emplace_back(beyond_text, std::to_string(*map.codes_beyond));
   for (const auto& [key, text] : name_tables(map)) picture.texts.emplace_back(key, text);
   for (const auto& [key, text] : texts_of(map)) {
     if (key == "Software" || key == "software" || key.starts_with("fathom:")) continue;
