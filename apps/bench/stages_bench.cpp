@@ -123,7 +123,7 @@ void resolve(benchmark::State& state, const std::string& scene) {
   FastOutput output(map, writer, stages.rays);
   for (auto _ : state) {
     for (const auto& tile : tiles) {
-      benchmark::DoNotOptimize(output.write(*tile, camera.width, context));
+      benchmark::DoNotOptimize(output.write(*tile, {camera.width}, context));
     }
   }
   state.SetItemsProcessed(state.iterations() * std::int64_t{camera.width} * camera.height);
