@@ -70,7 +70,7 @@ Table beside_cgal_table(const std::vector<BesideCgal>& rows) {
 Plot beside_cgal_plot(const std::vector<BesideCgal>& rows) {
   using Row = BesideCgal;
   Plot plot{.name = "cgal",
-            .title = "Weiler-Atherton beside CGAL",
+            .title = "Weiler-Atherton and CGAL",
             .x_label = "corners",
             .y_label = "milliseconds",
             .logarithmic_x = true,
