@@ -106,7 +106,7 @@ void draw_tiles(benchmark::State& state, const std::string& scene) {
 }
 
 /// A tile for each part of the image, drawn before.
-void resolve(benchmark::State& state, const std::string& scene) {
+void resolve_tiles(benchmark::State& state, const std::string& scene) {
   Stages stages(scene);
   const Camera& camera = stages.bench.camera;
   const ImageObjects objects = stages.transform();
@@ -162,7 +162,7 @@ int main(int argc, char** argv) {
     add("sort", sort_into_bins);
     add("set-up", set_up);
     add("draw", draw_tiles);
-    add("resolve", resolve);
+    add("resolve", resolve_tiles);
   }
   benchmark::RegisterBenchmark("memory/read", read_memory)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("memory/write", write_memory)->Unit(benchmark::kMillisecond);
