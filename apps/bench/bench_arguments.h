@@ -3,9 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/bench/processors.h"
+#include "apps/bench/machine.h"
 #include "apps/bench/renderers.h"
 #include "apps/shell/command.h"
+#include "apps/shell/console.h"
 #include "apps/shell/values.h"
 #include "fathom/image/channel_table.h"
 #include "validation/scenes/scenes.h"
@@ -36,5 +37,10 @@ struct BenchArguments {
 
   void add_to(Command& command);
 };
+
+/// `fathom bench --parts`: what each idea brings.
+/// Fails    InputError where a scene cannot be read; bench::WrongPicture where an idea changes the
+///          picture.
+int run_parts(const BenchArguments& arguments, const Console& console);
 
 }  // namespace fathom::app

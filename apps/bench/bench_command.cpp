@@ -8,7 +8,6 @@
 
 #include "apps/bench/bench_arguments.h"
 #include "apps/bench/machine.h"
-#include "apps/bench/parts_command.h"
 #include "apps/bench/renderers.h"
 #include "apps/bench/report.h"
 #include "apps/shell/console.h"

@@ -1,12 +1,16 @@
 #include "apps/bench/machine.h"
 
 #include <fmt/core.h>
+#include <sched.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
-#include "apps/bench/processors.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::bench {
@@ -34,6 +38,25 @@ std::string system_name() {
   return distribution + ", " + name.sysname + " " + name.release + " " + name.machine;
 }
 
+std::vector<int> allowed_processors() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  std::vector<int> processors;
+  if (::sched_getaffinity(0, sizeof set, &set) != 0) return {0};
+  for (int i = 0; i < CPU_SETSIZE; ++i) {
+    if (CPU_ISSET(i, &set)) processors.push_back(i);
+  }
+  return processors;
+}
+
+/// Whether it is the first of the hardware threads of its core.
+bool leads_its_core(int processor) {
+  std::ifstream siblings("/sys/devices/system/cpu/cpu" + std::to_string(processor) +
+                         "/topology/thread_siblings_list");
+  int first = processor;
+  return !(siblings >> first) || first == processor;
+}
+
 }  // namespace
 
 Machine this_machine() {
@@ -56,6 +79,28 @@ std::string machine_line(const Machine& machine) {
                      text::counted(machine.processors, "processor"),
                      static_cast<double>(machine.memory_bytes) / (1 << 30), machine.system,
                      machine.compiler);
+}
+
+nlohmann::ordered_json to_json(const Machine& machine) {
+  return {{"processor", machine.processor},
+          {"processors", machine.processors},
+          {"memory_bytes", machine.memory_bytes},
+          {"system", machine.system},
+          {"compiler", machine.compiler}};
+}
+
+int processor_count() {
+  return static_cast<int>(allowed_processors().size());
+}
+
+void keep_to_processors(int count) {
+  std::vector<int> processors = allowed_processors();
+  std::stable_partition(processors.begin(), processors.end(), leads_its_core);
+  processors.resize(std::min(processors.size(), static_cast<std::size_t>(std::max(1, count))));
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  for (const int processor : processors) CPU_SET(processor, &set);
+  ::sched_setaffinity(0, sizeof set, &set);
 }
 
 }  // namespace fathom::bench

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "apps/bench/masked_occlusion_culling/masked_buffer.h"
-#include "apps/bench/peers.h"
 #include "apps/bench/renderers.h"
 #include "apps/bench/resident_memory.h"
 

@@ -1,11 +1,10 @@
-#include "apps/bench/parts_command.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <optional>
 #include <utility>
 
+#include "apps/bench/bench_arguments.h"
 #include "apps/bench/machine.h"
 #include "apps/bench/parts/ideas.h"
 #include "apps/bench/parts/parts_report.h"

@@ -1,4 +1,3 @@
-#include "apps/bench/peers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,3 @@
-#include "apps/bench/peers.h"
 #include "apps/bench/renderers.h"
 #include "fathom/failures/errors.h"
 

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/bench/measurement_fields.h"
-#include "apps/bench/peers.h"
-#include "apps/bench/processors.h"
+#include "apps/bench/machine.h"
+#include "apps/bench/measurement.h"
 #include "apps/bench/resident_memory.h"
 #include "fathom/failures/errors.h"
 #include "fathom/render.h"

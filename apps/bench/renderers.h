@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "apps/bench/measurement.h"
+#include "validation/scenes/scenes.h"
 
 namespace fathom::bench {
 
@@ -44,5 +46,15 @@ bool peers_are_built();
 
 /// Whether Masked Occlusion Culling is.
 bool masked_occlusion_culling_is_built();
+
+// VTK, Embree and Masked Occlusion Culling on a bench scene. `idle_bytes` is the memory that the
+// process used before it made the scene.
+
+std::vector<Measurement> measure_vtk(BenchScene bench, const Plan& plan, std::uint64_t idle_bytes);
+std::vector<Measurement> measure_embree(BenchScene bench, const Plan& plan, bool robust,
+                                        std::uint64_t idle_bytes);
+/// Nothing if the camera is orthographic.
+std::vector<Measurement> measure_masked_occlusion_culling(BenchScene&& bench, const Plan& plan,
+                                                          std::uint64_t idle_bytes);
 
 }  // namespace fathom::bench

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "apps/bench/machine_json.h"
+#include "apps/bench/machine.h"
 
 namespace fathom::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include "apps/shell/console.h"
 #include "apps/shell/failures.h"
 #include "apps/validate/faults/fault_study.h"
-#include "apps/validate/report/predicted_fights.h"
+#include "apps/validate/report/z_fighting.h"
 #include "apps/validate/validate_input.h"
 #include "apps/validate/validate_modes.h"
 #include "apps/validate/validate_report.h"

@@ -8,12 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/bench/parts/closed_edges.h"
 #include "apps/bench/parts/edge_kernels.h"
+#include "apps/bench/parts/edge_setup.h"
 #include "apps/bench/parts/exact_picture.h"
-#include "apps/bench/parts/plain_loops.h"
-#include "apps/bench/parts/snapped_scene.h"
-#include "apps/bench/parts/tile_drawing.h"
 #include "fathom/pipeline/render_pipeline.h"
 
 namespace fathom::bench {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "apps/validate/report/comparison_html.h"
-#include "apps/validate/report/read_report.h"
+#include "apps/validate/report/report_formats.h"
+#include "apps/validate/report/reported_result.h"
 #include "fathom/failures/errors.h"
 #include "tests/apps/test_folder.h"
 

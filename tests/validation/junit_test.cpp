@@ -1,5 +1,3 @@
-#include "apps/validate/report/junit.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,9 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "apps/validate/report/cause.h"
-#include "apps/validate/report/ctest_lines.h"
-#include "apps/validate/report/report_json.h"
+#include "apps/validate/report/report_formats.h"
+#include "apps/validate/report/validation_case.h"
 #include "apps/validate/report/xml.h"
 #include "apps/validate/report/z_fighting.h"
 #include "tests/apps/run_program.h"

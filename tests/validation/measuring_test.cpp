@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "apps/bench/machine.h"
 #include "apps/bench/measurement.h"
-#include "apps/bench/processors.h"
 #include "apps/bench/renderers.h"
 #include "apps/bench/resident_memory.h"
 #include "fathom/failures/errors.h"

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/bench/measurement_fields.h"
+#include "apps/bench/measurement.h"
 #include "validation/child/read_fields.h"
 #include "validation/child/write_fields.h"
 

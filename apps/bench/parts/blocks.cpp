@@ -6,7 +6,6 @@
 #include "apps/bench/parts/edge_kernels.h"
 #include "apps/bench/parts/engine_variants.h"
 #include "apps/bench/parts/ideas.h"
-#include "apps/bench/parts/plain_loops.h"
 
 namespace fathom::bench {
 namespace {

@@ -1,16 +1,45 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "apps/bench/parts/edge_setup.h"
-#include "apps/bench/parts/padded_image.h"
+#include "apps/bench/parts/exact_picture.h"
 #include "apps/bench/parts/pixel_block.h"
 
 /// The textbook's rasterizer, three edge functions over a bounding box, with several pixels of a
 /// row at once. All of it is compiled for each kind of vector instructions, and runs with the best
 /// that the processor has; a number of lanes that is more than one vector takes several.
 namespace fathom::bench {
+
+/// A number for each pixel, with room at the right for the rest of a vector.
+template <class Number>
+struct PaddedImage {
+  PaddedImage(std::uint32_t its_width, std::uint32_t its_height, Number value)
+      : width(its_width),
+        height(its_height),
+        stride(its_width + most_lanes),
+        numbers(stride * its_height, value) {}
+  static constexpr std::size_t most_lanes = 16;
+
+  [[nodiscard]] Number* row(std::size_t y) { return numbers.data() + y * stride; }
+  /// Without what lies at the right.
+  [[nodiscard]] Picture picture() const {
+    Picture result;
+    result.reserve(std::size_t{width} * height);
+    for (std::size_t y = 0; y < height; ++y) {
+      const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(y * stride);
+      result.insert(result.end(), begin, begin + width);
+    }
+    return result;
+  }
+
+  std::uint32_t width, height;
+  std::size_t stride;
+  std::vector<Number> numbers;
+};
 
 /// Lanes of `Number` in a vector of this processor: 16 of binary32 and 8 of binary64 with AVX-512.
 template <class Number>
@@ -43,5 +72,32 @@ void draw_nearest(std::span<const EdgeSetup> setups, std::span<const std::uint32
 
 /// What draw_nearest() does for all triangles of a scene in the whole image.
 void draw_nearest(std::span<const EdgeSetup> setups, DepthImage& image);
+
+// The textbook's rasterizer: three edge functions at one pixel after the other. Compiled without
+// vector instructions, so that what vectors bring can be measured against it.
+
+/// Adds each triangle's weight to the pixels that it covers, testing all pixels of its box, with
+/// edge functions over `Number`: float (added to layers of float), double, or integers of 64 bits.
+/// Exact    over double and integers; over float where fits_binary32(), and only there.
+template <class Number, class Layer>
+void add_boxes_one_by_one(std::span<const EdgeSetup> setups, PaddedImage<Layer>& layers);
+
+/// The same over binary64, but first with blocks of 8 × 8 pixels: those outside of an edge are left
+/// out, in those inside all three no pixel is tested.
+BlockCounts add_blocks_one_by_one(std::span<const EdgeSetup> setups, PaddedImage<double>& layers);
+
+struct TileCounts {
+  std::uint64_t tiles = 0;
+  /// Pairs of a triangle and a tile that its box meets.
+  std::uint64_t pairs = 0;
+  /// Tiles of the thread that drew most.
+  std::uint64_t most_of_a_thread = 0;
+};
+
+/// The nearest triangles of an image, tile by tile: triangles are sorted into square tiles of
+/// `side` pixels by their boxes, and each thread draws tiles into a small z-buffer of its own,
+/// which it copies to the image.
+TileCounts draw_in_tiles(std::span<const EdgeSetup> setups, std::uint32_t side, int threads,
+                         DepthImage& image);
 
 }  // namespace fathom::bench

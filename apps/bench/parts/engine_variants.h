@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/bench/parts/idea.h"
+#include "apps/bench/parts/ideas.h"
 #include "fathom/pipeline/options.h"
 #include "fathom/rendering/options.h"
 #include "fathom/rendering/rendered.h"

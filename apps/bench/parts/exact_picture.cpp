@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "apps/study/course/demo.h"
+
 namespace fathom::bench {
 namespace {
 
@@ -96,6 +98,17 @@ std::uint64_t covered_pixels(const SnappedScene& scene, EdgeRule rule) {
   std::uint64_t count = 0;
   for_each_covered(scene, rule, [&](std::uint32_t, std::uint32_t, std::uint32_t) { ++count; });
   return count;
+}
+
+std::vector<RuleCounts> closed_edges_of_demo() {
+  const studies::Demo demo = studies::demo();
+  return {{"demo, near triangle", demo.near_fragments, demo.near_closed},
+          {"demo, far triangle", demo.far_fragments, demo.far_closed}};
+}
+
+RuleCounts closed_edges(const std::string& name, const SnappedScene& scene) {
+  return {name, covered_pixels(scene, EdgeRule::half_open),
+          covered_pixels(scene, EdgeRule::closed)};
 }
 
 }  // namespace fathom::bench

@@ -1,15 +1,81 @@
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/bench/parts/edge_setup.h"
-#include "apps/bench/parts/idea.h"
+#include "apps/bench/parts/exact_picture.h"
 
-/// The ideas, one file each. What they draw is kept by their variants; the scene has to outlive
-/// them.
 namespace fathom::bench {
+
+/// Something counted while drawing, which says why a variant takes its time.
+struct Count {
+  std::string name;
+  double value = 0;
+};
+using Counts = std::vector<Count>;
+
+/// One way of drawing a scene.
+struct Variant {
+  std::string name;
+  /// The variant that its time is compared with, by its place in the idea: its own for a plain one.
+  std::size_t plain = 0;
+  /// Not timed; comes before draw().
+  std::function<void()> prepare = [] {};
+  std::function<void()> draw;
+  /// What was drawn last, and what was counted; and what has to be drawn.
+  std::function<Picture()> picture;
+  std::function<Counts()> counts = [] { return Counts(); };
+  std::shared_ptr<const Picture> expected;
+  /// Whether pixels that differ are counted instead of refused: of arithmetic that is not exact.
+  bool may_differ = false;
+};
+
+/// One idea that makes drawing faster, switched on and off.
+struct Idea {
+  /// "lanes of binary32"
+  std::string name;
+  std::vector<Variant> variants;
+  /// What a reader of the table has to know; a sentence or none.
+  std::string note;
+};
+
+struct VariantTimes {
+  std::string name, plain;
+  /// In increasing order; not empty.
+  std::vector<double> milliseconds;
+  /// How many times as fast as the plain variant, by the least time of each: others that use the
+  /// machine can only add to a time, and more to a long one.
+  double speed_up = 1;
+  Counts counts;
+
+  [[nodiscard]] double median_ms() const;
+};
+
+struct IdeaTimes {
+  std::string name, note;
+  std::vector<VariantTimes> variants;
+};
+
+/// A variant drew something else than it has to: its time would mean nothing.
+class WrongPicture : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
+
+/// Draws with every variant once, untimed, and compares the pictures; then times all of them in
+/// turn, `repeat` times, so that what else the machine does falls on all. A time is the least of
+/// the draws of 30 milliseconds, or that of a single one that takes longer. Starts no round after
+/// 20 seconds.
+/// Fails    WrongPicture: the variant, and how many pixels differ.
+IdeaTimes time_idea(const Idea& idea, int repeat);
+
+// The ideas, one file each. What they draw is kept by their variants; the scene has to outlive
+// them.
 
 /// A scene to draw, as it is and as it reaches scan conversion.
 struct PartsScene {

@@ -7,7 +7,6 @@
 #include "apps/bench/parts/edge_kernels.h"
 #include "apps/bench/parts/engine_variants.h"
 #include "apps/bench/parts/ideas.h"
-#include "apps/bench/parts/plain_loops.h"
 #include "fathom/fast/render_fast.h"
 
 namespace fathom::bench {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/bench/machine_json.h"
+#include "apps/bench/machine.h"
 
 namespace fathom::bench {
 namespace {

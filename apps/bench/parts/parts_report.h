@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "apps/bench/machine.h"
-#include "apps/bench/parts/closed_edges.h"
-#include "apps/bench/parts/idea.h"
+#include "apps/bench/parts/exact_picture.h"
+#include "apps/bench/parts/ideas.h"
 
 namespace fathom::bench {
 

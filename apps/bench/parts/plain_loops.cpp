@@ -1,4 +1,4 @@
-#include "apps/bench/parts/plain_loops.h"
+#include "apps/bench/parts/edge_kernels.h"
 
 namespace fathom::bench {
 namespace {

@@ -1,5 +1,3 @@
-#include "apps/validate/report/pictures.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "apps/validate/report/report_formats.h"
 #include "apps/validate/report/reported_result.h"
 #include "fathom/image/pictures/legend.h"
 

@@ -1,10 +1,9 @@
-#include "apps/validate/report/report_json.h"
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/validate/report/cause.h"
+#include "apps/validate/report/report_formats.h"
 #include "apps/validate/report/reported_result.h"
+#include "apps/validate/report/validation_case.h"
 #include "fathom/attribution/cause.h"
 #include "fathom/text/version.h"
 

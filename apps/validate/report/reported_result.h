@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -50,5 +51,10 @@ inline std::string title_of(const ValidationCase& c) {
 
 /// The results of this run.
 Report reported(const std::vector<ValidationCase>& cases);
+
+/// The report.json of an earlier run.
+/// Fails    InputError where the file is none, is cut off, or has another layout: one line, with
+///          what to do about it.
+Report read_report(const std::filesystem::path& file);
 
 }  // namespace fathom::validation

@@ -5,8 +5,10 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "fathom/attribution/attribution.h"
+#include "fathom/attribution/cause.h"
 #include "fathom/attribution/judgement.h"
 
 namespace fathom::validation {
@@ -28,7 +30,7 @@ struct ValidationCase {
   std::shared_ptr<const attribution::Truth> truth;
   attribution::OtherMap other;
   attribution::Attribution attribution;
-  /// predicted_fights.h.
+  /// See predicted_fights() in z_fighting.h.
   std::optional<std::uint64_t> predicted_fights;
 
   /// Whether it is known which triangle each pixel shows: where it is not, z-fighting shows only
@@ -48,5 +50,18 @@ inline void set_judgement(ValidationCase& made, attribution::Judgement judgement
   made.other = std::move(judgement.other);
   made.attribution = std::move(judgement.attribution);
 }
+
+/// Why a result is not good, in one line: why there is no map, else the first finding, else how
+/// many pixels are unexplained and the one to look at first. Empty where the result is good.
+std::string cause_of(const ValidationCase& validated);
+
+/// What is to be said first of a result: as attribution::verdict_text(), or why there is no map.
+std::string verdict_of(const ValidationCase& validated);
+
+/// The same of several: how many failed, and the first of them.
+std::string verdict_of(const std::vector<ValidationCase>& cases);
+
+/// As attribution::pixel_text().
+std::string pixel_text(const ValidationCase& validated, std::size_t pixel);
 
 }  // namespace fathom::validation

@@ -1,11 +1,10 @@
-#include "apps/validate/report/junit.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
 
-#include "apps/validate/report/cause.h"
+#include "apps/validate/report/report_formats.h"
+#include "apps/validate/report/validation_case.h"
 #include "apps/validate/report/xml.h"
 #include "apps/validate/report/z_fighting.h"
 #include "fathom/attribution/cause.h"
@@ -126,6 +125,17 @@ Suite& suite_of(std::vector<Suite>& suites, const std::string& scene) {
   return suites.emplace_back(suite_called("testsuite", scene));
 }
 
+std::string number(const std::string& title, const std::string& value) {
+  return to_xml({"CTestMeasurement", {{"type", "numeric/double"}, {"name", title}}, {}, value});
+}
+
+std::string picture(const std::string& title, const std::filesystem::path& file) {
+  return to_xml({"CTestMeasurementFile",
+                 {{"type", "image/png"}, {"name", title}},
+                 {},
+                 std::filesystem::absolute(file)});
+}
+
 }  // namespace
 
 std::string to_junit(const std::vector<ValidationCase>& cases, const Comparison* comparison) {
@@ -143,6 +153,22 @@ std::string to_junit(const std::vector<ValidationCase>& cases, const Comparison*
   }
   for (const Suite& suite : suites) all.element.elements.push_back(suite.finished());
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + to_xml(all.finished());
+}
+
+std::string to_ctest_lines(const ValidationCase& c, const std::string& cause,
+                           const PictureFiles& pictures) {
+  const attribution::Attribution& a = c.attribution;
+  std::string text;
+  if (!cause.empty()) text += to_xml({"CTestDetails", {}, {}, cause});
+  for (std::size_t k = 0; k < attribution::pixel_class_count; ++k) {
+    text += number(attribution::name_of(static_cast<attribution::PixelClass>(k)) + " pixels",
+                   std::to_string(a.counts[k]));
+  }
+  text += number("median relative bound", fmt::format("{:.6g}", a.sharpness.median_relative_width));
+  text += number("greatest relative error", fmt::format("{:.6g}", a.errors.greatest_relative));
+  text += number("greatest error", fmt::format("{:.6g}", a.errors.greatest));
+  return text + picture("Classes of pixels", pictures.classes) +
+         picture("Differences of depth", pictures.differences);
 }
 
 }  // namespace fathom::validation

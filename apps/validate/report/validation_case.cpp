@@ -1,4 +1,4 @@
-#include "apps/validate/report/cause.h"
+#include "apps/validate/report/validation_case.h"
 
 #include <fmt/format.h>
 

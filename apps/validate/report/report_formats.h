@@ -1,0 +1,62 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/validate/report/comparison.h"
+#include "apps/validate/report/validation_case.h"
+#include "fathom/image/rgb_image.h"
+
+/// The forms in which `fathom validate` writes its results; each is a source of its own.
+namespace fathom::validation {
+
+/// report.json, explained in docs/validation.md: {"fathom": version, "format": report_format,
+/// "verdict": verdict_of(cases), "results": [ … ]}, one result for each case. Ends with a newline.
+std::string to_json(const std::vector<ValidationCase>& cases);
+
+/// report.html: a page that needs no other file. It holds report.json and, compressed, every map:
+/// depths of the truth and of the others, classes, triangle numbers.
+std::string to_html(const std::vector<ValidationCase>& cases);
+
+/// comparison.html: a page that needs no other file, with what changed between two runs, and links
+/// report.html beside it.
+std::string to_html(const Comparison& comparison);
+
+/// A JUnit XML file, as CI services read it: a test suite for each scene, a test case for each
+/// renderer and variant with the pixels of each class as properties, and its time where that was
+/// measured. A `failure` is what is unexplained or found (message: verdict_of()) or, with a
+/// comparison, worse; an `error` is what was not drawn or cannot be compared.
+/// Needs    the comparison, if there is one, to be of the same cases.
+std::string to_junit(const std::vector<ValidationCase>& cases, const Comparison* comparison);
+
+/// Pictures of a result, where they lie.
+struct PictureFiles {
+  std::filesystem::path classes, differences;
+};
+
+/// What CTest reads from the output of a test and passes on to CDash: the cause of its failure, if
+/// there is one, as its details; the pixels of each class, the bound and the greatest error as
+/// measurements; the pictures as files.
+/// Needs    a map.
+/// Source   ctest(1), "Additional Test Measurements".
+std::string to_ctest_lines(const ValidationCase& validated, const std::string& cause,
+                           const PictureFiles& pictures);
+
+// The pictures of report.html as files, with legends. Small maps are enlarged by a whole factor,
+// of very large ones every k-th pixel is shown.
+
+/// What the pictures are called in the folder of a report.
+inline constexpr const char *class_picture_name = "classes.png",
+                            *difference_picture_name = "differences.png";
+
+/// The class of each pixel, in the colours of the page, with how many there are.
+/// Needs    a map.
+/// Fails    OutputError if the font is missing.
+RgbImage class_picture(const ValidationCase& validated);
+
+/// Relative differences of depth, other minus exact: blue is nearer, orange farther. The scale ends
+/// where 2 % of the differences lie beyond it. Needs and fails likewise.
+RgbImage difference_picture(const ValidationCase& validated);
+
+}  // namespace fathom::validation
