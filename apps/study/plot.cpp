@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/study/gnuplot.h"
+#include "apps/study/drawn_files.h"
 
 namespace fathom::studies {
 namespace {

@@ -4,15 +4,22 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "apps/study/page.h"
 #include "apps/study/plot.h"
 #include "apps/study/study.h"
-#include "apps/study/summary.h"
 #include "apps/study/table.h"
 
 namespace fathom::studies {
+
+/// What summary.json holds, in its order: values, and tables as lists of an object for each row.
+/// Keys may have members and lists, as those of columns have.
+using Summary = std::vector<std::pair<std::string, std::variant<Cell, Table>>>;
+
+std::string json_of(const Summary& summary);
 
 /// What a study hands back, as it comes together: the figures of summary.json, tables, plots and
 /// pictures, and the page that shows them.

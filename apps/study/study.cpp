@@ -1,16 +1,6 @@
 #include "apps/study/study.h"
 
-#include "apps/study/antialiasing/antialiasing.h"
-#include "apps/study/blending/blending.h"
-#include "apps/study/clipping/clipping.h"
-#include "apps/study/course/course.h"
-#include "apps/study/depth_resolution/depth_resolution.h"
-#include "apps/study/hidden_surface/hidden_surface.h"
-#include "apps/study/indistinguishable/indistinguishable.h"
-#include "apps/study/lines/lines.h"
-#include "apps/study/mitigation/mitigation.h"
-#include "apps/study/subpixel/subpixel.h"
-#include "apps/study/z_fighting/z_fighting.h"
+#include "apps/study/studies.h"
 #include "fathom/failures/errors.h"
 #include "fathom/failures/unknown_name.h"
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "apps/study/cell.h"
-#include "apps/study/gnuplot.h"
+#include "apps/study/drawn_files.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::studies {

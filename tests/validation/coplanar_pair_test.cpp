@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "apps/study/z_fighting/fights_by_angle.h"
+#include "apps/study/z_fighting/pair_sweeps.h"
 
 namespace fathom::studies {
 namespace {

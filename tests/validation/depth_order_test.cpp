@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "apps/study/sampling.h"
+#include "apps/study/sweeps.h"
 #include "fathom/depth_format/encode.h"
 
 namespace fathom::studies {

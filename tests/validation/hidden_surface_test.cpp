@@ -8,10 +8,8 @@
 #include <optional>
 
 #include "apps/study/course/mesh_texts.h"
-#include "apps/study/hidden_surface/bsp_tree.h"
 #include "apps/study/hidden_surface/comparison.h"
-#include "apps/study/hidden_surface/eye_scene.h"
-#include "apps/study/hidden_surface/warnock.h"
+#include "apps/study/hidden_surface/sight.h"
 #include "apps/study/pipeline_scenes.h"
 #include "apps/study/scene_files.h"
 #include "apps/study/study_scene.h"

@@ -4,12 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/study/antialiasing/coverage_by_samples.h"
-#include "apps/study/mitigation/mitigation.h"
+#include "apps/study/studies.h"
 #include "apps/study/subpixel/snapped_raster.h"
-#include "apps/study/subpixel/subpixel.h"
 #include "apps/study/z_fighting/layers.h"
 #include "apps/study/z_fighting/scene_fights.h"
-#include "apps/study/z_fighting/scene_study.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::studies {

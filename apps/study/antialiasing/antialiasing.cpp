@@ -1,5 +1,3 @@
-#include "apps/study/antialiasing/antialiasing.h"
-
 #include <algorithm>
 
 #include "apps/study/antialiasing/coverage_by_samples.h"
@@ -7,9 +5,10 @@
 #include "apps/study/antialiasing/methods.h"
 #include "apps/study/antialiasing/nyquist.h"
 #include "apps/study/antialiasing/temporal.h"
+#include "apps/study/drawn_files.h"
 #include "apps/study/page_texts.h"
-#include "apps/study/picture.h"
 #include "apps/study/results.h"
+#include "apps/study/studies.h"
 #include "apps/study/study_scene.h"
 #include "fathom/failures/errors.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "apps/study/antialiasing/judged_scenes.h"
+#include "apps/study/drawn_files.h"
 #include "apps/study/effort.h"
-#include "apps/study/picture.h"
 #include "apps/study/pipeline_scenes.h"
 #include "apps/study/scene_files.h"
 #include "fathom/pipeline/render_pipeline.h"

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "apps/study/antialiasing/methods.h"
+#include "apps/study/drawn_files.h"
 #include "apps/study/exact_picture.h"
-#include "apps/study/picture.h"
 #include "apps/study/pipeline_scenes.h"
 #include "fathom/pipeline/render_moving.h"
 

@@ -1,9 +1,8 @@
-#include "apps/study/blending/blending.h"
-
 #include "apps/study/blending/blended.h"
+#include "apps/study/drawn_files.h"
 #include "apps/study/page_texts.h"
-#include "apps/study/picture.h"
 #include "apps/study/results.h"
+#include "apps/study/studies.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::studies {

@@ -1,5 +1,3 @@
-#include "apps/study/course/course.h"
-
 #include <algorithm>
 #include <sstream>
 
@@ -11,9 +9,10 @@
 #include "apps/study/course/gallery.h"
 #include "apps/study/course/quadrangles.h"
 #include "apps/study/course/shared_edges.h"
+#include "apps/study/drawn_files.h"
 #include "apps/study/page_texts.h"
-#include "apps/study/picture.h"
 #include "apps/study/results.h"
+#include "apps/study/studies.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::studies {

@@ -1,12 +1,10 @@
-#include "apps/study/depth_resolution/depth_resolution.h"
-
 #include <map>
 
 #include "apps/study/depth_resolution/format_steps.h"
-#include "apps/study/formats.h"
 #include "apps/study/page_texts.h"
 #include "apps/study/results.h"
-#include "apps/study/sampling.h"
+#include "apps/study/studies.h"
+#include "apps/study/sweeps.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::studies {

@@ -1,5 +1,3 @@
-#include "apps/study/hidden_surface/bsp_tree.h"
-
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -8,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "apps/study/hidden_surface/sight.h"
 #include "fathom/image/depth_map.h"
 
 namespace fathom::studies {

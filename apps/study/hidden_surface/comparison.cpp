@@ -2,8 +2,7 @@
 
 #include <utility>
 
-#include "apps/study/hidden_surface/bsp_tree.h"
-#include "apps/study/hidden_surface/warnock.h"
+#include "apps/study/hidden_surface/sight.h"
 #include "apps/study/pipeline_scenes.h"
 #include "fathom/render.h"
 

@@ -1,9 +1,8 @@
-#include "apps/study/hidden_surface/eye_scene.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "apps/study/hidden_surface/sight.h"
 #include "apps/study/pipeline_scenes.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"

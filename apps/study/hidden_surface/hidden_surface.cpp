@@ -1,12 +1,11 @@
-#include "apps/study/hidden_surface/hidden_surface.h"
-
 #include <fmt/format.h>
 
+#include "apps/study/drawn_files.h"
 #include "apps/study/hidden_surface/comparison.h"
-#include "apps/study/hidden_surface/eye_scene.h"
+#include "apps/study/hidden_surface/sight.h"
 #include "apps/study/page_texts.h"
-#include "apps/study/picture.h"
 #include "apps/study/results.h"
+#include "apps/study/studies.h"
 #include "apps/study/study_scene.h"
 #include "fathom/failures/errors.h"
 

@@ -1,9 +1,8 @@
-#include "apps/study/hidden_surface/warnock.h"
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <optional>
 
+#include "apps/study/hidden_surface/sight.h"
 #include "fathom/geometry/eigen_arrays.h"
 #include "fathom/image/depth_map.h"
 

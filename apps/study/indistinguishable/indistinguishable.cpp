@@ -1,10 +1,9 @@
-#include "apps/study/indistinguishable/indistinguishable.h"
-
 #include <algorithm>
 
 #include "apps/study/indistinguishable/lost_order.h"
 #include "apps/study/page_texts.h"
 #include "apps/study/results.h"
+#include "apps/study/studies.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::studies {

@@ -6,8 +6,7 @@
 #include <iterator>
 #include <mutex>
 
-#include "apps/study/formats.h"
-#include "apps/study/sampling.h"
+#include "apps/study/sweeps.h"
 
 namespace fathom::studies {
 namespace {

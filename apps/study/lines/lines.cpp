@@ -1,11 +1,10 @@
-#include "apps/study/lines/lines.h"
-
 #include <cmath>
 
 #include "apps/study/lines/line_drift.h"
 #include "apps/study/lines/step_costs.h"
 #include "apps/study/page_texts.h"
 #include "apps/study/results.h"
+#include "apps/study/studies.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::studies {

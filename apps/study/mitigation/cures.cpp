@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "apps/study/cell.h"
-#include "apps/study/formats.h"
+#include "apps/study/sweeps.h"
 
 namespace fathom::studies {
 

@@ -1,12 +1,11 @@
-#include "apps/study/mitigation/mitigation.h"
-
 #include <cmath>
 
-#include "apps/study/formats.h"
 #include "apps/study/mitigation/cures.h"
 #include "apps/study/page_texts.h"
 #include "apps/study/results.h"
 #include "apps/study/scene_files.h"
+#include "apps/study/studies.h"
+#include "apps/study/sweeps.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::studies {

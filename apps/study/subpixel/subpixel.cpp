@@ -1,9 +1,8 @@
-#include "apps/study/subpixel/subpixel.h"
-
 #include <cmath>
 
 #include "apps/study/page_texts.h"
 #include "apps/study/results.h"
+#include "apps/study/studies.h"
 #include "apps/study/study_scene.h"
 #include "apps/study/subpixel/snapped_raster.h"
 #include "fathom/failures/errors.h"

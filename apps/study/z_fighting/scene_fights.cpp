@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/study/formats.h"
+#include "apps/study/sweeps.h"
 #include "fathom/camera/camera_files.h"
 
 namespace fathom::studies {

@@ -1,14 +1,10 @@
-#include "apps/study/z_fighting/z_fighting.h"
-
 #include <limits>
 
-#include "apps/study/formats.h"
 #include "apps/study/page_texts.h"
 #include "apps/study/results.h"
-#include "apps/study/sampling.h"
-#include "apps/study/z_fighting/fights_by_angle.h"
-#include "apps/study/z_fighting/fights_by_distance.h"
-#include "apps/study/z_fighting/scene_study.h"
+#include "apps/study/studies.h"
+#include "apps/study/sweeps.h"
+#include "apps/study/z_fighting/pair_sweeps.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::studies {

@@ -1,13 +1,18 @@
-#include "apps/study/sampling.h"
+#include "apps/study/sweeps.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "fathom/failures/errors.h"
 
 namespace fathom::studies {
 namespace {
+
+std::string joined(const DepthFormat& format, const char* separator) {
+  return std::string(name_of(format.mapping)) + separator + std::string(name_of(format.storage));
+}
 
 template <class At>
 std::vector<double> samples(double near, double far, std::uint32_t count, const At& at) {
@@ -24,6 +29,23 @@ std::vector<double> samples(double near, double far, std::uint32_t count, const 
 }
 
 }  // namespace
+
+DepthFormat format_between(double near, double far, Mapping mapping, Storage storage) {
+  return {mapping, storage, near,
+          takes_infinite_far(mapping) ? std::numeric_limits<double>::infinity() : far};
+}
+
+bool is_projection(Mapping mapping) {
+  return mapping <= Mapping::opengl;
+}
+
+std::string label_of(const DepthFormat& format) {
+  return joined(format, " ");
+}
+
+std::string file_name_of(const DepthFormat& format) {
+  return joined(format, "-");
+}
 
 std::vector<double> linear_samples(double near, double far, std::uint32_t count) {
   return samples(near, far, count, [&](double share) { return std::lerp(near, far, share); });

@@ -6,8 +6,8 @@
 
 #include "fathom/depth_format/depth_format.h"
 
-/// The part of the study `z-fighting` in which the distance is swept: two surfaces, tilted by 30
-/// degrees.
+/// The parts of the study `z-fighting` in which the distance is swept, of two surfaces that are
+/// tilted by 30 degrees, and the angle.
 namespace fathom::studies {
 
 /// Two parallel surfaces between near and far, as many samples of each patch.
@@ -39,5 +39,25 @@ struct FightsByDistanceAndSeparation {
 };
 FightsByDistanceAndSeparation fights_by_distance_and_separation(const DepthFormat& format,
                                                                 const SurfacePair& surfaces);
+
+/// The two surfaces, tilted by an angle from facing the camera.
+struct FightByAngle {
+  DepthFormat format;
+  double degrees, distance;
+  /// Share of samples where the wrong surface wins.
+  double ideal;
+  std::optional<double> premultiplied;  ///< in the pipeline model, for projections
+  double safe, predicted;               ///< least safe separation
+};
+
+struct AngleSweep {
+  double near, far, separation;
+  int samples;
+  /// At each of which every angle is measured.
+  std::vector<double> distances;
+};
+
+/// From 0 to 55 degrees, in four formats.
+std::vector<FightByAngle> fights_by_angle(const AngleSweep& sweep);
 
 }  // namespace fathom::studies

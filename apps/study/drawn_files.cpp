@@ -1,4 +1,4 @@
-#include "apps/study/gnuplot.h"
+#include "apps/study/drawn_files.h"
 
 #include <sys/mman.h>
 
@@ -45,6 +45,13 @@ std::string first_line(const std::string& text) {
   return begin == std::string::npos ? "" : text.substr(begin, text.find('\n', begin) - begin);
 }
 
+RgbImage enlarged(const RgbImage& image, std::uint32_t scale) {
+  RgbImage large(image.width * scale, image.height * scale);
+  for (std::uint32_t y = 0; y < large.height; ++y)
+    for (std::uint32_t x = 0; x < large.width; ++x) large.at(x, y) = image.at(x / scale, y / scale);
+  return large;
+}
+
 }  // namespace
 
 void require_gnuplot(const StudyOptions& options) {
@@ -75,6 +82,10 @@ std::vector<StudyFile> run_gnuplot(const std::string& name, const std::string& s
   if (said.status != 0 || files[1].content.empty() || files[2].content.empty())
     throw OutputError("gnuplot cannot draw " + name + ": " + first_line(said.text));
   return files;
+}
+
+StudyFile picture_file(const std::string& name, const RgbImage& image, std::uint32_t scale) {
+  return {name + ".png", png_bytes(enlarged(image, scale))};
 }
 
 }  // namespace fathom::studies
