@@ -10,7 +10,7 @@
 #include "fathom/files/descriptor.h"
 #include "fathom/files/file_bytes.h"
 #include "fathom/files/input_file.h"
-#include "validation/child/run_command.h"
+#include "validation/child/child_process.h"
 
 namespace fathom::studies {
 namespace {

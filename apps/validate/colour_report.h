@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "validation/colour/colour_comparison.h"
-#include "validation/vtk/vtk_colours.h"
+#include "validation/vtk/drawn_by_vtk.h"
 
 /// A picture of the pipeline and the picture of VTK that it is compared with.
 namespace fathom::app {

@@ -8,7 +8,7 @@
 #include "apps/validate/validate_modes.h"
 #include "apps/validate/validate_report.h"
 #include "fathom/failures/errors.h"
-#include "validation/peers/colour_drawing.h"
+#include "validation/peers/drawing.h"
 
 namespace fathom::app {
 namespace {

@@ -12,7 +12,6 @@
 #include "apps/bench/parts/parts_report.h"
 #include "fathom/failures/errors.h"
 #include "validation/scenes/shapes.h"
-#include "validation/scenes/simple_camera.h"
 
 namespace fathom::bench {
 namespace {

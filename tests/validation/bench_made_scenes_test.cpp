@@ -11,12 +11,8 @@
 
 #include "fathom/render.h"
 #include "fathom/scene/framing.h"
-#include "validation/scenes/made/city.h"
-#include "validation/scenes/made/machine_part.h"
-#include "validation/scenes/made/scan.h"
-#include "validation/scenes/made/text_page.h"
-#include "validation/scenes/made/tree.h"
-#include "validation/scenes/made/value_noise.h"
+#include "validation/scenes/made/made_meshes.h"
+#include "validation/scenes/made/random.h"
 #include "validation/scenes/scenes.h"
 #include "validation/scenes/shapes.h"
 

@@ -1,11 +1,10 @@
-#include "validation/vtk/camera_matrix.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 
 #include "fathom/attribution/model/renderer_camera.h"
+#include "validation/vtk/drawn_by_vtk.h"
 
 namespace fathom::validation {
 namespace {

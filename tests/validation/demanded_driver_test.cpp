@@ -1,8 +1,7 @@
-#include "validation/opengl/demanded_driver.h"
-
 #include <gtest/gtest.h>
 
 #include "fathom/failures/errors.h"
+#include "validation/opengl/egl_context.h"
 
 namespace fathom::validation {
 namespace {

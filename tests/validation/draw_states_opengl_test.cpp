@@ -7,9 +7,8 @@
 #include "fathom/pipeline/render_pipeline.h"
 #include "tests/pipeline/layers.h"
 #include "validation/opengl/egl_context.h"
+#include "validation/opengl/framebuffer.h"
 #include "validation/opengl/gl_functions.h"
-#include "validation/opengl/read_back.h"
-#include "validation/opengl/shader_program.h"
 
 /// The draw states of the pipeline held to OpenGL: the driver draws the same layers with the same
 /// depth and stencil tests, masks, offsets and opacities, and has the same codes, stencil values

@@ -7,7 +7,7 @@
 #include "apps/bench/masked_occlusion_culling/masked_buffer.h"
 #include "fathom/attribution/world_mesh.h"
 #include "fathom/render.h"
-#include "validation/scenes/made/city.h"
+#include "validation/scenes/made/made_meshes.h"
 #include "validation/scenes/scenes.h"
 #include "validation/scenes/shapes.h"
 

@@ -12,8 +12,7 @@
 #include "validation/colour/colour_comparison.h"
 #include "validation/embree/embree_tracer.h"
 #include "validation/scenes/shapes.h"
-#include "validation/vtk/vtk_colours.h"
-#include "validation/vtk/vtk_depth_maps.h"
+#include "validation/vtk/drawn_by_vtk.h"
 #include "validation/vtk/vtk_renderer.h"
 
 /// VTK and Embree see what we see, through a camera with everything that a camera has. Built where

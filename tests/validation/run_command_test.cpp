@@ -1,5 +1,3 @@
-#include "validation/child/run_command.h"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -7,6 +5,7 @@
 
 #include "fathom/failures/errors.h"
 #include "tests/scratch_folder.h"
+#include "validation/child/child_process.h"
 
 /// Other programs, started without a shell.
 namespace fathom::validation {

@@ -8,7 +8,6 @@
 #include "fathom/attribution/model/window_depth.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/opengl/gl_functions.h"
-#include "validation/opengl/shader_program.h"
 
 /// The driver's log2, on which the model of logarithmic depths relies: all 2²³ numbers of some
 /// binades, held against the bound that the shading language gives ([GLSL46] 4.7.1).

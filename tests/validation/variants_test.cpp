@@ -1,3 +1,5 @@
+#include "validation/variants/variants.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -6,7 +8,6 @@
 
 #include "fathom/failures/errors.h"
 #include "validation/variants/peer.h"
-#include "validation/variants/words.h"
 
 namespace fathom::validation {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "fathom/failures/errors.h"
 
@@ -27,5 +28,17 @@ struct ChildOptions {
 /// Needs    a process that has started no threads. `work` does not throw.
 /// Fails    ChildFailure.
 std::string bytes_from_child(const std::function<std::string()>& work, const ChildOptions& options);
+
+/// What a program printed, on standard output and on standard error, and its exit status: 127 where
+/// there is no such program, 128 + the signal where one ended it.
+struct Said {
+  std::string text;
+  int status = 0;
+};
+
+/// Runs a program, found on the PATH, with these arguments, its name first. No shell reads them: a
+/// path may have any characters. Nothing is on its standard input.
+/// Fails    InputError if it cannot be started for another reason than that it is not there.
+Said run_command(const std::vector<std::string>& command);
 
 }  // namespace fathom::validation

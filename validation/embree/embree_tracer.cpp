@@ -7,7 +7,6 @@
 #include <thread>
 
 #include "fathom/failures/errors.h"
-#include "validation/embree/binary32_view.h"
 #include "validation/embree/trace_image.h"
 
 namespace fathom::validation {

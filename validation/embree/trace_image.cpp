@@ -7,10 +7,22 @@
 #include <algorithm>
 #include <limits>
 
+#include "fathom/attribution/model/renderer_camera.h"
 #include "fathom/image/depth_map.h"
 
 namespace fathom::validation {
 namespace {
+
+using attribution::CameraRays;
+using Arrays = RTCRayHitNt<stream_length>;
+
+Binary32View::Affine narrowed(const CameraRays::Affine& f) {
+  const auto narrow = [](const std::array<double, 3>& v) {
+    return std::array<float, 3>{static_cast<float>(v[0]), static_cast<float>(v[1]),
+                                static_cast<float>(v[2])};
+  };
+  return {narrow(f.at_corner), narrow(f.per_u), narrow(f.per_v)};
+}
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -83,7 +95,6 @@ constexpr std::uint32_t stream_side = 8;
 constexpr std::uint32_t stream_length = stream_side * stream_side;
 
 /// The rays of a stream as an array for each of their parts.
-using Arrays = RTCRayHitNt<stream_length>;
 
 void trace_block(RTCScene scene, const Block& block, const Binary32View& view,
                  const TracedImages& images, Arrays& rays) {
@@ -131,6 +142,16 @@ void trace_blocks(RTCScene scene, const Binary32View& view, std::uint32_t side,
 }
 
 }  // namespace
+
+Binary32View binary32_view(const Camera& camera) {
+  const CameraRays rays = attribution::camera_rays(camera);
+  return {camera.width,
+          camera.height,
+          static_cast<float>(camera.near),
+          static_cast<float>(camera.far),
+          narrowed(rays.origin),
+          narrowed(rays.direction)};
+}
 
 void trace_image(RTCScene scene, const Binary32View& view, RayStream stream,
                  const TracedImages& images) {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "fathom/image/depth_map.h"
-#include "validation/opengl/shader_program.h"
+#include "validation/opengl/gl_functions.h"
 
 namespace fathom::validation {
 namespace {

@@ -4,7 +4,7 @@
 #include "fathom/attribution/world_mesh.h"
 #include "fathom/camera/camera.h"
 #include "validation/opengl/gl_functions.h"
-#include "validation/variants/opengl_variant.h"
+#include "validation/variants/variants.h"
 
 namespace fathom::validation {
 

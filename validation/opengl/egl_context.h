@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "validation/variants/driver.h"
+#include "validation/variants/variants.h"
 
 namespace fathom::validation {
 
@@ -43,5 +43,15 @@ class EglContext {
   void* context_ = nullptr;
   void* surface_ = nullptr;
 };
+
+/// Has OpenGL load `driver` on this machine, whatever it would load otherwise. The usual one:
+/// nothing is changed.
+///
+/// Environment  of this process, from then on: what Mesa reads when a display is opened.
+/// Needs        a process that has not opened a display through EGL, and has no other threads.
+void demand(Driver driver);
+
+/// Fails    InputError, in one line, unless GL_RENDERER is that of the driver.
+void require(Driver driver, const std::string& gl_renderer);
 
 }  // namespace fathom::validation

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "fathom/camera/camera.h"
 #include "fathom/depth_format/depth_format.h"
 #include "validation/opengl/gl_functions.h"
@@ -30,5 +33,20 @@ class Framebuffer {
 /// then bound for reading.
 void resolve(const GlFunctions& gl, const Framebuffer& from, const Framebuffer& to,
              const Camera& camera);
+
+// What a framebuffer holds, exactly. Rows run from the top.
+
+/// The type that the driver gave the depth attachment of the framebuffer bound to `target`.
+/// Fails    InputError if depth buffers are not known to have that type.
+Storage depth_attachment_storage(const GlFunctions& gl, GLenum target);
+
+/// Window depths of the framebuffer bound for reading: read as integers of the storage's own width,
+/// which OpenGL's conversion leaves exact, or as binary32.
+std::vector<double> read_window_depths(const GlFunctions& gl, std::uint32_t width,
+                                       std::uint32_t height, Storage storage);
+
+/// The first colour attachment, whose texels are integers.
+std::vector<std::uint32_t> read_numbers(const GlFunctions& gl, std::uint32_t width,
+                                        std::uint32_t height);
 
 }  // namespace fathom::validation

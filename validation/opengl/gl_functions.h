@@ -66,4 +66,9 @@ struct GlFunctions {
   // NOLINTEND(readability-identifier-naming)
 };
 
+/// A program of two shaders, from their texts; it is in use from then on.
+/// Fails    InputError where the driver does not take them.
+GLuint use_new_program(const GlFunctions& gl, const char* vertex_shader,
+                       const char* fragment_shader);
+
 }  // namespace fathom::validation

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 
 #include "fathom/attribution/model/named_models.h"
@@ -14,7 +15,7 @@
 #include "validation/opengl/drawn_mesh.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/opengl/framebuffer.h"
-#include "validation/opengl/read_back.h"
+#include "validation/opengl/gl_functions.h"
 
 namespace fathom::validation {
 namespace {
@@ -127,6 +128,25 @@ DrawnMap draw_opengl(const WorldMesh& mesh, const Camera& camera, const OpenGlVa
   attribution::set_driver_facts(drawn.version, subpixel_bits, camera, drawn.model);
   if (gl.GetError() != GL_NO_ERROR) throw InputError("OpenGL: the driver reports an error");
   return drawn;
+}
+
+std::vector<int> offered_samples(Driver driver) {
+  const EglContext context(driver);
+  const GlFunctions gl;
+  const auto offered = [&](GLenum format) {
+    GLint count = 0;
+    gl.GetInternalformativ(GL_RENDERBUFFER, format, GL_NUM_SAMPLE_COUNTS, 1, &count);
+    std::vector<GLint> counts(static_cast<std::size_t>(count));
+    gl.GetInternalformativ(GL_RENDERBUFFER, format, GL_SAMPLES, count, counts.data());
+    std::sort(counts.begin(), counts.end());
+    return counts;
+  };
+  const std::vector<GLint> depths = offered(GL_DEPTH_COMPONENT24), numbers = offered(GL_R32UI);
+  std::vector<int> both;
+  std::set_intersection(depths.begin(), depths.end(), numbers.begin(), numbers.end(),
+                        std::back_inserter(both));
+  both.erase(both.begin(), std::upper_bound(both.begin(), both.end(), 1));
+  return both;
 }
 
 }  // namespace fathom::validation

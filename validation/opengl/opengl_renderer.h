@@ -1,8 +1,10 @@
 #pragma once
 
+#include <vector>
+
 #include "fathom/attribution/world_mesh.h"
 #include "validation/drawn_map.h"
-#include "validation/variants/opengl_variant.h"
+#include "validation/variants/variants.h"
 
 namespace fathom::validation {
 
@@ -15,5 +17,11 @@ namespace fathom::validation {
 ///          depths), no such attachment or not so many samples.
 DrawnMap draw_opengl(const attribution::WorldMesh& mesh, const Camera& camera,
                      const OpenGlVariant& variant);
+
+/// The numbers of samples per pixel, more than one, that a driver offers for 24 bits of depth and
+/// numbers of triangles beside them, in increasing order.
+/// Needs    as an EglContext with a driver does.
+/// Fails    InputError where there is no OpenGL or no such driver.
+std::vector<int> offered_samples(Driver driver);
 
 }  // namespace fathom::validation

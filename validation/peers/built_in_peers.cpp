@@ -1,9 +1,8 @@
 #include "validation/peers/built_in_peers.h"
 
 #include "validation/embree/embree_tracer.h"
-#include "validation/opengl/offered_samples.h"
 #include "validation/opengl/opengl_renderer.h"
-#include "validation/vtk/vtk_depth_maps.h"
+#include "validation/vtk/drawn_by_vtk.h"
 
 namespace fathom::validation {
 

@@ -5,7 +5,7 @@
 #include "validation/drawn_map.h"
 #include "validation/scenes/validation_scenes.h"
 #include "validation/variants/peer.h"
-#include "validation/vtk/vtk_colours.h"
+#include "validation/vtk/drawn_by_vtk.h"
 
 namespace fathom::validation {
 

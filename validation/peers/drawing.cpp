@@ -108,4 +108,10 @@ Drawing draw_in_child(const Peer& peer, const std::function<ValidationScene()>& 
   }
 }
 
+GreyPicture draw_colours_in_child(const std::function<LitScene()>& make, VtkShading shading,
+                                  int seconds) {
+  return in_child([&] { return draw_built_in_colours(make(), shading); },
+                  {.name = "vtk", .seconds = seconds});
+}
+
 }  // namespace fathom::validation

@@ -8,6 +8,7 @@
 #include "validation/drawn_map.h"
 #include "validation/scenes/validation_scenes.h"
 #include "validation/variants/peer.h"
+#include "validation/vtk/drawn_by_vtk.h"
 
 namespace fathom::validation {
 
@@ -29,5 +30,13 @@ Drawing draw_in_child(const Peer& peer, const std::function<ValidationScene()>& 
 
 /// The same here and now. Fails with InputError, in one line, where the renderer is not there.
 DrawnMap draw(const Peer& peer, const ValidationScene& scene);
+
+/// Makes the scene and has VTK draw it in colour in a process of its own, which is ended after
+/// `seconds`.
+/// Needs    a process that has started no threads.
+/// Fails    as `make` does; InputError, in one line, where VTK or OpenGL is not there;
+///          ChildFailure.
+GreyPicture draw_colours_in_child(const std::function<LitScene()>& make, VtkShading shading,
+                                  int seconds);
 
 }  // namespace fathom::validation

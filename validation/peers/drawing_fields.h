@@ -194,4 +194,16 @@ struct Fields<Drawing> {
   }
 };
 
+template <>
+struct Fields<GreyPicture> {
+  template <class Visit, class S>
+  static void each(Visit&& visit, S& s) {
+    auto& [width, height, codes, version] = s;
+    visit("width", width);
+    visit("height", height);
+    visit("codes", codes);
+    visit("version", version);
+  }
+};
+
 }  // namespace fathom::validation

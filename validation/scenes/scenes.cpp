@@ -9,13 +9,8 @@
 #include "fathom/failures/errors.h"
 #include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
-#include "validation/scenes/made/city.h"
-#include "validation/scenes/made/machine_part.h"
-#include "validation/scenes/made/scan.h"
-#include "validation/scenes/made/text_page.h"
-#include "validation/scenes/made/tree.h"
+#include "validation/scenes/made/made_meshes.h"
 #include "validation/scenes/shapes.h"
-#include "validation/scenes/simple_camera.h"
 
 namespace fathom::bench {
 namespace {

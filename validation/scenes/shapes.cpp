@@ -88,6 +88,14 @@ Mesh wall(const Vector3& corner, const Vector3& across, const Vector3& up, std::
 
 }  // namespace
 
+Camera simple_camera(const ImageSize& size, double focal) {
+  Camera camera{.width = size.width, .height = size.height};
+  camera.projection.fx = camera.projection.fy = focal * size.height;
+  camera.projection.cx = size.width / 2.0;
+  camera.projection.cy = size.height / 2.0;
+  return camera;
+}
+
 Scene as_scene(std::vector<Mesh> meshes, const std::string& name) {
   Scene scene;
   scene.meshes = std::move(meshes);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -7,8 +8,9 @@
 #include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
 
-/// The meshes that engines and peers are timed on, in the world, scene units. All are made from
-/// fixed seeds; coordinates are binary64 numbers, not necessarily representable in binary32.
+/// The meshes that engines and peers are timed on, in the world, scene units, and a camera that
+/// looks at them. All are made from fixed seeds; coordinates are binary64 numbers, not necessarily
+/// representable in binary32.
 namespace fathom::bench {
 
 /// A scene of one object per mesh, placed as it is.
@@ -36,5 +38,15 @@ Mesh grid(std::uint32_t columns, std::uint32_t rows, double left, double top, do
 /// each, floor and ceiling of two triangles each, facing inwards, and two spheres of 20 thousand
 /// triangles in it.
 std::vector<Mesh> room(std::uint32_t cells);
+
+/// In pixels.
+struct ImageSize {
+  std::uint32_t width, height;
+  [[nodiscard]] std::uint32_t least() const { return std::min(width, height); }
+};
+
+/// At the origin, looking along +z, with square pixels and the principal point in the middle of the
+/// image; the focal length is in heights of the image.
+Camera simple_camera(const ImageSize& size, double focal = 1.2);
 
 }  // namespace fathom::bench

@@ -12,7 +12,6 @@
 #include "fathom/scene/read_scene.h"
 #include "validation/scenes/scenes.h"
 #include "validation/scenes/shapes.h"
-#include "validation/scenes/simple_camera.h"
 
 namespace fathom::validation {
 namespace {

@@ -7,8 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "validation/variants/opengl_variant.h"
-#include "validation/variants/vtk_variant.h"
+#include "validation/variants/variants.h"
 
 /// Renderers and the ways in which each of them is asked to draw. Names are read here, once;
 /// everything behind works on the types.

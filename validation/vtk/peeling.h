@@ -1,9 +1,13 @@
 #pragma once
 
+#include <vtkActor.h>
 #include <vtkDualDepthPeelingPass.h>
 #include <vtkOpenGLRenderer.h>
+#include <vtkSmartPointer.h>
 
 #include <vector>
+
+#include "fathom/camera/camera.h"
 
 namespace fathom::validation {
 
@@ -45,5 +49,9 @@ class PeelingRenderer : public vtkOpenGLRenderer {
  protected:
   PeelingRenderer();
 };
+
+/// A translucent pane across the whole view, a thousandth of the way from near to far: in front of
+/// all but what nearly touches the near plane.
+vtkSmartPointer<vtkActor> translucent_pane(const Camera& camera);
 
 }  // namespace fathom::validation

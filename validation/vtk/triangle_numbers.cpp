@@ -14,7 +14,7 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/image/depth_map.h"
-#include "validation/opengl/shader_program.h"
+#include "validation/opengl/gl_functions.h"
 
 namespace fathom::validation {
 namespace {

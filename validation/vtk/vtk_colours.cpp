@@ -1,5 +1,3 @@
-#include "validation/vtk/vtk_colours.h"
-
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
@@ -27,6 +25,7 @@
 #include "fathom/attribution/model/renderer_camera.h"
 #include "fathom/failures/errors.h"
 #include "validation/opengl/egl_context.h"
+#include "validation/vtk/drawn_by_vtk.h"
 #include "validation/vtk/surfaceless_window.h"
 
 namespace fathom::validation {

@@ -21,11 +21,10 @@
 
 #include "fathom/failures/errors.h"
 #include "validation/opengl/egl_context.h"
-#include "validation/opengl/read_back.h"
+#include "validation/opengl/framebuffer.h"
 #include "validation/vtk/peeling.h"
 #include "validation/vtk/recording_mapper.h"
 #include "validation/vtk/surfaceless_window.h"
-#include "validation/vtk/translucent_pane.h"
 #include "validation/vtk/triangle_numbers.h"
 
 namespace fathom::validation {

@@ -10,7 +10,7 @@
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/attribution/world_mesh.h"
 #include "fathom/depth_format/depth_format.h"
-#include "validation/variants/vtk_variant.h"
+#include "validation/variants/variants.h"
 
 namespace fathom::validation {
 

@@ -8,9 +8,8 @@
 #include "fathom/camera/camera_making.h"
 #include "fathom/failures/errors.h"
 #include "fathom/mesh/mesh_faces.h"
-#include "validation/scenes/generated/soup_stream.h"
+#include "validation/scenes/generated/generated_stream.h"
 #include "validation/scenes/generated/terrain_heights.h"
-#include "validation/scenes/generated/terrain_stream.h"
 
 namespace fathom::bench {
 namespace {

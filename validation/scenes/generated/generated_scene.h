@@ -5,7 +5,7 @@
 
 #include "fathom/camera/camera.h"
 #include "fathom/scene/streamed_scene.h"
-#include "validation/scenes/simple_camera.h"
+#include "validation/scenes/shapes.h"
 
 /// Scenes of any number of triangles, which are made as they are drawn (generated_stream.h).
 namespace fathom::bench {

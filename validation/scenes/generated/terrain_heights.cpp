@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "validation/scenes/made/scattered.h"
+#include "validation/scenes/made/random.h"
 
 namespace fathom::bench {
 namespace {

@@ -1,5 +1,4 @@
-#include "validation/scenes/made/city.h"
-
+#include "validation/scenes/made/made_meshes.h"
 #include "validation/scenes/made/mesh_building.h"
 #include "validation/scenes/made/random.h"
 

@@ -1,9 +1,8 @@
-#include "validation/scenes/made/machine_part.h"
-
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "validation/scenes/made/made_meshes.h"
 #include "validation/scenes/made/mesh_building.h"
 
 namespace fathom::bench {

@@ -1,12 +1,10 @@
-#include "validation/scenes/made/scan.h"
-
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "validation/scenes/made/made_meshes.h"
 #include "validation/scenes/made/mesh_building.h"
 #include "validation/scenes/made/random.h"
-#include "validation/scenes/made/value_noise.h"
 #include "validation/scenes/shapes.h"
 
 namespace fathom::bench {

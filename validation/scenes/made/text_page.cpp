@@ -1,9 +1,8 @@
-#include "validation/scenes/made/text_page.h"
-
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "validation/scenes/made/made_meshes.h"
 #include "validation/scenes/made/mesh_building.h"
 #include "validation/scenes/made/random.h"
 

@@ -1,8 +1,7 @@
-#include "validation/scenes/made/tree.h"
-
 #include <cmath>
 #include <numbers>
 
+#include "validation/scenes/made/made_meshes.h"
 #include "validation/scenes/made/mesh_building.h"
 #include "validation/scenes/made/random.h"
 

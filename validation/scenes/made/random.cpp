@@ -1,8 +1,6 @@
-#include "validation/scenes/made/value_noise.h"
+#include "validation/scenes/made/random.h"
 
 #include <cmath>
-
-#include "validation/scenes/made/scattered.h"
 
 namespace fathom::bench {
 namespace {
