@@ -3,14 +3,10 @@
 
 #include <algorithm>
 
-#include "apps/camera/camera_command.h"
+#include "apps/commands.h"
 #include "apps/dataset/dataset_command.h"
-#include "apps/depth/depth_command.h"
-#include "apps/maps/map_commands.h"
 #include "apps/render/render_arguments.h"
-#include "apps/render/render_maps.h"
 #include "apps/shell/program.h"
-#include "apps/surfaces/surface_commands.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::app {

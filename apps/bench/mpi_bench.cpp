@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "apps/mpi/last_word.h"
 #include "apps/mpi/mpi_arguments.h"
 #include "apps/mpi/ranks.h"
 #include "apps/mpi/render_together.h"

@@ -1,6 +1,108 @@
-#include "apps/camera/camera_command.h"
+#include <memory>
+#include <optional>
+
+#include "apps/camera/import_sources.h"
+#include "apps/commands.h"
+#include "apps/options/camera_options.h"
+#include "apps/options/scene_options.h"
+#include "apps/shell/command.h"
+#include "apps/shell/failures.h"
+#include "apps/shell/output_file.h"
+#include "apps/shell/values.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/failures/errors.h"
+#include "fathom/scene/framing.h"
 
 namespace fathom::app {
+namespace {
+
+// fathom camera look-at
+
+struct LookAtArguments {
+  Vector3 eye{}, target{}, up{0, 1, 0};
+  LensChoice lens;
+  std::string output = "-";
+};
+
+int run_look_at(const LookAtArguments& arguments) {
+  const Camera camera = look_at(arguments.eye, arguments.target, arguments.up, arguments.lens);
+  write_text(arguments.output, to_json(camera) + "\n");
+  return done;
+}
+
+void add_look_at(Command& camera) {
+  const auto arguments = std::make_shared<LookAtArguments>();
+  Command& command =
+      camera.command("look-at", "Make a camera at a point, looking at another point",
+                     "  fathom camera look-at --eye 2,1,3 --target 0,0,0 -o camera.json\n"
+                     "  fathom camera look-at --eye 0,0,5 --orthographic 2 --size 512x512");
+  command
+      .option("--eye", "X,Y,Z", into(arguments->eye, parse_vector), "Position of the camera, X,Y,Z")
+      .required();
+  command.option("--target", "X,Y,Z", into(arguments->target, parse_vector),
+                 "Point that the camera looks at, X,Y,Z (default 0,0,0)");
+  add_up_option(command, arguments->up);
+  add_lens_options(command, arguments->lens);
+  add_output_option(command, "FILE", arguments->output,
+                    "Write the camera file here (default: standard output)");
+  command.runs([arguments](const Console&) { return run_look_at(*arguments); });
+}
+
+// fathom camera orbit
+
+struct OrbitArguments {
+  SceneOptions scene;
+  std::uint32_t views = 0;
+  View first;
+  std::optional<Vector3> centre;
+  std::optional<double> distance;
+  LensChoice lens;
+  std::string output = "-";
+};
+
+std::vector<Camera> orbit_cameras(const OrbitArguments& a, const Console& console) {
+  if (a.scene.files.empty()) {
+    if (!a.distance) throw UsageError("orbit needs a SCENE to frame, or --distance");
+    return orbit(a.first, a.views, a.centre.value_or(Vector3{}), *a.distance, a.lens);
+  }
+  if (a.distance || a.centre) {
+    throw UsageError("--centre and --distance do not go with a SCENE, which decides them");
+  }
+  const Scene scene = a.scene.read(console);
+  if (triangle_count(scene) == 0) {
+    throw InputError(a.scene.files[0] + ": no triangle; expected something to frame");
+  }
+  return orbit_scene(a.first, a.views, scene, a.lens);
+}
+
+int run_orbit(const OrbitArguments& arguments, const Console& console) {
+  write_text(arguments.output, to_json(orbit_cameras(arguments, console)) + "\n");
+  return done;
+}
+
+void add_orbit(Command& camera) {
+  const auto arguments = std::make_shared<OrbitArguments>();
+  Command& command = camera.command(
+      "orbit", "Make a camera path around a scene or a point",
+      "  fathom camera orbit spot.obj --views 12 -o path.json\n"
+      "  fathom render spot.obj --camera path.json -o 'maps/{index:04}.exr'\n"
+      "  fathom camera orbit --views 36 --centre 0,0,1 --distance 4 --view 0,30 --up z");
+  command.arguments("SCENE", arguments->scene.files, "Meshes and scene files to frame");
+  arguments->scene.add_reading_to(command);
+  command.option("--views", "N", into(arguments->views, parse_positive), "Number of cameras")
+      .required();
+  add_view_options(command, arguments->first);
+  command.option("--centre", "X,Y,Z", into(arguments->centre, parse_vector),
+                 "Point that the cameras look at, X,Y,Z (default 0,0,0)");
+  command.option("--distance", "D", into(arguments->distance, parse_number),
+                 "Distance of the eye from the centre");
+  add_lens_options(command, arguments->lens);
+  add_output_option(command, "FILE", arguments->output,
+                    "Write the camera file here (default: standard output)");
+  command.runs([arguments](const Console& console) { return run_orbit(*arguments, console); });
+}
+
+}  // namespace
 
 void add_camera(Command& program) {
   Command& family =

@@ -4,7 +4,6 @@
 
 #include <memory>
 
-#include "apps/camera/camera_command.h"
 #include "apps/camera/import_sources.h"
 #include "apps/shell/command.h"
 #include "apps/shell/failures.h"

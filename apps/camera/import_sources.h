@@ -52,4 +52,7 @@ std::vector<ImportSource> program_sources();
 /// Layouts of data sets, and matrices of any origin.
 std::vector<ImportSource> data_set_sources();
 
+/// `fathom camera import colmap | nerf | bop | opengl`
+void add_import(Command& camera);
+
 }  // namespace fathom::app

@@ -1,5 +1,3 @@
-#include "apps/formats/service.h"
-
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>

@@ -32,4 +32,9 @@ std::string assimp_version();
 std::string draco_version();
 std::string meshoptimizer_version();
 
+/// Answers the requests that come over the socket on standard input, until it is closed. Each is
+/// carried out within the limits that it names; where one is passed, the system ends this program.
+/// Returns the exit status.
+int serve_requests();
+
 }  // namespace fathom::app

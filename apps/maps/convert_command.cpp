@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "apps/maps/map_commands.h"
+#include "apps/commands.h"
 #include "apps/options/camera_options.h"
 #include "apps/options/map_arguments.h"
 #include "apps/options/storage_options.h"

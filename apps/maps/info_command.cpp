@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "apps/commands.h"
 #include "apps/maps/info.h"
-#include "apps/maps/map_commands.h"
 #include "apps/options/map_arguments.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/failures.h"

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "apps/maps/map_commands.h"
+#include "apps/commands.h"
 #include "apps/options/map_arguments.h"
 #include "apps/shell/command.h"
 #include "apps/shell/failures.h"

@@ -1,16 +1,24 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "apps/mpi/ranks.h"
 #include "apps/mpi/traffic.h"
 #include "fathom/fast/some_tiles.h"
+#include "fathom/files/file_bytes.h"
 #include "fathom/image/depth_map.h"
+#include "fathom/image/row_share.h"
 
+/// Rows of an image on their way between ranks: of tiles that they have drawn, and of what each has
+/// found in its share of the rows.
 namespace fathom::app {
 
 /// Rows first ≤ row < end of tiles.
@@ -61,5 +69,68 @@ class WholeMap {
   DepthMap map_;
   std::size_t pixels_ = 0;
 };
+
+/// Which rows of an image a rank makes by itself, where each has the whole scene.
+RowShare share_of(const Ranks& ranks);
+
+/// What other ranks than the first have found in their shares of the rows, as it comes to the
+/// first.
+class RowsOfOthers {
+ public:
+  explicit RowsOfOthers(const Ranks& ranks);
+  /// The next so many counts, or bytes of items, of a rank.
+  void take_counts(std::size_t rank, std::span<std::uint32_t> to) { take(counts_[rank], to); }
+  template <class Item>
+  void take_items(std::size_t rank, std::span<Item> to) {
+    take(items_[rank], to);
+  }
+
+ private:
+  struct List {
+    files::Bytes bytes;
+    std::size_t taken = 0;
+  };
+  template <class T>
+  static void take(List& from, std::span<T> to) {
+    const auto bytes = std::as_writable_bytes(to);
+    std::ranges::copy(files::ByteView(from.bytes).subspan(from.taken, bytes.size()), bytes.begin());
+    from.taken += bytes.size();
+  }
+  std::vector<List> counts_, items_;
+};
+
+/// Sends the first rank what this one has found in its share of the rows, where RowsOfOthers takes
+/// it.
+void send_rows(const Ranks& ranks, std::uint32_t width, std::span<const std::uint32_t> counts,
+               files::ByteView items, Traffic& traffic);
+
+/// Gathers in the first rank the items that each rank found in its share of an image's rows: the
+/// number of items of each pixel, and all items, pixel by pixel; a rank has no items in other rows.
+/// Called by all ranks; other ranks keep their items.
+template <class Item>
+void gather_rows(const Ranks& ranks, std::uint32_t width, std::span<std::uint32_t> counts,
+                 std::vector<Item>& items, Traffic& traffic) {
+  static_assert(std::is_trivially_copyable_v<Item>);
+  if (!ranks.is_first())
+    return send_rows(ranks, width, counts, std::as_bytes(std::span(items)), traffic);
+  if (ranks.count() == 1) return;
+  RowsOfOthers others(ranks);
+  const std::vector<Item> own = std::exchange(items, {});
+  std::span<const Item> own_left(own);
+  for (std::size_t row = 0; row * width < counts.size(); ++row) {
+    const std::size_t rank = share_of(ranks).process_of_row(static_cast<std::uint32_t>(row));
+    const std::span<std::uint32_t> of_row = counts.subspan(row * width, width);
+    if (rank != 0) others.take_counts(rank, of_row);
+    const std::size_t count = std::accumulate(of_row.begin(), of_row.end(), std::size_t{0});
+    if (rank == 0) {
+      items.insert(items.end(), own_left.begin(),
+                   own_left.begin() + static_cast<std::ptrdiff_t>(count));
+      own_left = own_left.subspan(count);
+    } else {
+      items.resize(items.size() + count);
+      others.take_items(rank, std::span(items).last(count));
+    }
+  }
+}
 
 }  // namespace fathom::app

@@ -6,7 +6,6 @@
 
 #include <memory>
 
-#include "apps/mpi/last_word.h"
 #include "apps/mpi/mpi_arguments.h"
 #include "apps/mpi/ranks.h"
 #include "apps/mpi/render_together.h"

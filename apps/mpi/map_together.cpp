@@ -1,5 +1,3 @@
-#include "apps/mpi/map_together.h"
-
 #include <algorithm>
 #include <exception>
 #include <filesystem>
@@ -8,8 +6,8 @@
 #include <vector>
 
 #include "apps/mpi/banded_exr.h"
-#include "apps/mpi/gathered_rows.h"
 #include "apps/mpi/image_rows.h"
+#include "apps/mpi/render_together.h"
 #include "apps/mpi/tiles_together.h"
 #include "apps/mpi/together.h"
 #include "apps/options/map_arguments.h"

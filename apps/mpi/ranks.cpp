@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "apps/mpi/last_word.h"
+#include "apps/mpi/together.h"
 
 namespace fathom::app {
 using namespace files;

@@ -4,8 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "apps/mpi/gathered_rows.h"
-#include "apps/mpi/map_together.h"
+#include "apps/mpi/image_rows.h"
 #include "apps/mpi/ranks.h"
 #include "apps/mpi/together.h"
 #include "apps/mpi/traffic.h"

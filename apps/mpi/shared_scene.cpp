@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "apps/mpi/together.h"
-#include "apps/mpi/triangle_messages.h"
+#include "apps/mpi/triangle_mail.h"
 #include "apps/render/render_limits.h"
 #include "apps/render/render_report.h"
 #include "apps/shell/known_files.h"

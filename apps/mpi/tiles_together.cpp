@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "apps/mpi/together.h"
-#include "apps/mpi/triangle_messages.h"
+#include "apps/mpi/triangle_mail.h"
 #include "apps/shell/console.h"
 
 // How to read this file: draw() is the whole story. Each rank has a part of the triangles and takes

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <string>
 
 #include "apps/mpi/ranks.h"
+#include "apps/shell/last_resort.h"
 
+/// Ranks that fail together, and which of them says why.
 namespace fathom::app {
 
 /// Runs a part of the work without communication, and ends it together with the other ranks. If the
@@ -30,5 +33,18 @@ void require_same(const Ranks& ranks, const std::string& text, const std::string
                   std::to_string(ranks.count()) + " has others than rank 0)");
   }
 }
+
+/// Processes that work together end together, and only one of them reports the reason. By default
+/// this process reports everything.
+enum class Reports { nothing, interruptions, everything };
+void report_only(Reports reports) noexcept;
+
+/// The processes of a run on one machine share the name of a file. The first process that reports
+/// creates the file; then the other processes report nothing. A name that is too long is not
+/// shared.
+void share_last_word(const std::string& path);
+/// Used if there is no such name or the file cannot be created: a number in shared memory, which is
+/// 0 and becomes 1. nullptr ends the sharing.
+void share_last_word(std::atomic<int>* said) noexcept;
 
 }  // namespace fathom::app

@@ -1,11 +1,10 @@
-#include "apps/render/render_maps.h"
-
 #include <algorithm>
 #include <limits>
 #include <optional>
 
 #include "apps/options/scene_options.h"
 #include "apps/render/map_additions.h"
+#include "apps/render/render_arguments.h"
 #include "apps/render/render_limits.h"
 #include "apps/render/render_outputs.h"
 #include "apps/render/render_plan.h"

@@ -15,7 +15,7 @@ enum class Ending { failure, interruption };
 /// Whether this process may report on standard error why it ends. True once at most, because the
 /// caller then reports it. Safe in a signal handler.
 bool may_report(Ending ending = Ending::failure) noexcept;
-/// From now on `decide` answers instead, for processes that end together (apps/mpi/last_word.h).
+/// From now on `decide` answers instead, for processes that end together (apps/mpi/together.h).
 void let_decide(bool (*decide)(Ending) noexcept) noexcept;
 
 /// Prints "fathom: error: out of memory: …" and returns the exit status; takes no memory for it.

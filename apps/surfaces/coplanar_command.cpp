@@ -5,13 +5,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/commands.h"
 #include "apps/options/camera_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/console.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
-#include "apps/surfaces/surface_commands.h"
 #include "fathom/area/coplanar.h"
 #include "fathom/failures/errors.h"
 #include "fathom/text/counted.h"

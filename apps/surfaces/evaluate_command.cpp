@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/commands.h"
 #include "apps/options/camera_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/command.h"
@@ -16,7 +17,6 @@
 #include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
-#include "apps/surfaces/surface_commands.h"
 #include "fathom/evaluate.h"
 #include "fathom/failures/errors.h"
 #include "fathom/text/counted.h"

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/commands.h"
 #include "apps/options/camera_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/command.h"
@@ -12,7 +13,6 @@
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
-#include "apps/surfaces/surface_commands.h"
 #include "fathom/area/visible_areas.h"
 #include "fathom/failures/errors.h"
 #include "fathom/scene/triangle_source.h"

@@ -2,7 +2,6 @@
 
 #include "apps/render/render_arguments.h"
 #include "apps/shell/program.h"
-#include "apps/textbook/pipeline/pipeline_render.h"
 #include "apps/textbook/textbook_commands.h"
 #include "fathom/failures/errors.h"
 

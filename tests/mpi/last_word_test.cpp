@@ -1,6 +1,4 @@
 // One of several processes that end together reports the reason.
-#include "apps/mpi/last_word.h"
-
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -8,6 +6,7 @@
 #include <atomic>
 #include <functional>
 
+#include "apps/mpi/together.h"
 #include "tests/apps/test_folder.h"
 
 namespace fathom::app {

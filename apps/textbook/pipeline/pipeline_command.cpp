@@ -18,7 +18,6 @@
 #include "apps/textbook/drawing/drawings.h"
 #include "apps/textbook/pipeline/pipeline_report.h"
 #include "apps/textbook/pipeline/stage_cases.h"
-#include "apps/textbook/pipeline/trace_report.h"
 #include "apps/textbook/textbook_commands.h"
 #include "fathom/failures/errors.h"
 

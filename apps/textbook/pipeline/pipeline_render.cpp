@@ -1,5 +1,3 @@
-#include "apps/textbook/pipeline/pipeline_render.h"
-
 #include <fmt/core.h>
 
 #include <limits>
@@ -11,6 +9,7 @@
 
 #include "apps/options/map_arguments.h"
 #include "apps/render/depth_format_json.h"
+#include "apps/render/render_arguments.h"
 #include "apps/render/render_outputs.h"
 #include "apps/shell/console.h"
 #include "apps/shell/failures.h"

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "apps/textbook/cases/case_reading.h"
 #include "fathom/pipeline/options.h"
+#include "fathom/pipeline/trace.h"
 
 /// `fathom pipeline run STAGE`: one stage of the pipeline by itself. A record goes in, and comes
 /// out with the stage's results, so that the answer of a stage is the case of the next one.
@@ -21,5 +23,9 @@ const std::vector<StageDescription>& pipeline_stages();
 ///          does not exist.
 cases::Json run_stage(const std::string& stage, const cases::Json& record,
                       pipeline::Precision precision);
+
+/// What goes into each stage of the pipeline and what comes out.
+std::string as_text(const pipeline::PrimitiveTrace& trace);
+nlohmann::ordered_json to_json(const pipeline::PrimitiveTrace& trace);
 
 }  // namespace fathom::app

@@ -1,9 +1,8 @@
-#include "apps/textbook/pipeline/trace_report.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "apps/textbook/pipeline/merge_json.h"
+#include "apps/textbook/pipeline/stage_cases.h"
 #include "fathom/text/counted.h"
 #include "fathom/threads/interruption.h"
 

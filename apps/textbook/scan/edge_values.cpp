@@ -1,13 +1,12 @@
 // fathom scan --algorithm edge-values: the textbook's exercise on edge functions.
 
-#include "apps/textbook/scan/edge_values.h"
-
 #include <fmt/format.h>
 
 #include <array>
 
 #include "apps/textbook/cases/case_effort.h"
-#include "apps/textbook/scan/scan_reading.h"
+#include "apps/textbook/scan/scan_cases.h"
+#include "apps/textbook/scan/scan_json.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/files/npy_array.h"
 #include "fathom/pipeline/scan/edge_function.h"

@@ -4,8 +4,7 @@
 #include <utility>
 
 #include "apps/textbook/cases/case_effort.h"
-#include "apps/textbook/scan/scan_reading.h"
-#include "apps/textbook/scan/scan_writing.h"
+#include "apps/textbook/scan/scan_json.h"
 #include "fathom/pipeline/scan/polygon_fill.h"
 
 namespace fathom::app::scan {

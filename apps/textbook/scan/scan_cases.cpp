@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "apps/shell/values.h"
-#include "apps/textbook/scan/edge_values.h"
 #include "fathom/failures/errors.h"
 #include "fathom/pipeline/geometry/subpixel_grid.h"
 

@@ -7,7 +7,6 @@
 #include "apps/shell/values.h"
 #include "apps/textbook/cases/json_lines.h"
 #include "apps/textbook/drawing/drawings.h"
-#include "apps/textbook/scan/edge_values.h"
 #include "apps/textbook/scan/scan_cases.h"
 #include "apps/textbook/textbook_commands.h"
 #include "fathom/failures/errors.h"

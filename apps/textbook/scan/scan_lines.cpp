@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "apps/textbook/cases/case_effort.h"
-#include "apps/textbook/scan/scan_reading.h"
-#include "apps/textbook/scan/scan_writing.h"
+#include "apps/textbook/scan/scan_json.h"
 #include "fathom/pipeline/scan/diamond_exit.h"
 #include "fathom/pipeline/scan/line.h"
 #include "fathom/pipeline/scan/line_forms.h"

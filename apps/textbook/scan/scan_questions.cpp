@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "apps/textbook/cases/case_effort.h"
-#include "apps/textbook/scan/scan_reading.h"
-#include "apps/textbook/scan/scan_writing.h"
+#include "apps/textbook/scan/scan_json.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/pipeline/scan/flood_fill.h"
 #include "fathom/pipeline/scan/polygon_tests.h"

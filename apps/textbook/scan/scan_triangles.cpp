@@ -5,8 +5,7 @@
 #include <algorithm>
 
 #include "apps/textbook/cases/case_effort.h"
-#include "apps/textbook/scan/scan_reading.h"
-#include "apps/textbook/scan/scan_writing.h"
+#include "apps/textbook/scan/scan_json.h"
 #include "fathom/pipeline/scan/edge_function.h"
 
 namespace fathom::app::scan {

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "apps/shell/command.h"
+
+/// Commands of `fathom`. `render` is in render/render_arguments.h, `dataset` in
+/// dataset/dataset_command.h.
+namespace fathom::app {
+
+// Commands that look at maps, and `info`, which looks at any file.
+
+void add_info(Command& program);
+void add_preview(Command& program);
+void add_compare(Command& program);
+void add_convert(Command& program);
+
+// Commands that ask which surface is visible where, and how far surfaces are apart.
+
+void add_probe(Command& program);
+void add_evaluate(Command& program);
+void add_visible(Command& program);
+void add_coplanar(Command& program);
+
+/// `fathom depth encode | decode | resolution | codes`: depth formats as a calculator.
+void add_depth(Command& program);
+
+/// `fathom camera look-at | orbit | import …`: makes camera files.
+void add_camera(Command& program);
+
+}  // namespace fathom::app
