@@ -17,7 +17,7 @@ namespace fathom {
 inline constexpr double least_safe = 0x1p-100, greatest_safe = 0x1p100;
 
 /// By how much of the value an interval is widened for the rounding of its ends, and by how much a
-/// distance is for its own (validation/proofs/rounding_*.gappa.in).
+/// distance is for its own (validation/proofs/depth/rounding_*.gappa.in).
 inline constexpr double interval_widening = 0x1p-51, distance_room = 1 + 0x1p-50;
 /// How much of the leading word certainly is of the number.
 inline constexpr double sign_room = 1 - 0x1p-50;

@@ -117,7 +117,7 @@ inline double square_root(double x) {
   return std::sqrt(x);
 }
 
-/// That of the root, 8u² (validation/proofs/double_word_root.gappa.in).
+/// That of the root, 8u² (validation/proofs/channels/double_word_root.gappa.in).
 inline constexpr double root_error = 0x8p-106;
 
 /// Bound on the relative error of one operation: 2⁻⁵³ in binary64; 2⁻¹⁰² = 16u² in double-words.

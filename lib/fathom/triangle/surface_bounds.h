@@ -1,8 +1,8 @@
 #pragma once
 
 // Constants of the channels' bounds, in units of ε times the magnitudes of the terms; their
-// derivations are where they are used. validation/proofs/surface_*.gappa.in proves each, in the
-// arithmetic of binary64 and in that of double-words.
+// derivations are where they are used. validation/proofs/channels/surface_*.gappa.in proves each,
+// in the arithmetic of binary64 and in that of double-words.
 namespace fathom::triangle::surface_bounds {
 
 /// n = p × r; placed by cofactors; n·t; forms c + b·v + a·u; n·d for the turn of a normal.

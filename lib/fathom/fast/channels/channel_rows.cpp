@@ -19,8 +19,8 @@ namespace {
 constexpr double ulp = epsilon<double>;
 
 /// D from q. Perspective: 1/q, where |1/q̂ − 1/q| = |q − q̂|/(q·q̂) and q ≥ q̂·(1 − 2⁻²⁰), and the
-/// division rounds (validation/proofs/depth_row.gappa.in). Orthographic: −q. A bound that is NaN
-/// says that nothing is known. Nothing underflows: bounds on q are at least 2⁻¹⁰⁰ or u·|q|, so
+/// division rounds (validation/proofs/depth/depth_row.gappa.in). Orthographic: −q. A bound that is
+/// NaN says that nothing is known. Nothing underflows: bounds on q are at least 2⁻¹⁰⁰ or u·|q|, so
 /// known depths lie between 2⁻¹⁰⁰ and 2⁸⁰, or err by at least 2⁻¹⁰⁰.
 HWY_INLINE CertifiedLanes load_depth(const SurfaceRow& row, std::size_t first, bool perspective) {
   const D d;
@@ -35,7 +35,7 @@ HWY_INLINE CertifiedLanes load_depth(const SurfaceRow& row, std::size_t first, b
 }
 
 /// Like to_code() of a binary64 number with an error, to which scaling adds a rounding, and the
-/// error of a rounded factor (validation/proofs/scaled_code.gappa.in, divided_code.gappa.in).
+/// error of a rounded factor (validation/proofs/depth/scaled_code.gappa.in, divided_code.gappa.in).
 HWY_INLINE void round_lanes(const CertifiedLanes& x, const CodeFactor& factor, std::size_t first,
                             RoundedValues<std::uint16_t>& rounded) {
   const D d;

@@ -3,7 +3,7 @@
 #include "fathom/numeric/unit_roundoff.h"
 
 // Constants of the interval of D at a sample (depth_interval-inl.h).
-// validation/proofs/depth_*.gappa.in and weight_row.gappa.in prove each.
+// validation/proofs/depth/depth_*.gappa.in and weight_row.gappa.in prove each.
 namespace fathom::fast::resolve_bounds {
 
 /// Relative room for the roundings of the ends of the interval, and of what spreads it.

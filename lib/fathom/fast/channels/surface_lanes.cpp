@@ -276,7 +276,7 @@ HWY_INLINE Divisor divisor_of(const CertifiedLanes& y) {
 }
 
 /// Like quotient() in numeric/certified_value.h, with 5u more of the value for the inverse and the
-/// product with it (validation/proofs/weight_row.gappa.in).
+/// product with it (validation/proofs/channels/weight_row.gappa.in).
 HWY_INLINE CertifiedLanes quotient_by(const Divisor& y, const CertifiedLanes& w) {
   const V value = hn::Mul(w.value, y.inverse), magnitude = hn::Abs(value);
   const V of_operands =

@@ -3,7 +3,7 @@
 #include "fathom/numeric/unit_roundoff.h"
 
 // Constants of the bounds on areas; their derivations are where they are used.
-// validation/proofs/area_*.gappa.in proves each.
+// validation/proofs/areas/area_*.gappa.in proves each.
 namespace fathom::fast::area_bounds {
 
 /// x of an edge at a height, in units of its greatest |x| (square_edges.h).

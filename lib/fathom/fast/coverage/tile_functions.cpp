@@ -52,8 +52,8 @@ RangeEnd range_end(double inside, double outside) {
 // from its corner: c moves by (a + b)/2. Their bounds hold for any point up to 8 pixels beyond the
 // tile. The additional half of a bound covers the further roundings: of c, of half a pixel's change
 // that values_in_pixel() subtracts, and of what TileCoverage::add_to_union() adds
-// (validation/proofs/shape_edges.gappa.in). Ends of the range are known within their doubt; their
-// part of a sum is rounded five times, which range_end_rounding covers (shape_q.gappa.in).
+// (validation/proofs/edges/shape_edges.gappa.in). Ends of the range are known within their doubt;
+// their part of a sum is rounded five times, which range_end_rounding covers (shape_q.gappa.in).
 TileFunctions functions_over_tile(const TriangleSetup& s, const DepthRange& range) {
   TileFunctions over;
   const auto add = [&](double a, double b, double c, double error) {

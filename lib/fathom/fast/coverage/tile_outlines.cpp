@@ -147,7 +147,7 @@ TileBox TileOutlines::box_of(const OutlineEdge& edge, double margin) const {
 // computed one in both coordinates. Within the heights of a row of pixels, widened by e on both
 // sides, the computed edge lies between the x of its two ends there; these err by at most
 // 5.1u·|Δx| for the product (see square_edges.h) and 4u of a coordinate for sums: less than
-// rounding_room up to `far` (validation/proofs/row_of_edge.gappa.in). So do the heights.
+// rounding_room up to `far` (validation/proofs/areas/row_of_edge.gappa.in). So do the heights.
 template <class Visit>
 void TileOutlines::for_each_row(const OutlineEdge& edge, const Visit& visit) const {
   const SquarePoint &p = edge.from, &q = edge.to;

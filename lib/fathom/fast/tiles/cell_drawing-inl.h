@@ -146,8 +146,8 @@ HWY_INLINE Pen<test_edges, test_range> pen(Tile& tile, const Drawn& t, const Dra
 //
 // d is the difference of two values of q with a relative error of 2⁻²⁴; the sum of their errors has
 // one too, and both errors leave out q_left of themselves: d > sum implies that the exact q of this
-// triangle is greater (validation/proofs/nearer_q.gappa.in). Where the triangle does not cover the
-// sample the bound on q does not hold, but then "loses" is right anyway. Ends of the range are
+// triangle is greater (validation/proofs/q/nearer_q.gappa.in). Where the triangle does not cover
+// the sample the bound on q does not hold, but then "loses" is right anyway. Ends of the range are
 // compared with q moved by twice its error: a bound on q is never below 2⁻²⁴·|q|, so the second
 // half covers the rounding of the end (moved_q.gappa.in).
 // Samples of the cells beyond the box are not covered, unless the box ends where the area does: a

@@ -3,7 +3,7 @@
 #include "fathom/fast/vertices/vertex.h"
 
 // Constants of the vertices' bounds; their derivations are where they are used (vertex.cpp,
-// vertex_lanes.cpp). validation/proofs/vertex_*.gappa.in proves each.
+// vertex_lanes.cpp). validation/proofs/vertices/vertex_*.gappa.in proves each.
 namespace fathom::fast::vertex_bounds {
 
 inline constexpr double affine_error = 6 * unit_roundoff<double>;
