@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/mesh_files/gltf_asset.h"
+#include "tests/mesh_files/gltf/gltf_asset.h"
 
 /// glTF assets of one triangle mesh, plain and compressed by the libraries themselves.
 namespace fathom::test {

@@ -8,7 +8,7 @@
 #include "fathom/mesh/segmentation.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/mesh_files/triangle_stream.h"
-#include "tests/mesh_files/gltf_asset.h"
+#include "tests/mesh_files/gltf/gltf_asset.h"
 #include "tests/scratch_folder.h"
 
 namespace fathom {

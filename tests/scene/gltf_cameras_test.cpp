@@ -8,7 +8,7 @@
 
 #include "fathom/camera/camera_import.h"
 #include "fathom/numeric/rounding.h"
-#include "tests/mesh_files/gltf_asset.h"
+#include "tests/mesh_files/gltf/gltf_asset.h"
 
 namespace fathom {
 namespace {

@@ -8,7 +8,7 @@
 #include "tests/apps/run_program.h"
 #include "tests/apps/test_folder.h"
 #include "tests/places.h"
-#include "tests/validation/validate_runs.h"
+#include "tests/validation/validate/validate_runs.h"
 
 /// `fathom validate --against …` with several renderers that are really there (FATHOM_PEERS), or
 /// not.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/mesh_files/gltf_asset.h"
+#include "tests/mesh_files/gltf/gltf_asset.h"
 
 namespace fathom {
 namespace {

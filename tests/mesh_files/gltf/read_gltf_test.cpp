@@ -7,7 +7,7 @@
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/numeric/rounding.h"
 #include "tests/effort.h"
-#include "tests/mesh_files/gltf_asset.h"
+#include "tests/mesh_files/gltf/gltf_asset.h"
 #include "tests/places.h"
 
 namespace fathom {

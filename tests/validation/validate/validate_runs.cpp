@@ -1,4 +1,4 @@
-#include "tests/validation/validate_runs.h"
+#include "tests/validation/validate/validate_runs.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 
 #include "tests/apps/run_program.h"
 #include "tests/apps/test_folder.h"
-#include "tests/validation/validate_runs.h"
+#include "tests/validation/validate/validate_runs.h"
 
 /// `fathom validate` with Embree as it is installed (FATHOM_PEERS).
 namespace fathom::test {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "fathom/numeric/rounding.h"
-#include "tests/mesh_files/gltf_asset.h"
+#include "tests/mesh_files/gltf/gltf_asset.h"
 
 namespace fathom {
 namespace {

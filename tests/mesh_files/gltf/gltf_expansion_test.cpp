@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fathom/mesh_files/expansion_budget.h"
-#include "tests/mesh_files/gltf_asset.h"
+#include "tests/mesh_files/gltf/gltf_asset.h"
 
 namespace fathom {
 namespace {

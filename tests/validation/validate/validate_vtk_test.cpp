@@ -9,7 +9,7 @@
 #include "tests/apps/run_program.h"
 #include "tests/apps/test_folder.h"
 #include "tests/places.h"
-#include "tests/validation/validate_runs.h"
+#include "tests/validation/validate/validate_runs.h"
 
 /// `fathom validate` with VTK as it is installed (FATHOM_PEERS): its depths and its colours.
 namespace fathom::test {
