@@ -278,7 +278,8 @@ np.save('one.npy', np.vstack([np.loadtxt('poses.txt').reshape(3, 4), [0, 0, 0, 1
 np.save('K.npy', np.loadtxt('K.txt')[None])
 np.save('wrong.npy', np.zeros((2, 3)))
 np.savez('one.npz', poses=np.load('poses.npy'))
-np.savez_compressed('both.npz', poses=np.load('poses.npy'), K=np.load('K.npy'), names=np.array(['a']))
+np.savez_compressed('both.npz', poses=np.load('poses.npy'), K=np.load('K.npy'),
+                    names=np.array(['a']))
 camera, = load('text.json')
 c2w = np.vstack([np.loadtxt('poses.txt').reshape(3, 4), [0, 0, 0, 1]])
 for p in ((0.1, 0.2, 3), (-0.4, 0.25, 2)):

@@ -394,7 +394,8 @@ for i in range(40):
         assert Fraction(at) + Fraction(c) == edge
     corners = [(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])]
     pathlib.Path(f"models/obj_{i + 1:06}.ply").write_text(
-        "ply\nformat ascii 1.0\nelement vertex 4\n" + "".join(f"property double {a}\n" for a in "xyz") +
+        "ply\nformat ascii 1.0\nelement vertex 4\n" +
+        "".join(f"property double {a}\n" for a in "xyz") +
         "element face 1\nproperty list uchar int vertex_indices\nend_header\n" +
         "".join(f"{a!r} {b!r} 0\n" for a, b in corners) + "4 0 1 2 3\n")
     cameras[i] = {"cam_K": [1, 0, cx, 0, 1, cy, 0, 0, 1], "depth_scale": 0.001}
@@ -418,9 +419,11 @@ for i, (left, right, top, bottom, area) in json.load(open("truth.json")).items()
         assert np.array_equal(mask, expected), (kind, i)
     info, = found[i]
     count = int((expected != 0).sum())
-    assert (info["px_count_all"], info["px_count_visib"], info["visib_fract"]) == (count, count, 1), info
+    counts = info["px_count_all"], info["px_count_visib"], info["visib_fract"]
+    assert counts == (count, count, 1), info
     assert info["bbox_obj"] == info["bbox_visib"] == [left, top, right - left, bottom - top], info
-    assert (info["area_all"], info["area_visib"], info["visib_area_fract"]) == (area, area, 1), (info, area)
+    areas = info["area_all"], info["area_visib"], info["visib_area_fract"]
+    assert areas == (area, area, 1), (info, area)
 )";
 
 // In binary64, cx + width is another principal point: masks were shifted against mask_visib/, and
@@ -454,7 +457,8 @@ for i in range(150):
     if i == 0:
         depth = 1000.75
     cameras[i] = {"cam_K": [100, 0, 9.5, 0, 100, 4.5, 0, 0, 1], "depth_scale": scale}
-    poses[i] = [{"cam_R_m2c": [9999, 0, 0, 0, 9999, 0, 0, 0, 1], "cam_t_m2c": [0, 0, depth], "obj_id": 1}]
+    poses[i] = [{"cam_R_m2c": [9999, 0, 0, 0, 9999, 0, 0, 0, 1], "cam_t_m2c": [0, 0, depth],
+                 "obj_id": 1}]
     truth[i] = round(Fraction(depth) / Fraction(scale))  # ties to even
 pathlib.Path("000001/scene_camera.json").write_text(json.dumps(cameras))
 pathlib.Path("000001/scene_gt.json").write_text(json.dumps(poses))
@@ -467,7 +471,8 @@ import cv2
 truth = json.load(open("truth.json"))
 assert truth["0"] == 10007
 wrong = {i: (code, int(depth)) for i, code in truth.items()
-         if (depth := cv2.imread(f"exact/depth/{int(i):06}.png", cv2.IMREAD_UNCHANGED)[5, 10]) != code}
+         if (depth := cv2.imread(f"exact/depth/{int(i):06}.png",
+                                 cv2.IMREAD_UNCHANGED)[5, 10]) != code}
 assert not wrong, wrong
 )";
 

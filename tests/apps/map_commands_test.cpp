@@ -212,7 +212,8 @@ import numpy as np
 def read(name, kind):
     header, body = open(name, 'rb').read().split(b'end_header\n', 1)
     assert b'format binary_little_endian 1.0' in header and b'element vertex 16' in header
-    fields = [line.split()[1:] for line in header.decode().splitlines() if line.startswith('property')]
+    fields = [line.split()[1:] for line in header.decode().splitlines()
+              if line.startswith('property')]
     types = {'double': '<f8', 'float': '<f4', 'uint': '<u4', 'int': '<i4', 'uint32': '<u4'}
     points = np.frombuffer(body, [(n, types[t]) for t, n in fields])
     assert len(points) == 16 and points['x'].dtype == kind

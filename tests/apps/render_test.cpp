@@ -177,7 +177,8 @@ TEST_F(Rendering, TheSavedCameraGivesTheSameMap) {
   run_python(inside_in_python + R"(
 import OpenImageIO as oiio
 map = oiio.ImageInput.open('first.exr')
-depth = np.asarray(map.read_image(oiio.FLOAT)).reshape(48, 64, 2)[:, :, map.spec().channelindex('Z')]
+channels = np.asarray(map.read_image(oiio.FLOAT)).reshape(48, 64, 2)
+depth = channels[:, :, map.spec().channelindex('Z')]
 seen = np.isfinite(depth)
 # The whole square is framed: something is seen, and nothing touches the border.
 assert seen.any() and not (seen[0].any() or seen[-1].any() or seen[:, 0].any() or seen[:, -1].any())

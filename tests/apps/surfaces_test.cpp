@@ -22,7 +22,8 @@ class Surfaces : public ::testing::Test {
   void SetUp() override {
     folder_.write("cubes.json", R"({"meshes": [{"file": ")" + meshes + R"(cube.obj", "name": "one"},
       {"file": ")" + meshes + R"(cube.obj", "name": "two",
-       "transform": [[0.75, 0.25, 0.5, 0.625], [-0.25, 1, 0.375, 0.5], [-0.5, 0.125, 0.75, 0.25]]}]})");
+       "transform": [[0.75, 0.25, 0.5, 0.625], [-0.25, 1, 0.375, 0.5],
+                     [-0.5, 0.125, 0.75, 0.25]]}]})");
   }
   std::string answer(const std::vector<std::string>& arguments) const {
     const Outcome outcome = run_fathom(arguments, {.folder = folder_.path()});
@@ -142,7 +143,8 @@ TEST_F(Surfaces, VisibleTellsAreasAsJsonAndCsv) {
                 "v -1 -1 2\nv 1 -1 2\nv 1 1 2\nv -1 1 2\nf 1 2 3 4\n"
                 "v 0 -1 1\nv 1 -1 1\nv 1 1 1\nv 0 1 1\nf 5 6 7 8\n");
   folder_.write("camera.json", R"({"width": 8, "height": 6, "projection": "orthographic",
-    "fx": 1, "fy": 1, "cx": 4, "cy": 3, "pixel_centre": 0.5, "world_to_camera": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]})");
+    "fx": 1, "fy": 1, "cx": 4, "cy": 3, "pixel_centre": 0.5,
+    "world_to_camera": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]})");
   const Json json =
       Json::parse(answer({"visible", "two.obj", "--camera", "camera.json", "--json"}));
   EXPECT_EQ(json["objects"][0]["visible"], 4.0);
@@ -165,7 +167,8 @@ TEST_F(Surfaces, CoplanarTellsWhatLiesCloseBehind) {
                 "v -1 -1 2\nv 1 -1 2\nv 1 1 2\nf 1 2 3\n"
                 "v -1 -1 2.25\nv 1 -1 2.25\nv 1 1 2.25\nf 4 5 6\n");
   folder_.write("camera.json", R"({"width": 8, "height": 6, "projection": "orthographic",
-    "fx": 1, "fy": 1, "cx": 4, "cy": 3, "pixel_centre": 0.5, "world_to_camera": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]})");
+    "fx": 1, "fy": 1, "cx": 4, "cy": 3, "pixel_centre": 0.5,
+    "world_to_camera": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]})");
   const std::vector<std::string> coplanar{"coplanar", "two.obj", "--camera", "camera.json"};
   EXPECT_EQ(answer(coplanar), "0 coplanar pairs within 0\n");
   std::vector<std::string> within = coplanar;

@@ -153,14 +153,12 @@ TEST(ImportNerf, WarnsOfGeometryTellsDistortionAndNamesFaults) {
   }
   EXPECT_THAT(fault(R"({"fl_x": 1, "w": 6, "h": 4, "frames": [{}]})"),
               HasSubstr("\"transform_matrix\" is missing"));
-  EXPECT_THAT(
-      fault(
-          R"({"fl_x": 1, "w": 6, "h": 4, "frames": [{"transform_matrix": [[1,2,0,0],[2,4,0,0],[0,0,1,0],[0,0,0,1]]}]})"),
-      HasSubstr("frames[0].transform_matrix: the matrix is singular"));
-  EXPECT_THAT(
-      fault(
-          R"({"fl_x": 1, "w": 6, "h": 4, "frames": [{"transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,2]]}]})"),
-      HasSubstr("expected the last row"));
+  EXPECT_THAT(fault(R"({"fl_x": 1, "w": 6, "h": 4, "frames": [{"transform_matrix": )"
+                    R"([[1,2,0,0],[2,4,0,0],[0,0,1,0],[0,0,0,1]]}]})"),
+              HasSubstr("frames[0].transform_matrix: the matrix is singular"));
+  EXPECT_THAT(fault(R"({"fl_x": 1, "w": 6, "h": 4, "frames": [{"transform_matrix": )"
+                    R"([[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,2]]}]})"),
+              HasSubstr("expected the last row"));
 }
 
 TEST(ImportNerf, ReadsTheFileInTheData) {

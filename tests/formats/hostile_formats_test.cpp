@@ -107,7 +107,8 @@ with zipfile.ZipFile('bomb.3mf', 'w', zipfile.ZIP_DEFLATED) as z:
     z.writestr('_rels/.rels', '<?xml version="1.0"?><Relationships xmlns='
                '"http://schemas.openxmlformats.org/package/2006/relationships"><Relationship '
                'Target="/3D/3dmodel.model" Id="r" '
-               'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>')
+               'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>'
+               '</Relationships>')
     with z.open('3D/3dmodel.model', 'w', force_zip64=True) as f:
         f.write(b'<?xml version="1.0"?><model>')
         for _ in range(1024): f.write(b' ' * (1 << 20))

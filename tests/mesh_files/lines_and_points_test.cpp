@@ -94,7 +94,8 @@ TEST_F(LinesAndPoints, OfPly) {
 
 /// Four vertices at (0,0,0), (1,0,0), (2,0,0), (3,0,0), and a primitive of each mode.
 std::string gltf(int mode) {
-  return R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "scene": 0, "nodes": [{"mesh": 0}],
+  return R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "scene": 0,
+    "nodes": [{"mesh": 0}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": )" +
          std::to_string(mode) + R"(}]}],
     "accessors": [{"bufferView": 0, "componentType": 5121, "count": 4, "type": "VEC3",

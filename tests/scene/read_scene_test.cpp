@@ -79,9 +79,9 @@ TEST_F(ReadScene, FormatOptionTakesThePlaceOfRecognition) {
 
 TEST_F(ReadScene, PlacesMeshesExactly) {
   folder.write("a.obj", triangle);
-  const auto file = folder.write(
-      "s.json",
-      R"({"meshes": [{"file": "a.obj", "name": "one", "transform": [[0.1,0,0,1e-150],[0,2,0,0],[0,0,1,1e150]]},
+  const auto file = folder.write("s.json",
+                                 R"({"meshes": [{"file": "a.obj", "name": "one",
+                      "transform": [[0.1,0,0,1e-150],[0,2,0,0],[0,0,1,1e150]]},
                      {"file": "a.obj"}]})");
   const Scene scene = read({file});
   ASSERT_EQ(scene.objects.size(), 2U);
@@ -101,12 +101,15 @@ TEST_F(ReadScene, PlacesGltfNodesWithin) {
   folder.write("a.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
     "nodes": [{"mesh": 0, "name": "n", "translation": [1, 2, 3]}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0,0,0], "max": [0,0,0]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [0,0,0], "max": [0,0,0]}],
     "bufferViews": [{"buffer": 0, "byteLength": 36}],
-    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}]})");
-  const auto file = folder.write(
-      "s.json",
-      R"({"meshes": [{"file": "a.gltf", "name": "g", "transform": [[2,0,0,10],[0,2,0,20],[0,0,2,30]]}]})");
+    "buffers": [{"byteLength": 36,
+                 "uri": "data:application/octet-stream;base64,)"
+                         R"(AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}]})");
+  const auto file = folder.write("s.json",
+                                 R"({"meshes": [{"file": "a.gltf", "name": "g",
+                      "transform": [[2,0,0,10],[0,2,0,20],[0,0,2,30]]}]})");
   const Scene scene = read({file});
   ASSERT_EQ(scene.objects.size(), 1U);
   EXPECT_EQ(scene.objects[0].name, "g");
@@ -135,10 +138,10 @@ TEST_F(ReadScene, RefusesBadSceneFiles) {
       scene_failure(
           R"({"meshes": [{"file": "a.obj", "transform": [[1,0,0,0],[1,0,0,0],[1,0,0,"x"]]}]})"),
       HasSubstr("meshes[0].transform[2][3]"));
-  EXPECT_THAT(
-      scene_failure(
-          R"({"meshes": [{"file": "a.obj", "transform": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,1,1]]}]})"),
-      HasSubstr("expected 0 0 0 1"));
+  EXPECT_THAT(scene_failure(
+                  R"({"meshes": [{"file": "a.obj",
+                            "transform": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,1,1]]}]})"),
+              HasSubstr("expected 0 0 0 1"));
   EXPECT_THAT(
       scene_failure(
           R"({"meshes": [{"file": "a.obj", "transform": [[1,0,0,1e400],[0,1,0,0],[0,0,1,0]]}]})"),

@@ -34,7 +34,8 @@ Function function_named(const char* name) {
 }
 
 constexpr const char* whole_window = R"(#version 330
-uniform vec3 plane;  // of the depth in normalised device coordinates: along x, along y, in the middle
+// Of the depth in normalised device coordinates: along x, along y, in the middle.
+uniform vec3 plane;
 void main() {
   vec2 corner = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID & 2) - 1);
   gl_Position = vec4(corner, dot(plane.xy, corner) + plane.z, 1);

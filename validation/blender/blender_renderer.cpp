@@ -117,8 +117,9 @@ std::string scene_json(const Camera& camera, const BlenderCamera& b) {
                         m[4 * r + 1], m[4 * r + 2], m[4 * r + 3]);
   }
   return fmt::format(
-      R"({{"camera": {{"perspective": {}, "lens": {:.17g}, "ortho_scale": {:.17g}, "shift_x": {:.17g}, "shift_y": {:.17g},
- "aspect_x": {:.17g}, "aspect_y": {:.17g}, "near": {:.17g}, "far": {:.17g}, "width": {}, "height": {},
+      R"({{"camera": {{"perspective": {}, "lens": {:.17g}, "ortho_scale": {:.17g},
+ "shift_x": {:.17g}, "shift_y": {:.17g}, "aspect_x": {:.17g}, "aspect_y": {:.17g},
+ "near": {:.17g}, "far": {:.17g}, "width": {}, "height": {},
  "world_from_camera": [{}]}}}})",
       b.perspective ? "true" : "false", b.lens, b.ortho_scale, b.shift_x, b.shift_y, b.aspect_x,
       b.aspect_y, camera.near, camera.far, camera.width, camera.height, rows);

@@ -14,28 +14,42 @@ namespace {
 constexpr double margin = 20;
 
 /// The colours of both themes once, as variables; kinds use nothing else.
-constexpr const char* style = R"(
-svg.fathom-steps { --ink: #1b1f24; --faint: #6a727c; --paper: #ffffff; --soft: #e8edf2; --a: #c62828; --b: #1565c0;
+constexpr const char* style =
+    R"(
+svg.fathom-steps { --ink: #1b1f24; --faint: #6a727c; --paper: #ffffff; --soft: #e8edf2; )"
+    R"(--a: #c62828; --b: #1565c0;
   --c: #1b7f3b; --d: #9a6700; font: 13px system-ui, "DejaVu Sans", sans-serif; }
 @media (prefers-color-scheme: dark) {
-  svg.fathom-steps { --ink: #e6e8eb; --faint: #98a1ab; --paper: #16181b; --soft: #2a3038; --a: #ff7b72; --b: #79b8ff;
+  svg.fathom-steps { --ink: #e6e8eb; --faint: #98a1ab; --paper: #16181b; --soft: #2a3038; )"
+    R"(--a: #ff7b72; --b: #79b8ff;
     --c: #56d364; --d: #e3b341; }
 }
 .paper { fill: var(--paper); }
-text { paint-order: stroke; stroke: var(--paper); stroke-width: 3px; stroke-linejoin: round; }
-.text { fill: var(--ink); } .title { fill: var(--ink); font-weight: 600; font-size: 15px; } .note { fill: var(--faint); }
-.number { fill: var(--ink); } .number, .small { font-family: ui-monospace, "DejaVu Sans Mono", monospace; }
-.number { font-size: 13px; } .small { fill: var(--ink); font-size: 11px; } .label { fill: var(--ink); font-size: 13px; }
-.ink, .thin, .a, .b, .c, .d { fill: none; stroke-width: 1.5; } .ink { stroke: var(--ink); } .thin { stroke: var(--faint); stroke-width: 1; }
-.a { stroke: var(--a); stroke-width: 2.2; } .b { stroke: var(--b); stroke-width: 2.2; } .c { stroke: var(--c); stroke-width: 2.2; }
+text { paint-order: stroke; stroke: var(--paper); stroke-width: 3px; )"
+    R"(stroke-linejoin: round; }
+.text { fill: var(--ink); } )"
+    R"(.title { fill: var(--ink); font-weight: 600; font-size: 15px; } .note { fill: var(--faint); }
+.number { fill: var(--ink); } )"
+    R"(.number, .small { font-family: ui-monospace, "DejaVu Sans Mono", monospace; }
+.number { font-size: 13px; } .small { fill: var(--ink); font-size: 11px; } )"
+    R"(.label { fill: var(--ink); font-size: 13px; }
+.ink, .thin, .a, .b, .c, .d { fill: none; stroke-width: 1.5; } )"
+    R"(.ink { stroke: var(--ink); } .thin { stroke: var(--faint); stroke-width: 1; }
+.a { stroke: var(--a); stroke-width: 2.2; } .b { stroke: var(--b); stroke-width: 2.2; } )"
+    R"(.c { stroke: var(--c); stroke-width: 2.2; }
 .d { stroke: var(--d); stroke-width: 2.2; }
-.soft { fill: var(--soft); stroke: none; } .cell { fill: none; stroke: var(--faint); stroke-opacity: 0.35; }
-.fill-a, .fill-b, .fill-c, .fill-d { fill-opacity: 0.22; stroke: none; } .fill-a { fill: var(--a); } .fill-b { fill: var(--b); }
+.soft { fill: var(--soft); stroke: none; } )"
+    R"(.cell { fill: none; stroke: var(--faint); stroke-opacity: 0.35; }
+.fill-a, .fill-b, .fill-c, .fill-d { fill-opacity: 0.22; stroke: none; } )"
+    R"(.fill-a { fill: var(--a); } .fill-b { fill: var(--b); }
 .fill-c { fill: var(--c); } .fill-d { fill: var(--d); }
-.band-a, .band-b { fill-opacity: 0.09; stroke: none; } .band-a { fill: var(--a); } .band-b { fill: var(--b); }
-.dot { fill: var(--ink); } .dot-a { fill: var(--a); } .dot-b { fill: var(--b); } .dot-c { fill: var(--c); } .dot-d { fill: var(--d); }
+.band-a, .band-b { fill-opacity: 0.09; stroke: none; } .band-a { fill: var(--a); } )"
+    R"(.band-b { fill: var(--b); }
+.dot { fill: var(--ink); } .dot-a { fill: var(--a); } .dot-b { fill: var(--b); } )"
+    R"(.dot-c { fill: var(--c); } .dot-d { fill: var(--d); }
 .swatch { stroke: var(--faint); }
-.text-a { fill: var(--a); font-weight: 600; } .text-b { fill: var(--b); font-weight: 600; } .text-c { fill: var(--c); font-weight: 600; }
+.text-a { fill: var(--a); font-weight: 600; } )"
+    R"(.text-b { fill: var(--b); font-weight: 600; } .text-c { fill: var(--c); font-weight: 600; }
 .text-d { fill: var(--d); font-weight: 600; }
 )";
 

@@ -272,8 +272,10 @@ TEST(Clip, TheTraceShowsListsAndWalks) {
       {"point": ["6", "6"]}, {"point": ["2", "6"]},
       {"point": ["2", "4"], "kind": "leaving", "crossing": 1}]])"));
   EXPECT_EQ(trace["walks"], Json::parse(R"([[
-      {"from": ["4", "2"], "along": "subject", "crossing": 0}, {"from": ["4", "4"], "along": "subject"},
-      {"from": ["2", "4"], "along": "clip", "crossing": 1}, {"from": ["2", "2"], "along": "clip"}]])"));
+      {"from": ["4", "2"], "along": "subject", "crossing": 0},
+      {"from": ["4", "4"], "along": "subject"},
+      {"from": ["2", "4"], "along": "clip", "crossing": 1},
+      {"from": ["2", "2"], "along": "clip"}]])"));
 }
 
 TEST(Clip, AreaIsAFractionAndSeventeenDigits) {
@@ -385,10 +387,10 @@ TEST(Clip, SutherlandHodgmanRingByRingAndInSpace) {
   const Json pieces = answer("sutherland-hodgman", in_pieces);
   EXPECT_EQ(pieces["polygons"].size(), 2u);
   EXPECT_EQ(pieces["area_exact"], "1");
-  const Json space = answer(
-      "sutherland-hodgman",
-      R"({"polygon3": [[0,0,0],[2,0,0],[0,2,0]], "planes": [[1,0,0,-1]], "attributes": [[0],[2],[4]]})",
-      {"--trace"});
+  const Json space = answer("sutherland-hodgman",
+                            R"({"polygon3": [[0,0,0],[2,0,0],[0,2,0]], "planes": [[1,0,0,-1]], )"
+                            R"("attributes": [[0],[2],[4]]})",
+                            {"--trace"});
   EXPECT_EQ(space["polygon3"], Json::parse("[[0.0,0,0],[1,0,0],[1,1,0],[0,2,0]]"));
   EXPECT_EQ(space["attributes"], Json::parse("[[0.0],[1],[3],[4]]"));
   EXPECT_EQ(space["trace"].size(), 1u);

@@ -575,7 +575,8 @@ TEST(PipelineCommand, StagesByHand) {
   // What is nearer wins, in either order.
   const std::string fragments =
       R"("fragments": [{"pixel": [0,0], "window_z": 0.5, "colour": [1,0,0]},
-    {"pixel": [0,0], "window_z": 0.75, "colour": [0,1,0]}, {"pixel": [1,0], "window_z": 0.25, "colour": [0,0,1]}])";
+    {"pixel": [0,0], "window_z": 0.75, "colour": [0,1,0]},
+    {"pixel": [1,0], "window_z": 0.25, "colour": [0,0,1]}])";
   const Json merged =
       run_stage("output-merger", Json::parse("{\"width\": 2, \"height\": 1, " + fragments + "}"));
   EXPECT_EQ(merged["merged"][1]["tests"]["outcome"], "depth test failed");
