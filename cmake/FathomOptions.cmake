@@ -47,7 +47,8 @@ function(fathom_target_options target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -fno-tree-slp-vectorize)
   endif()
-  # A few large compilations read the headers of the standard library once instead of eight times.
+  # Unity builds stay for the user's first build: a few large compilations read the headers of the standard library,
+  # Eigen and CGAL once instead of up to eight times. Their price: names in anonymous namespaces are unique in a target.
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${FATHOM_UNITY} UNITY_BUILD_BATCH_SIZE 8)
   if(FATHOM_UNITY AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     # It would complain of names of the other sources; GCC sees what is shadowed within one.

@@ -21,7 +21,6 @@ namespace fathom::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Ask = DepthAnswer (*)(const DepthQuestion&);
 
 /// What is asked about a depth format: `text` is one VALUE.
 struct DepthQuestion {
@@ -145,6 +144,8 @@ struct DepthArguments {
   bool clamp = false, json = false;
   std::vector<std::string> values;
 };
+
+using Ask = DepthAnswer (*)(const DepthQuestion&);
 
 /// One of the questions, as a command.
 struct DepthCommand {

@@ -14,7 +14,6 @@ namespace fathom::validation {
 namespace {
 
 using attribution::CameraRays;
-using Arrays = RTCRayHitNt<stream_length>;
 
 Binary32View::Affine narrowed(const CameraRays::Affine& f) {
   const auto narrow = [](const std::array<double, 3>& v) {
@@ -95,6 +94,7 @@ constexpr std::uint32_t stream_side = 8;
 constexpr std::uint32_t stream_length = stream_side * stream_side;
 
 /// The rays of a stream as an array for each of their parts.
+using Arrays = RTCRayHitNt<stream_length>;
 
 void trace_block(RTCScene scene, const Block& block, const Binary32View& view,
                  const TracedImages& images, Arrays& rays) {

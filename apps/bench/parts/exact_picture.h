@@ -10,9 +10,8 @@
 /// no code with what it judges but the plane of a triangle's depth.
 namespace fathom::bench {
 
-using Picture = std::vector<double>;
-
 /// A number for each pixel, row by row; several such pictures one after another.
+using Picture = std::vector<double>;
 
 /// Whether the centre of a pixel belongs to a triangle. Half-open: whether it does when it is moved
 /// to the right by less than any number, and down by far less.
