@@ -38,7 +38,8 @@ def in_fish(lines: list[str], folder) -> list[list[str]]:
     script = ["source script.fish"]
     for line in lines:
         script += [f"complete -C '{line}'", "echo END"]
-    environment = os.environ | {"PATH": path_with_program(), "HOME": str(folder), "XDG_CONFIG_HOME": str(folder / "config"), "LC_ALL": "C.UTF-8"}
+    environment = os.environ | {"PATH": path_with_program(), "HOME": str(folder),
+                                "XDG_CONFIG_HOME": str(folder / "config"), "LC_ALL": "C.UTF-8"}
     outcome = subprocess.run(["fish", "--no-config"], input="\n".join(script), capture_output=True, text=True, cwd=folder,
                              env=environment)
     assert outcome.stderr == ""

@@ -138,8 +138,9 @@ calls = {
     "testing.assert_depth": judged,
     "testing.keep_report": lambda g: g.files("kept", lambda folder: fathom.testing.keep_report(folder, g.map["Z"], g.camera, g.validation)),
     "Camera.from_opencv": lambda g: Camera.from_opencv(K, turned, (8, 6), pixel_centre=0),
-    "Camera.from_opengl": lambda g: Camera.from_opengl(np.diag([1.1, 1.3, -1.2, 0]) + np.eye(4, k=1) * -0.3 - np.eye(4, k=-1) * (np.arange(4) == 2),
-                                                       np.diag([1.0, 1, 1, 1]), (8, 6)),
+    "Camera.from_opengl": lambda g: Camera.from_opengl(
+        np.diag([1.1, 1.3, -1.2, 0]) + np.eye(4, k=1) * -0.3 - np.eye(4, k=-1) * (np.arange(4) == 2),
+        np.diag([1.0, 1, 1, 1]), (8, 6)),
     "Camera.look_at": lambda g: Camera.look_at((1, 0.2, 0.3), (0.1, 0.7, 9), **lens),
     "Camera.orbit": lambda g: Camera.orbit(3, centre=(0.1, 0.2, 0.3), distance=7.7, **lens),
     "Camera.frame": lambda g: Camera.frame(g.scene, azimuth=35, elevation=20.1, **lens),

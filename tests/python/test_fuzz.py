@@ -28,7 +28,10 @@ types = st.sampled_from([np.float64, np.float32, np.float16, np.int32, np.uint32
 @st.composite
 def arrays(draw, *shapes):
     """Mostly of a shape and a type that fit, with numbers of all sizes; now and then of any other."""
-    shape = draw(st.sampled_from(shapes)) if draw(st.integers(0, 9)) else draw(hnp.array_shapes(min_dims=0, max_dims=4, min_side=0, max_side=5))
+    if draw(st.integers(0, 9)):
+        shape = draw(st.sampled_from(shapes))
+    else:
+        shape = draw(hnp.array_shapes(min_dims=0, max_dims=4, min_side=0, max_side=5))
     kind = draw(st.sampled_from(["near", "integers", "any"]))
     if kind == "near":
         array = draw(hnp.arrays(np.float64, shape, elements=st.floats(-4, 4)))
