@@ -69,8 +69,8 @@ void check_single_channel(const RenderArguments& a, MapFormat format,
     throw UsageError(fmt::format("{} holds one channel, not '{}'; {} hold them all", a.output,
                                  text_of(channels), suffixes_of_complete_maps()));
   }
-  const Channel only = channels.front();
-  if (format == MapFormat::png && (only == Channel::A || only == Channel::Zlow)) {
+  const bool has_codes = description_of(channels.front()).type != ChannelType::binary32;
+  if (format == MapFormat::png && !has_codes) {
     throw UsageError(fmt::format("{}: a PNG holds depths or numbers, not {}; there is .exr",
                                  a.output, text_of(channels)));
   }
