@@ -11,7 +11,7 @@
 #include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
-#include "fathom/image/missing_channel.h"
+#include "fathom/image/channel_table.h"
 #include "fathom/rendering/option_names.h"
 
 namespace fathom::app {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "fathom/failures/unknown_name.h"
+
 namespace fathom {
 namespace {
 
@@ -32,16 +34,19 @@ std::vector<std::string> part_names(Channel channel) {
 }
 
 bool shows_segments(std::string_view channel) {
-  return channel == "material" || channel == "group" || channel == "part" || channel == "label";
+  return std::ranges::any_of(segment_channels,
+                             [&](Channel c) { return description_of(c).name == channel; });
+}
+
+std::vector<std::string> names_of_channels() {
+  std::vector<std::string> names;
+  names.reserve(channel_table.size());
+  for (const ChannelDescription& channel : channel_table) names.emplace_back(channel.name);
+  return names;
 }
 
 std::string channel_names() {
-  std::string names;
-  for (std::size_t i = 0; i < channel_table.size(); ++i) {
-    if (i > 0) names += i + 1 == channel_table.size() ? " and " : ", ";
-    names += channel_table[i].name;
-  }
-  return names;
+  return joined(names_of_channels());
 }
 
 }  // namespace fathom

@@ -97,9 +97,16 @@ std::optional<Channel> channel_named(std::string_view name);
 /// The names of its parts, "N.X", "N.Y" and "N.Z"; for a single channel, its own name.
 std::vector<std::string> part_names(Channel channel);
 
-/// Whether a channel has no_segment where a surface without a segment is visible: channels of
-/// materials, groups, parts and labels.
+/// The channels of materials, groups, parts and labels, in the order of Segmentation (mesh/).
+inline constexpr std::array segment_channels{Channel::material, Channel::group, Channel::part,
+                                             Channel::label};
+
+/// Whether a channel has no_segment where a surface without a segment is visible: one of
+/// segment_channels.
 bool shows_segments(std::string_view channel);
+
+/// The names of all channels, in the order of channel_table.
+std::vector<std::string> names_of_channels();
 
 /// "Z, A, Zlow, … and bary"
 std::string channel_names();

@@ -58,13 +58,6 @@ UnknownName channel_suggested(const std::string& message, const std::string& nam
 
 }  // namespace
 
-std::vector<std::string> names_of_channels() {
-  std::vector<std::string> names;
-  names.reserve(channel_table.size());
-  for (const ChannelDescription& channel : channel_table) names.emplace_back(channel.name);
-  return names;
-}
-
 UnknownName unknown_channel(const std::string& name) {
   return channel_suggested("there is no channel '" + name + "'; there are " + channel_names(), name,
                            names_of_channels());

@@ -10,9 +10,6 @@
 /// also for words of other programs ("depth" for Z).
 namespace fathom {
 
-/// The names of all channels that can be rendered, in the order of channel_table.
-std::vector<std::string> names_of_channels();
-
 /// The error of a name that channel_named() does not know: "there is no channel 'depth'; there are
 /// Z, A, …; did you mean 'Z'?"
 UnknownName unknown_channel(const std::string& name);

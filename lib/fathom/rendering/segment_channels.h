@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -10,13 +9,13 @@
 /// Which channels show how a scene is divided into segments.
 namespace fathom {
 
-/// In the order of Segmentation.
-inline constexpr std::array segment_channels{Channel::material, Channel::group, Channel::part,
-                                             Channel::label};
-
-inline Channel channel_of(Segmentation by) {
+constexpr Channel channel_of(Segmentation by) {
   return segment_channels[static_cast<std::size_t>(by)];
 }
+static_assert(channel_of(Segmentation::material) == Channel::material &&
+              channel_of(Segmentation::group) == Channel::group &&
+              channel_of(Segmentation::part) == Channel::part &&
+              channel_of(Segmentation::label) == Channel::label);
 
 /// The segmentation that a channel shows; nullopt for other channels.
 inline std::optional<Segmentation> segmentation_of(Channel channel) {
