@@ -3,7 +3,6 @@
 #include <algorithm>
 
 namespace fathom::reference {
-using namespace triangle;
 
 ChosenRows::ChosenRows(const PixelChoice& chosen, std::uint32_t width, std::uint32_t height,
                        std::uint32_t first_row, std::size_t enough)

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "fathom/geometry/pixel_box.h"
 #include "fathom/reference/verify.h"
-#include "fathom/triangle/projected_triangle.h"
 
 namespace fathom::reference {
 

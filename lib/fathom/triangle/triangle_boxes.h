@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "fathom/geometry/approximate_row.h"
-#include "fathom/triangle/projected_triangle.h"
+#include "fathom/geometry/pixel_box.h"
+#include "fathom/scene/scene.h"
 
 namespace fathom::triangle {
 

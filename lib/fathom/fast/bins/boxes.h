@@ -7,8 +7,9 @@
 
 #include "fathom/fast/bins/nearness.h"
 #include "fathom/fast/bins/tiles_met.h"
+#include "fathom/geometry/pixel_box.h"
+#include "fathom/mesh/mesh.h"
 #include "fathom/rendering/options.h"
-#include "fathom/triangle/projected_triangle.h"
 
 namespace fathom::fast {
 

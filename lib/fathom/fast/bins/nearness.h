@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "fathom/triangle/projected_triangle.h"
+#include "fathom/geometry/pixel_box.h"
 
 namespace fathom::fast {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "fathom/triangle/projected_triangle.h"
+#include "fathom/geometry/pixel_box.h"
 
 namespace fathom::fast {
 

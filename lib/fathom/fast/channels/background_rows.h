@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "fathom/fast/channels/map_rows.h"
+#include "fathom/geometry/pixel_box.h"
 #include "fathom/rendering/map_of_camera.h"
-#include "fathom/triangle/projected_triangle.h"
 
 namespace fathom::fast {
 

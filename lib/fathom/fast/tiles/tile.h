@@ -10,7 +10,7 @@
 #include "fathom/fast/setup/setup.h"
 #include "fathom/fast/tiles/draw_context.h"
 #include "fathom/fast/tiles/tile_surface.h"
-#include "fathom/triangle/projected_triangle.h"
+#include "fathom/geometry/pixel_box.h"
 
 namespace fathom::fast {
 
