@@ -16,18 +16,18 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The eye and the line of sight in the world, rounded from the exact inverse.
-struct Pose {
+struct LineOfSight {
   std::array<double, 3> eye{}, forward{};
 };
 
-Pose pose_of(const Camera& camera) {
-  const auto world_from_camera = camera_to_world(camera.world_to_camera);
-  Pose pose;
+LineOfSight line_of_sight(const Camera& camera) {
+  const Pose world_from_camera = camera_to_world(camera.world_to_camera);
+  LineOfSight line;
   for (int i = 0; i < 3; ++i) {
-    pose.eye[i] = world_from_camera[i][3];
-    pose.forward[i] = world_from_camera[i][2];
+    line.eye[i] = world_from_camera[i][3];
+    line.forward[i] = world_from_camera[i][2];
   }
-  return pose;
+  return line;
 }
 
 double degrees_of(double extent, double focal) {
@@ -36,9 +36,9 @@ double degrees_of(double extent, double focal) {
 
 Json describe(const Camera& camera) {
   Json answer = text::parse_json<Json>(fathom::to_json(camera));
-  const Pose pose = pose_of(camera);
-  answer["eye"] = pose.eye;
-  answer["forward"] = pose.forward;
+  const LineOfSight sight = line_of_sight(camera);
+  answer["eye"] = sight.eye;
+  answer["forward"] = sight.forward;
   if (is_perspective(camera.projection)) {
     answer["fov_degrees"] = {degrees_of(camera.width, camera.projection.fx),
                              degrees_of(camera.height, camera.projection.fy)};
@@ -47,11 +47,10 @@ Json describe(const Camera& camera) {
 }
 
 std::string describe_as_text(const Camera& camera) {
-  const Pose pose = pose_of(camera);
+  const LineOfSight sight = line_of_sight(camera);
   const bool perspective = is_perspective(camera.projection);
-  std::string lines =
-      fmt::format("  {} camera of {}x{} pixels\n", perspective ? "perspective" : "orthographic",
-                  camera.width, camera.height);
+  std::string lines = fmt::format("  {} camera of {}x{} pixels\n", name_of(camera.projection.model),
+                                  camera.width, camera.height);
   if (!camera.name.empty())
     lines += fmt::format("    name          {}\n", text::printable(camera.name));
   lines += fmt::format(
@@ -70,7 +69,7 @@ std::string describe_as_text(const Camera& camera) {
   };
   return lines +
          fmt::format("    eye           {}\n    looks along   {}\n    near, far     {}, {}\n",
-                     vector(pose.eye), vector(pose.forward), camera.near, camera.far);
+                     vector(sight.eye), vector(sight.forward), camera.near, camera.far);
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ using namespace text;
 namespace {
 
 ProjectionModel read_model(const JsonValue& value) {
-  if (value.string() == "perspective") return ProjectionModel::perspective;
-  if (value.string() == "orthographic") return ProjectionModel::orthographic;
+  for (const auto model : {ProjectionModel::perspective, ProjectionModel::orthographic})
+    if (value.string() == name_of(model)) return model;
   value.fail("expected \"perspective\" or \"orthographic\"");
 }
 
@@ -175,11 +175,10 @@ std::string to_json(const Camera& camera) {
   const auto member = [&](const char* key, const std::string& value) {
     text += (text.empty() ? "{\n" : ",\n") + ("  \"" + std::string(key) + "\": ") + value;
   };
-  const bool perspective = is_perspective(camera.projection);
   if (!camera.name.empty()) member("name", json_string(camera.name));
   member("width", std::to_string(camera.width));
   member("height", std::to_string(camera.height));
-  member("projection", perspective ? "\"perspective\"" : "\"orthographic\"");
+  member("projection", json_string(name_of(camera.projection.model)));
   member("fx", to_json(camera.projection.fx));
   member("fy", to_json(camera.projection.fy));
   member("cx", to_json(camera.projection.cx));

@@ -19,6 +19,10 @@ Dyadic centred(double c, double pixel_centre) {
 
 }  // namespace
 
+std::string_view name_of(ProjectionModel model) {
+  return model == ProjectionModel::perspective ? "perspective" : "orthographic";
+}
+
 std::optional<std::string> find_fault(const Projection& projection) {
   const StandardArithmetic standard;
   const std::pair<const char*, double> numbers[] = {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "fathom/geometry/frames.h"
 
@@ -9,6 +10,8 @@ namespace fathom {
 
 /// Where the rays of the image come from: the eye, or a plane of parallel rays.
 enum class ProjectionModel { perspective, orthographic };
+/// "perspective" or "orthographic".
+std::string_view name_of(ProjectionModel model);
 
 /// How a camera point becomes an image point, as the specification (section 2) defines it: half of
 /// a camera. Where the camera stands is the other half (pose.h). Every number is the real number
