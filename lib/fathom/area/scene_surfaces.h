@@ -58,9 +58,8 @@ class SceneSurfaces {
     return surfaces_[number];
   }
   [[nodiscard]] const PixelBox& box(std::uint32_t number) const { return boxes_[number]; }
-  /// Whether no triangle of a lower number has the same three corners in the same
-  /// order round; or none of its object. Others
-  /// hide nothing that the first does not hide, and are hidden by it.
+  /// Whether no triangle of a lower number has the same three corners in the same order round; or
+  /// none of its object. Others hide nothing that the first does not hide, and are hidden by it.
   [[nodiscard]] bool is_first(std::uint32_t number) const { return first_[number]; }
   [[nodiscard]] bool is_first_of_object(std::uint32_t number) const {
     return first_of_object_[number];
