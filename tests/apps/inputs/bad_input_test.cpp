@@ -8,9 +8,9 @@
 #include <cstring>
 #include <limits>
 
-#include "run_program.h"
-#include "sample_files.h"
-#include "test_folder.h"
+#include "tests/apps/run_program.h"
+#include "tests/apps/sample_files.h"
+#include "tests/apps/test_folder.h"
 
 namespace fathom::test {
 namespace {

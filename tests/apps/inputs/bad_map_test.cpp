@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "run_program.h"
-#include "sample_files.h"
-#include "test_folder.h"
+#include "tests/apps/run_program.h"
+#include "tests/apps/sample_files.h"
+#include "tests/apps/test_folder.h"
 
 namespace fathom::test {
 namespace {

@@ -6,10 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "faults.h"
-#include "run_program.h"
-#include "sample_files.h"
-#include "test_folder.h"
+#include "tests/apps/faults.h"
+#include "tests/apps/run_program.h"
+#include "tests/apps/sample_files.h"
+#include "tests/apps/test_folder.h"
 
 namespace fathom::test {
 namespace {

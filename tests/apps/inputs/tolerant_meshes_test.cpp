@@ -7,8 +7,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "run_program.h"
-#include "test_folder.h"
+#include "tests/apps/run_program.h"
+#include "tests/apps/test_folder.h"
 
 namespace fathom::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "small_cost.h"
+#include "tests/apps/small_cost.h"
 
 namespace fathom::test {
 namespace {

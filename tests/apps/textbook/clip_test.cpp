@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "run_program.h"
-#include "test_folder.h"
+#include "tests/apps/run_program.h"
+#include "tests/apps/test_folder.h"
 #include "tests/places.h"
 
 namespace fathom::test {

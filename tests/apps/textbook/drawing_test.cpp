@@ -11,8 +11,8 @@
 #include <sstream>
 #include <tuple>
 
-#include "run_program.h"
-#include "test_folder.h"
+#include "tests/apps/run_program.h"
+#include "tests/apps/test_folder.h"
 #include "tests/places.h"
 
 namespace fathom::test {

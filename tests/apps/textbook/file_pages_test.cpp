@@ -12,9 +12,9 @@
 #include <set>
 #include <sstream>
 
-#include "page_examples.h"
-#include "run_program.h"
-#include "test_folder.h"
+#include "tests/apps/run_program.h"
+#include "tests/apps/test_folder.h"
+#include "tests/apps/textbook/page_examples.h"
 #include "tests/places.h"
 
 namespace fathom::test {

@@ -1,4 +1,4 @@
-#include "page_examples.h"
+#include "tests/apps/textbook/page_examples.h"
 
 #include <istream>
 

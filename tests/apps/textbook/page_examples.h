@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "run_program.h"
+#include "tests/apps/run_program.h"
 
 /// The examples of documentation pages, to be run as a reader would.
 namespace fathom::test {

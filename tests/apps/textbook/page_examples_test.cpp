@@ -1,7 +1,7 @@
 // The examples of docs/scan.md, of docs/clipping.md and of `fathom scan --help`, run as a reader
 // would.
 
-#include "page_examples.h"
+#include "tests/apps/textbook/page_examples.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "run_program.h"
-#include "test_folder.h"
+#include "tests/apps/run_program.h"
+#include "tests/apps/test_folder.h"
 #include "tests/places.h"
 
 namespace fathom::test {

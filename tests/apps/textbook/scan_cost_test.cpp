@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "small_cost.h"
+#include "tests/apps/small_cost.h"
 
 namespace fathom::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "run_program.h"
+#include "tests/apps/run_program.h"
 
 namespace fathom::test {
 namespace {
