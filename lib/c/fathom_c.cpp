@@ -16,7 +16,7 @@
 #include "fathom/camera/camera_making.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/map_files.h"
-#include "fathom/mesh/mesh_faces.h"
+#include "fathom/mesh/element_counts.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/verify.h"
 #include "fathom/render.h"

@@ -2,7 +2,6 @@
 
 #include <numeric>
 
-#include "fathom/failures/errors.h"
 #include "fathom/mesh/triangulate_face.h"
 #include "fathom/text/counted.h"
 
@@ -31,12 +30,6 @@ void write_cut(MeshArray<CornerIndices>& list, FanRange fan, const std::vector<C
 
 }  // namespace
 
-void expect_countable(std::uint64_t count, const char* what, const std::string& file) {
-  if (count > most_elements)
-    throw InputError(file + ": " + std::to_string(count) + " " + what +
-                     " are more than the 4294967294 that can be numbered");
-}
-
 void FaceCollector::note_odd_face(std::size_t corners) {
   if (corners < 3) ++skipped_;
   if (odd_) return;
@@ -44,10 +37,6 @@ void FaceCollector::note_odd_face(std::size_t corners) {
   mesh_.face_of_triangle.reserve(mesh_.triangles.capacity());
   mesh_.face_of_triangle.resize(mesh_.triangles.size());
   std::iota(mesh_.face_of_triangle.begin(), mesh_.face_of_triangle.end(), 0U);
-}
-
-void fail_too_many_triangles(const std::string& file) {
-  throw InputError(file + ": more than the 4294967294 triangles that can be numbered");
 }
 
 void warn_of_faces(std::uint64_t skipped, std::uint64_t odd, const std::string& file,

@@ -9,7 +9,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
 #include "fathom/files/sha256.h"
-#include "fathom/mesh/mesh_faces.h"
+#include "fathom/mesh/element_counts.h"
 #include "fathom/mesh_files/expansion_budget.h"
 #include "fathom/mesh_files/foreign_formats.h"
 #include "fathom/mesh_files/named_files.h"

@@ -7,7 +7,7 @@
 
 #include "fathom/camera/camera_making.h"
 #include "fathom/failures/errors.h"
-#include "fathom/mesh/mesh_faces.h"
+#include "fathom/mesh/element_counts.h"
 #include "validation/scenes/generated/generated_stream.h"
 #include "validation/scenes/generated/terrain_heights.h"
 

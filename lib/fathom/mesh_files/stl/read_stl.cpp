@@ -3,7 +3,7 @@
 #include <cctype>
 #include <limits>
 
-#include "fathom/mesh/mesh_faces.h"
+#include "fathom/mesh/element_counts.h"
 #include "fathom/mesh_files/occurrences.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/mesh_files/stl/stl_binary.h"

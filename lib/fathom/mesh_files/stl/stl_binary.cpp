@@ -7,7 +7,6 @@
 #include <cstring>
 
 #include "fathom/failures/errors.h"
-#include "fathom/mesh/mesh_faces.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/text_cursor.h"
 #include "fathom/text/text_ends.h"

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "fathom/failures/errors.h"
-#include "fathom/mesh/mesh_faces.h"
+#include "fathom/mesh/element_counts.h"
 #include "fathom/mesh_files/stl/stl_binary.h"
 #include "fathom/mesh_files/streams.h"
 
