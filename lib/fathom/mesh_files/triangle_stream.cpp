@@ -9,7 +9,7 @@
 #include "fathom/mesh_files/stl/stl_binary.h"
 #include "fathom/mesh_files/streams.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/threads/interruption.h"
+#include "fathom/threads/meanwhile.h"
 
 namespace fathom {
 using namespace mesh_files;
@@ -59,16 +59,9 @@ std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path
   const StandardArithmetic standard;
   auto file = std::make_unique<RandomAccessFile>(path);
   const FileFormat format = format_of(*file, path, options);
-  // The hash is computed during the reading, in a thread of its own if the system gives one, from
-  // a file of its own.
+  // The hash is computed during the reading, from a file of its own.
   std::future<std::string> hash;
-  if (options.hash) {
-    hash = std::async(std::launch::async | std::launch::deferred,
-                      [&path, request = current_interruption()] {
-                        const Interruptible here(request);
-                        return sha256(RandomAccessFile(path));
-                      });
-  }
+  if (options.hash) hash = meanwhile([&path] { return sha256(RandomAccessFile(path)); });
   std::unique_ptr<TriangleStream> stream = open(std::move(file), format, options, warnings);
   stream->source.path = path.string();
   if (hash.valid()) stream->source.sha256 = hash.get();

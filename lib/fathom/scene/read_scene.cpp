@@ -19,7 +19,7 @@
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/scene_json.h"
 #include "fathom/text/printable.h"
-#include "fathom/threads/interruption.h"
+#include "fathom/threads/meanwhile.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom {
@@ -104,16 +104,10 @@ class SceneReader {
     scene_.sources.push_back({path, std::move(hash)});
   }
 
-  /// The hash is computed during the reading, in a thread of its own if the system gives one.
+  /// The hash is computed during the reading.
   void add_mesh_file(FileFormat format, const InputFile& input, const std::filesystem::path& path) {
     std::future<std::string> hash;
-    if (options_.hash) {
-      hash = std::async(std::launch::async | std::launch::deferred,
-                        [&input, request = current_interruption()] {
-                          const Interruptible here(request);
-                          return sha256(input.bytes());
-                        });
-    }
+    if (options_.hash) hash = meanwhile([&input] { return sha256(input.bytes()); });
     const std::string file = path.string();
     const std::size_t source = scene_.sources.size(), first = scene_.objects.size();
     scene_.sources.push_back({file, ""});

@@ -8,6 +8,7 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/scene/element_checks.h"
+#include "fathom/threads/meanwhile.h"
 
 namespace fathom {
 
@@ -110,7 +111,7 @@ void for_each_chunk(const TriangleStream& stream, std::uint32_t triangles, const
   const auto read = [&](std::uint64_t first) -> std::future<TriangleChunk> {
     while (first < end && !wanted(static_cast<std::uint32_t>(first))) first += triangles;
     if (first >= end) return {};
-    return std::async(std::launch::async | std::launch::deferred, [&stream, first, triangles] {
+    return meanwhile([&stream, first, triangles] {
       return stream.read(static_cast<std::uint32_t>(first), triangles);
     });
   };

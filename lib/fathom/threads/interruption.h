@@ -6,7 +6,7 @@
 /// Ends long work early, from another thread.
 namespace fathom {
 
-/// Thrown where work ends because that was asked for. Not a Failure: nothing is wrong.
+/// Thrown where work ends because that was asked for. Not an Error (errors.h): nothing is wrong.
 struct Interrupted {};
 
 /// Where a request to end the work of a thread would be: true once it has been made; nullptr where
