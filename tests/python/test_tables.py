@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import fathom
-from fathom import _core, _render, maps
+from fathom import _core, _render, lens, maps
 
 source = pathlib.Path(os.environ["FATHOM_SOURCE"])
 
@@ -147,6 +147,13 @@ def test_the_header_for_c_has_every_cull():
 @pytest.mark.parametrize("words, kind", [(_core.culls, _render.Cull), (_core.normal_sources, _render.Normals)])
 def test_types_for_checkers_have_every_word(words, kind):
     assert set(typing.get_args(kind)) == set(words)
+
+
+def test_projections_are_those_of_camera_files():
+    assert set(typing.get_args(lens.Projection)) == set(lens.projections)
+    for word in lens.projections:
+        camera = fathom.Camera(1, 1, 1, 1, 0, 0, pixel_centre=0.5, projection=word)
+        assert f'"projection": "{word}"' in _core.camera_to_json(camera._handle)
 
 
 @pytest.mark.parametrize("words, text", [
