@@ -88,10 +88,10 @@ class Work {
       if (content_.owned.contains(file)) continue;
       std::error_code error;
       if (!job_.overwrites && fs::exists(fs::symlink_status(job_.folder / file, error))) {
-        throw UsageError(fmt::format(
-            "{}: is there already, and not made by this command; name another folder, or give "
-            "--overwrite",
-            (job_.folder / file).string()));
+        throw UsageError(
+            fmt::format("{}: exists and was not made by this command; name another folder, or give "
+                        "--overwrite",
+                        (job_.folder / file).string()));
       }
       unannounced.push_back(file);
       content_.owned.insert(file);

@@ -171,7 +171,7 @@ MovingScene MotionOptions::moving(Scene scene) const {
 
 Scene MotionOptions::placed(Scene scene) const {
   if (is_given()) return moving(std::move(scene)).take(time_or_start());
-  if (time) throw UsageError("--time needs --motion, a file that says how objects move");
+  if (time) throw UsageError("--time needs --motion, a file with the keyframes of objects");
   return scene;
 }
 

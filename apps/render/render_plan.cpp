@@ -107,8 +107,7 @@ void check_deep(const RenderArguments& a) {
                                                          : nullptr;
   if (other != nullptr) {
     throw UsageError(fmt::format(
-        "--deep has channels of its own, A, Z, ZBack, area and id: {} goes into another map",
-        other));
+        "--deep always has the channels A, Z, ZBack, area and id: {} needs another map", other));
   }
   if (a.verified_pixels || !a.statistics.empty()) {
     throw UsageError("--verify and --stats are not for --deep");

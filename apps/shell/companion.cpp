@@ -88,8 +88,8 @@ std::optional<std::string> answer_of(const Companion& companion,
 
 std::string not_built(const std::string& what, const std::string& program, const std::string& how) {
   return fmt::format(
-      "{} is a program of its own, {}, that is not built: 'scripts/fathom {}' in a clone of "
-      "Fathom installs what it needs and builds it",
+      "{} is a separate program, {}, that is not built: 'scripts/fathom {}' in a clone of "
+      "Fathom installs its dependencies and builds it",
       what, program, how);
 }
 

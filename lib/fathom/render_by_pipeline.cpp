@@ -77,7 +77,7 @@ class Decoder {
     }
     if (extent_.sign() == Sign::zero)
       throw UsageError(Setting{"depth_range"},
-                       "near and far have the same window depth, of which none can be decoded");
+                       "near and far have the same window depth, so depths cannot be decoded");
   }
 
   float operator()(StoredDepth stored) {

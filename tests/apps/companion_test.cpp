@@ -74,8 +74,7 @@ TEST_F(Companions, ThatAreNotBuiltAreToldHow) {
   for (const std::string& command : companion_commands) {
     const Outcome outcome = fathom({command, "--help"});
     EXPECT_EQ(outcome.status, 2);
-    EXPECT_THAT(outcome.err,
-                StartsWith("fathom: error: '" + command + "' is a program of its own"));
+    EXPECT_THAT(outcome.err, StartsWith("fathom: error: '" + command + "' is a separate program"));
     EXPECT_THAT(outcome.err, HasSubstr("'scripts/fathom " + command + "'"));
   }
   const Outcome outcome = fathom({"render", "a.obj", "-o", "b.exr", "--engine", "pipeline"});

@@ -162,7 +162,7 @@ TEST_F(DataSets, FilesOfOthersAreLeftAlone) {
   write("out/2.npy", "mine");
   const Outcome refused = make();
   EXPECT_EQ(refused.status, 2);
-  EXPECT_THAT(refused.err, HasSubstr("out/2.npy: is there already"));
+  EXPECT_THAT(refused.err, HasSubstr("out/2.npy: exists and was not made by this command"));
   EXPECT_FALSE(fs::exists(folder_.path() / "out/1.npy"));
   EXPECT_EQ(read("out/2.npy"), "mine");
   EXPECT_EQ(make({"--overwrite"}).status, 0);
@@ -177,7 +177,7 @@ TEST_F(DataSets, OverwritingFollowsLinksButNotToAnInput) {
   fs::create_symlink("../elsewhere.npy", link);
   const Outcome refused = make();
   EXPECT_EQ(refused.status, 2);
-  EXPECT_THAT(refused.err, HasSubstr("out/2.npy: is there already"));
+  EXPECT_THAT(refused.err, HasSubstr("out/2.npy: exists and was not made by this command"));
   EXPECT_EQ(read("elsewhere.npy"), "mine");
   ASSERT_EQ(make({"--overwrite"}).status, 0);
   EXPECT_TRUE(fs::is_symlink(link));

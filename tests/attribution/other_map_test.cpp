@@ -50,8 +50,8 @@ TEST(OtherMaps, HoldTheChannelThatIsNamed) {
   without.channels.push_back({"face", Samples<std::uint32_t>{1}});
   EXPECT_EQ(
       refusal_of(without, ""),
-      "of the map's channels id, face none is called as depths are; expected Z, or the name of "
-      "the one that holds them");
+      "of the map's channels id, face none has a name for depths; expected Z, or the name of the "
+      "depth channel");
 }
 
 TEST(OtherMaps, SayWhatTheirBackgroundIs) {

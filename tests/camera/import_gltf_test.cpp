@@ -115,7 +115,7 @@ TEST(ImportGltf, NamesPlaceAndFault) {
   EXPECT_THAT(fault(lens + R"(, "nodes": [{"camera": 1}])"), HasSubstr("nodes[0].camera"));
   EXPECT_THAT(fault(lens + R"(, "nodes": [{"camera": 0, "rotation": [0,0,0,1],
       "matrix": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]}])"),
-              HasSubstr("nodes[0].rotation: stands beside a matrix"));
+              HasSubstr("nodes[0].rotation: appears together with a matrix"));
   EXPECT_THAT(fault(lens + R"(, "nodes": [{"camera": 0, "scale": [1,0,1]}])"),
               HasSubstr("nodes[0]: its transform is singular"));
   EXPECT_THAT(fault(lens + R"(, "nodes": [{"camera": 0, "children": [0]}])"),

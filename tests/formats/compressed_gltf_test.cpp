@@ -101,7 +101,7 @@ TEST(Draco, NeedsItsProgram) {
   const json asset = draco_asset(spot(), by_draco(spot(), {}));
   EXPECT_THAT(
       message_of<InputError>([&] { read_without_program(asset); }),
-      HasSubstr("a.gltf: is read by a program of its own, fathom-formats, that is not installed"));
+      HasSubstr("a.gltf: is read by a separate program, fathom-formats, that is not installed"));
 }
 
 TEST(Draco, CountsOfAccessorsAreThoseOfTheMesh) {

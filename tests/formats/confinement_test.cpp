@@ -73,7 +73,7 @@ TEST_F(FormatsProgram, ThatIsNotThereIsNamed) {
   EXPECT_EQ(outcome.status, 3);
   EXPECT_EQ(
       outcome.err,
-      "fathom: error: a.dae: is read by a program of its own, fathom-formats, that is not "
+      "fathom: error: a.dae: is read by a separate program, fathom-formats, that is not "
       "installed: "
       "the package fathom contains it; 'scripts/fathom formats' in a clone of Fathom builds it\n");
 }

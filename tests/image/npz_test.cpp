@@ -198,7 +198,8 @@ TEST(Npz, DoesNotTrustItsDirectory) {
   EXPECT_THAT(with(directory + 10, std::uint16_t{12}), HasSubstr("method 12"));
   EXPECT_THAT(with(directory + 16, std::uint32_t{1}), HasSubstr("checksum"));
   EXPECT_THAT(with(directory + 24, std::uint32_t{1}), HasSubstr("two sizes"));
-  EXPECT_THAT(with(directory + 42, std::uint32_t{1}), HasSubstr("not where its directory says"));
+  EXPECT_THAT(with(directory + 42, std::uint32_t{1}),
+              HasSubstr("not at the place in its directory"));
   EXPECT_THAT(with(directory + 28, std::uint16_t{60000}), HasSubstr("directory ends early"));
   // A value.
   EXPECT_THAT(with(180, std::uint8_t{77}), HasSubstr("checksum"));

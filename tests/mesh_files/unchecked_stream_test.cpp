@@ -107,7 +107,7 @@ TEST(UncheckedStream, BrokenFilesFailAlike) {
     const fs::path path = folder.write(std::to_string(++files) + " " + name, bytes);
     const Made truth = made_ordinarily(path), ours = made_of_parts(path, 2);
     fs::remove(path);
-    if (ours.failure.find("is no binary STL or PLY") != std::string::npos) return;
+    if (ours.failure.find("is not a binary STL or PLY") != std::string::npos) return;
     ++(truth.failure.empty() ? readings : failures);
     not_as_supposed += ours.as_supposed ? 0 : 1;
     expect_same(ours, truth, name + ", byte " + std::to_string(at));

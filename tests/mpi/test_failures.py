@@ -34,7 +34,7 @@ def expect_failure(outcome, status, text, folder):
     (["nothing.obj"], 3, "nothing.obj: cannot be opened"),
     ([spot, "--chanels", "Z"], 2, "did you mean '--channels'?"),
     ([spot, "--partition", "row"], 2, "did you mean 'rows'?"),
-    ([spot, "--deep", "--channels", "Z"], 2, "--deep has channels of its own"),
+    ([spot, "--deep", "--channels", "Z"], 2, "--deep always has the channels A, Z"),
     ([spot, "--stream"], 2, "leaves binary STL and PLY in their files anyway"),
     ([spot, "--engine", "reference"], 2, "supports only --engine fast"),
     (["-"], 2, "standard input, reaches one rank only"),

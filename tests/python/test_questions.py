@@ -92,7 +92,7 @@ def test_deep_maps_that_do_not_fit_together_are_refused(spot, camera, tmp_path):
     for name in ("Z", "ZBack", "area", "A"):
         with pytest.raises(ValueError, match=f"{name}: fragment 7 has NaN"):
             change(name, lambda column: np.where(np.arange(len(column)) == 7, np.float32(np.nan), column))
-    with pytest.raises(ValueError, match="ZBack: that of fragment 3 is nearer than its Z"):
+    with pytest.raises(ValueError, match="ZBack: fragment 3 ends nearer than its Z"):
         change("ZBack", lambda column: np.where(np.arange(len(column)) == 3, np.float32(0), column))
     with pytest.raises(ValueError, match="camera: its image has 44×60 pixels, the deep map 60×44 pixels"):
         change("camera", lambda camera: camera.with_size(44, 60))

@@ -101,7 +101,7 @@ const std::vector<Case> cases{
     {"has visible vertices", [](vtkActor& a) { a.GetProperty()->VertexVisibilityOn(); }},
     {"culls faces", [](vtkActor& a) { a.GetProperty()->FrontfaceCullingOn(); }},
     {"culls faces", [](vtkActor& a) { a.GetProperty()->BackfaceCullingOn(); }},
-    {"has shader code of its own",
+    {"has custom shader code",
      [](vtkActor& a) {
        a.GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Depth::Impl", true,
                                                            "gl_FragDepth = 0.1;\n", false);

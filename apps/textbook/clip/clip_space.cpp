@@ -268,8 +268,7 @@ Json plane(const Json& object, Form form) {
   if (object.contains("polygon3")) return clip_in_space<Number>(object, "plane", form);
   expect_only(object, {"plane", "triangle", "eye", "points", "line"}, "plane");
   if (object.contains("eye") && !object.contains("triangle"))
-    throw InputError(
-        "\"eye\" says on which side of a triangle it is; add \"triangle\" or leave it out");
+    throw InputError("\"eye\" needs a triangle; add \"triangle\" or leave out \"eye\"");
   if (!object.contains("plane") && !object.contains("triangle"))
     throw InputError("\"plane\" or \"triangle\" is missing");
   Json result, values = Json::array();

@@ -69,7 +69,7 @@ pipeline::PrimitiveTrace traced(const TraceArguments& arguments, const Scene& sc
 
 int run_trace(const TraceArguments& arguments, const Console& console) {
   if (arguments.triangle && arguments.primitive)
-    throw UsageError("--triangle and --primitive name the same thing; give one of them");
+    throw UsageError("--triangle and --primitive exclude each other");
   pipeline::PipelineOptions stages = arguments.pipeline.options(arguments.cull);
   stages.depth_format = arguments.depth_format;
   pipeline::require_meaningful(stages);

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* remedy = "; write it anew: fathom validate … -o DIR";
+constexpr const char* remedy = "; write it again: fathom validate … -o DIR";
 
 /// NaN for null, which is how reports say that there is no such number.
 double number(const Json& json) {

@@ -148,7 +148,7 @@ RendererModel model_for(const std::string& name, const Camera& camera) {
   }
   throw UsageError(setting, name +
                                 " stores depths between near and far, and the camera has not both; "
-                                "expected those of the renderer, as \"near\": 0.1, \"far\": 100");
+                                "expected the renderer's values, as \"near\": 0.1, \"far\": 100");
 }
 
 Judgement judge(std::shared_ptr<const Truth> truth, const OtherMap& other,

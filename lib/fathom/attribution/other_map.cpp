@@ -23,8 +23,7 @@ const ImageChannel& depth_channel(const DepthMap& map, const std::string& name) 
   }
   if (map.channels.size() == 1) return map.channels.front();
   throw InputError("of the map's channels " + list_of_channels(map) +
-                   " none is called as depths are; expected Z, or the name of the one that holds "
-                   "them");
+                   " none has a name for depths; expected Z, or the name of the depth channel");
 }
 
 }  // namespace

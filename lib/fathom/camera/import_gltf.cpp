@@ -104,9 +104,9 @@ void read_perspective(const JsonValue& lens, Camera& camera) {
   if (!aspect) return;
   const double ratio = aspect->number();
   if (!(std::abs(ratio * camera.height - camera.width) <= 1))
-    aspect->fail("the aspect ratio " + std::to_string(ratio) + " is not that of an image of " +
+    aspect->fail("the aspect ratio " + std::to_string(ratio) + " does not match an image of " +
                  std::to_string(camera.width) + "x" + std::to_string(camera.height) +
-                 "; give a size that has it");
+                 "; give a size with this ratio");
 }
 
 /// fx = ½·width / xmag, and so on.

@@ -159,7 +159,8 @@ std::vector<ImportedCamera> camera::parse_kitti(const NamedText& calibration,
                                                 const GivenLens& given) {
   const std::vector<RectifiedCamera> cameras = read_rectified(calibration);
   if (poses) {
-    if (!number) throw UsageError("with poses, say of which camera: 0, 1 (grey), 2 or 3 (colour)");
+    if (!number)
+      throw UsageError("poses need the number of a camera: 0, 1 (grey), 2 or 3 (colour)");
     return of_frames(the_camera(cameras, *number, calibration.name), *poses, given);
   }
   std::vector<ImportedCamera> result;

@@ -111,8 +111,7 @@ void InputFile::read(int descriptor, std::uint64_t size) {
   while (true) {
     if (filled == most) {
       throw InputError(name_ + ": has no end after " + std::to_string(most - 1) +
-                       " bytes, the most that is read from what is no regular file; expected a "
-                       "file");
+                       " bytes, the limit of inputs that are not regular files; expected a file");
     }
     if (filled == capacity) {
       capacity = static_cast<std::size_t>(std::min<std::uint64_t>(2 * capacity, most));

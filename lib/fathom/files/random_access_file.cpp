@@ -14,7 +14,7 @@ RandomAccessFile::RandomAccessFile(const std::filesystem::path& path) : name_(pa
   if (::stat(name_.c_str(), &status) != 0) fail_with_errno(name_, "cannot be opened");
   if (S_ISDIR(status.st_mode)) throw InputError(name_ + ": is a directory, expected a file");
   if (!S_ISREG(status.st_mode)) {
-    throw InputError(name_ + ": is not a regular file, expected one that can be read in parts");
+    throw InputError(name_ + ": is not a regular file, expected a file that can be read in parts");
   }
   descriptor_ = ::open(name_.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) fail_with_errno(name_, "cannot be opened");

@@ -47,7 +47,8 @@ WorldFromMesh transform_of(const GltfPlacement& placement) {
 WorldFromMesh read_transform_of_node(const JsonValue& node) {
   if (const auto matrix = node.find("matrix")) {
     for (const char* key : {"translation", "rotation", "scale"})
-      if (const auto part = node.find(key)) part->fail("stands beside a matrix, expected only one");
+      if (const auto part = node.find(key))
+        part->fail("appears together with a matrix, expected only one");
     return read_matrix(*matrix);
   }
   GltfPlacement placement;

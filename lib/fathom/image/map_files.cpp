@@ -184,7 +184,7 @@ std::vector<std::byte> encode_map(const DepthMap& map, const std::string& name, 
   require_valid(map);
   require_thread_count(options.threads);
   if (static_cast<std::size_t>(format) >= codecs.size())
-    throw UsageError(name + ": there is no such format");
+    throw UsageError(name + ": unknown format");
   return codec_of(format).encode(map, options, name);
 }
 

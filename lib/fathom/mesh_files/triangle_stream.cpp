@@ -18,7 +18,7 @@ using namespace files;
 namespace {
 
 [[noreturn]] void fail_format(const std::string& file) {
-  throw InputError(file + ": is no binary STL or PLY, expected one of them to stream");
+  throw InputError(file + ": is not a binary STL or PLY, the formats that can be streamed");
 }
 
 std::vector<std::byte> beginning_of(const RandomAccessFile& file, std::size_t size) {

@@ -107,7 +107,7 @@ void require_meaningful(const PipelineOptions& o) {
   if (o.blend_alpha && !(*o.blend_alpha >= 0 && *o.blend_alpha <= 1))
     throw UsageError(Setting{"blend_alpha"}, "expected 0 to 1");
   if (o.draw_order != DrawOrder::file && o.hidden_surface == HiddenSurface::painter)
-    throw UsageError(Setting{"draw_order"}, "the painter's algorithm has an order of its own");
+    throw UsageError(Setting{"draw_order"}, "the painter's algorithm decides the order");
 }
 
 }  // namespace fathom::pipeline

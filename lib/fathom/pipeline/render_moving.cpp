@@ -14,8 +14,7 @@ namespace {
 void require_increasing(const Shutter& shutter) {
   if (!std::isfinite(shutter.open) || !std::isfinite(shutter.close) ||
       !(shutter.open < shutter.close)) {
-    throw UsageError(Setting{"shutter"},
-                     "expected OPEN,CLOSE, two times of which the second is later");
+    throw UsageError(Setting{"shutter"}, "expected OPEN,CLOSE, two times, the second later");
   }
 }
 

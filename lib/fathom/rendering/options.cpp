@@ -20,7 +20,7 @@ void require_meaningful(const RenderOptions& options) {
     throw UsageError(Setting{"depth_encoding.scale"}, "expected a positive number");
   }
   if (!(options.fast.widening >= 1 && std::isfinite(options.fast.widening))) {
-    throw UsageError(Setting{"fast.widening"}, "expected a number from 1 on");
+    throw UsageError(Setting{"fast.widening"}, "expected a number of at least 1");
   }
 }
 

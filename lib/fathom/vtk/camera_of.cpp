@@ -26,7 +26,7 @@ std::array<double, 16> rows_of(vtkMatrix4x4& columns) {
 
 Camera camera_of(vtkRenderer& renderer) {
   auto* const theirs = vtkOpenGLCamera::SafeDownCast(renderer.GetActiveCamera());
-  if (theirs == nullptr) throw InputError("the renderer's camera is none of VTK's OpenGL");
+  if (theirs == nullptr) throw InputError("the renderer's camera is not a vtkOpenGLCamera");
   vtkMatrix4x4 *view = nullptr, *projection = nullptr, *both = nullptr;
   vtkMatrix3x3* normals = nullptr;
   theirs->GetKeyMatrices(&renderer, view, normals, projection, both);

@@ -55,7 +55,7 @@ vtkOpenGLRenderWindow& window_to_judge(vtkRenderWindow& window, vtkRenderer& ren
   if (window.GetStereoRender() != 0) throw InputError("the window renders in stereo");
   if (window.GetNumberOfLayers() > 1) {
     throw InputError("the window has " + std::to_string(window.GetNumberOfLayers()) +
-                     " layers, and its depth buffer holds the last one alone");
+                     " layers, and its depth buffer holds only the last one");
   }
   return *of_opengl;
 }

@@ -86,7 +86,7 @@ std::string reason_to_leave_out(vtkProp& prop) {
   if (is_one_of(*actor, actors_of_levels)) return "chooses its level of detail by time";
   if (!is_affine(prop.GetMatrix())) return "has a matrix that is not affine";
   if (actor->HasTranslucentPolygonalGeometry() != 0) return "is translucent";
-  if (has_code(*actor->GetShaderProperty())) return "has shader code of its own";
+  if (has_code(*actor->GetShaderProperty())) return "has custom shader code";
   const std::string reason = reason_of_property(*actor->GetProperty());
   return reason.empty() ? reason_of_mapper(*mapper) : reason;
 }

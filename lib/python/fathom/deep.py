@@ -73,7 +73,7 @@ class DeepMap:
             raise ValueError(f"camera: its image has {sizes}")
         counts = self.counts
         if (counts < 0).any() or counts.sum() != len(self.Z) or int(self.offsets[0]) != 0:
-            raise ValueError("offsets: expected numbers that rise from 0 to that of the fragments")
+            raise ValueError("offsets: expected numbers that rise from 0 to the number of fragments")
         Z, ZBack, area, A = (self._numbers(name) for name in ("Z", "ZBack", "area", "A"))
         id = self._column("id", np.uint32)
         self._expect_nearest_first(Z, ZBack)
@@ -104,7 +104,7 @@ class DeepMap:
             raise ValueError(f"Z: fragment {int(np.argmax(nearer)) + 1} is nearer than the one before it in its pixel; "
                              "expected the nearest first")
         if inverted.any():
-            raise ValueError(f"ZBack: that of fragment {int(np.argmax(inverted))} is nearer than its Z")
+            raise ValueError(f"ZBack: fragment {int(np.argmax(inverted))} ends nearer than its Z")
 
     def __repr__(self) -> str:
         return f"DeepMap({self.camera.width}×{self.camera.height}, {len(self.Z)} fragments)"

@@ -75,9 +75,11 @@ TEST_F(Streaming, RefusesWhatCannotBeStreamed) {
     std::string says;
   };
   const std::vector<Case> cases{
-      {{"square.obj"}, 3, "square.obj: is no binary STL or PLY, expected one of them to stream"},
-      {{meshes + "cube-ascii.stl"}, 3, "is no binary STL or PLY"},
-      {{meshes + "cube.ply"}, 3, "is no binary STL or PLY"},
+      {{"square.obj"},
+       3,
+       "square.obj: is not a binary STL or PLY, the formats that can be streamed"},
+      {{meshes + "cube-ascii.stl"}, 3, "is not a binary STL or PLY"},
+      {{meshes + "cube.ply"}, 3, "is not a binary STL or PLY"},
       {{"cut.stl"}, 3, "cut.stl: byte 84: the file ends, expected 134 bytes for 1 triangle"},
       {{"missing.stl"}, 3, "missing.stl: cannot be opened"},
       {{"-", "--mesh-format", "stl"}, 2, "standard input, cannot be read in parts"},

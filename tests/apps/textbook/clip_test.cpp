@@ -168,7 +168,7 @@ TEST(Clip, MessagesAboutKeysNameTheAlgorithm) {
                  "\"hourglass\": \"both\" has no meaning with \"after_division\", which leaves no "
                  "lower half; leave one of them out");
   expect_error("plane", R"({"plane": [1,0,0,0], "points": [], "eye": [1,1,1]})",
-               "\"eye\" says on which side of a triangle it is; add \"triangle\" or leave it out");
+               "\"eye\" needs a triangle; add \"triangle\" or leave out \"eye\"");
 }
 
 // Sutherland–Hodgman begins its rings elsewhere, keeps straight corners, and puts what it clips of

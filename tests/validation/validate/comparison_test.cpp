@@ -205,7 +205,7 @@ TEST_F(ReadReport, ReadsWhatIsCompared) {
 
 TEST_F(ReadReport, SaysWhatToDoAboutOthers) {
   const std::string whole = report_json().dump(2),
-                    remedy = "; write it anew: fathom validate … -o DIR";
+                    remedy = "; write it again: fathom validate … -o DIR";
   for (const std::size_t length : {std::size_t{0}, whole.size() / 3, whole.size() - 2}) {
     EXPECT_EQ(refusal(whole.substr(0, length)),
               "report.json: is cut off: it ends within its JSON" + remedy)

@@ -251,13 +251,14 @@ TEST_F(ValidateProgram, SaysWhatToGiveForMapsThatDoNotFit) {
   folder.write("unclipped.json", unclipped.dump());
   expect(validate_with("unclipped.json", "cube.obj"), 2,
          "--model: gl-unorm24 stores depths between near and far, and the camera has not both; "
-         "expected those of the renderer");
+         "expected the renderer's values");
 
   const std::string pixels(4 * 3 * 40 * 30, '\0');
   folder.write("rgb.pfm", "PF\n40 30\n-1\n" + pixels);
-  expect(validate("rgb.pfm"), 3,
-         "rgb.pfm: of the map's channels R, G, B none is called as depths are; expected Z, or the "
-         "name of the one that holds them: --channel NAME");
+  expect(
+      validate("rgb.pfm"), 3,
+      "rgb.pfm: of the map's channels R, G, B none has a name for depths; expected Z, or the name "
+      "of the depth channel: --channel NAME");
   expect(validate("map.exr", {"--channel", "Q"}), 3,
          "map.exr: the map has no channel 'Q', only A, Z");
 
@@ -310,7 +311,7 @@ TEST_F(ValidateProgram, RefusesInOneLine) {
   folder.write("report.json", report);
   expect_refused(
       validate("map.exr", {"--baseline", "report.json"}), 3,
-      "report.json: is cut off: it ends within its JSON; write it anew: fathom validate");
+      "report.json: is cut off: it ends within its JSON; write it again: fathom validate");
   folder.write("file", "");
   expect_refused(validate("map.exr", {"--out", "file"}), 4, "file: cannot make this folder");
   const auto run = [&](std::vector<std::string> arguments) {

@@ -155,7 +155,7 @@ Parts take_apart(ByteView bytes, const std::string& name) {
   const std::size_t preamble = version == 1 ? 10 : 12;
   const std::size_t length = version == 1 ? load<std::uint16_t>(&bytes[8], std::endian::little)
                                           : load<std::uint32_t>(&bytes[8], std::endian::little);
-  if (length > bytes.size() - preamble) fail("a header as long as it says");
+  if (length > bytes.size() - preamble) fail("a header of the declared length");
   return {parse_header({reinterpret_cast<const char*>(bytes.data()) + preamble, length}, name),
           bytes.subspan(preamble + length)};
 }

@@ -138,7 +138,7 @@ DepthMap decode_npz(ByteView bytes, const std::string& name, const MapMemory& me
       for (const ImageChannel& channel : channels)
         if (channel.name.empty() || channel.name.find('\0') != std::string::npos ||
             !names.insert(channel.name).second)
-          throw InputError(name + ": an array without a name of its own");
+          throw InputError(name + ": an array without a unique name");
       add_channels(map, std::move(channels), size, array, name);
     }
   }

@@ -135,7 +135,7 @@ class Directory {
   /// What follows the local header at `at`.
   [[nodiscard]] ByteView bytes_of(std::size_t at, std::size_t size, std::size_t limit) const {
     if (at > limit || limit - at < local_size || four(bytes_, at) != local_magic)
-      fail("a file in it is not where its directory says");
+      fail("a file in it is not at the place in its directory");
     const std::size_t before =
         local_size + two(bytes_, at + 26) + std::size_t{two(bytes_, at + 28)};
     if (before > limit - at || size > limit - at - before)

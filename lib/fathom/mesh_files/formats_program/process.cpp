@@ -33,7 +33,7 @@ std::filesystem::path find_program(const ReadOptions& options, const std::string
   std::error_code error;
   if (std::filesystem::exists(path, error)) return path;
   throw InputError(
-      file + ": is read by a program of its own, " + program_name +
+      file + ": is read by a separate program, " + program_name +
       ", that is not installed: the package fathom contains it; 'scripts/fathom formats' "
       "in a clone of Fathom builds it");
 }

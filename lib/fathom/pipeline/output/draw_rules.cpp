@@ -20,7 +20,7 @@ void require_possible(const DrawState& state, const Object& object,
   DrawState rest = state;
   rest.alpha.reset();
   if (options.hidden_surface == HiddenSurface::painter && !is_default(rest))
-    fail("its 'draw' is for a depth buffer; the painter's algorithm takes 'alpha' alone");
+    fail("its 'draw' is for a depth buffer; the painter's algorithm supports only 'alpha'");
 }
 
 DrawRules rules_of(const DrawState& state, const PipelineOptions& options) {
