@@ -20,6 +20,8 @@ std::vector<Companion> companions() {
        "Trace primitives through the graphics pipeline, or run one of its stages"},
       {"study", "fathom-study",
        "Measure depth-buffer precision and textbook algorithms; write tables and web pages"},
+      {"view", "fathom-view",
+       "Show maps in a browser, with pan, zoom, values, ranges and histograms"},
       {"formats", "fathom-formats",
        "Show which libraries read foreign mesh formats (FBX, COLLADA, 3DS, 3MF, …)"},
       {"bench", "fathom-bench",

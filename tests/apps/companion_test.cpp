@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 const std::vector<std::string> companion_commands{"clip",  "scan",     "pipeline", "study",
-                                                  "bench", "validate", "formats"};
+                                                  "bench", "validate", "view",     "formats"};
 
 /// A folder with `fathom` alone, and what stands in for other programs beside it.
 class Companions : public ::testing::Test {

@@ -1,0 +1,193 @@
+#include "apps/view/map_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "apps/view/packing.h"
+#include "fathom/camera/pose.h"
+#include "fathom/image/channel_table.h"
+#include "fathom/image/files/name_tables.h"
+#include "fathom/image/surface.h"
+#include "fathom/threads/threads.h"
+
+namespace fathom::view {
+namespace {
+
+using Json = nlohmann::json;
+using Mask = std::vector<std::uint8_t>;
+
+/// The last level has at most so many pixels: the page draws it and counts its values at once.
+constexpr std::uint64_t pixels_at_once = std::uint64_t{1} << 22;
+
+struct ImageSize {
+  std::uint32_t width = 0, height = 0;
+
+  [[nodiscard]] ImageSize at_level(unsigned level) const {
+    const std::uint32_t round_up = (1U << level) - 1;
+    return {(width + round_up) >> level, (height + round_up) >> level};
+  }
+  [[nodiscard]] unsigned levels() const {
+    unsigned level = 0;
+    const auto pixels = [this](unsigned n) {
+      const ImageSize size = at_level(n);
+      return std::uint64_t{size.width} * size.height;
+    };
+    while (pixels(level) > pixels_at_once) ++level;
+    return level + 1;
+  }
+};
+
+std::uint32_t tiles_in(std::uint32_t pixels) {
+  return (pixels + tile_size - 1) / tile_size;
+}
+
+TilePlace tile_of(const ImageSize& size, unsigned level, std::size_t number) {
+  const ImageSize here = size.at_level(level);
+  const std::uint32_t across = tiles_in(here.width);
+  const auto column = static_cast<std::uint32_t>(number % across) * tile_size,
+             row = static_cast<std::uint32_t>(number / across) * tile_size;
+  return {column << level, row << level, std::min(tile_size, here.width - column),
+          std::min(tile_size, here.height - row), 1U << level};
+}
+
+template <class Word>
+void write_plane(std::span<const Word> plane, const ImageSize& size, const std::string& id,
+                 const Sink& sink) {
+  for (unsigned level = 0; level < size.levels(); ++level) {
+    const ImageSize here = size.at_level(level);
+    std::vector<std::string> tiles(std::size_t{tiles_in(here.width)} * tiles_in(here.height));
+    parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t k) {
+      tiles[k] = packed(plane, size.width, tile_of(size, level, k));
+    });
+    for (std::size_t k = 0; k < tiles.size(); ++k) {
+      sink("<script type=\"text/plain\" id=\"" + id + "-" + std::to_string(level) + "-" +
+           std::to_string(k) + "\">" + tiles[k] + "</script>\n");
+    }
+  }
+}
+
+/// The bits of values, as words.
+template <class T>
+auto words_of(const Samples<T>& values) {
+  using Word = std::conditional_t<sizeof(T) == 8, std::uint64_t,
+                                  std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint16_t>>;
+  return std::span(reinterpret_cast<const Word*>(values.data()), values.size());
+}
+
+const char* type_of(const ImageChannel& channel) {
+  static constexpr std::array names{"f32", "f64", "u16", "u32"};  // in the order of the variant
+  return names.at(channel.values.index());
+}
+
+const char* word_of(ChannelKind kind) {
+  switch (kind) {
+    case ChannelKind::depth:
+      return "depth";
+    case ChannelKind::identifier:
+      return "identifier";
+    case ChannelKind::direction:
+      return "direction";
+    case ChannelKind::position:
+      return "position";
+    case ChannelKind::quantity:
+      break;
+  }
+  return "quantity";
+}
+
+/// What a channel of ours means, for people; of "N.X" what N means.
+std::string meaning_of(const std::string& name) {
+  const auto ours = channel_named(name.substr(0, name.find('.')));
+  return ours ? std::string(description_of(*ours).meaning) : std::string();
+}
+
+/// The least and the greatest finite value where there is a surface; null without any.
+Json range_of(const ImageChannel& channel, const Mask& mask) {
+  return std::visit(
+      [&](const auto& values) -> Json {
+        bool any = false;
+        double low = 0, high = 0;
+        for (std::size_t k = 0; k < mask.size(); ++k) {
+          const auto value = static_cast<double>(values[k]);
+          if (mask[k] == 0 || !std::isfinite(value)) continue;
+          low = any ? std::min(low, value) : value;
+          high = any ? std::max(high, value) : value;
+          any = true;
+        }
+        return any ? Json{low, high} : Json();
+      },
+      channel.values);
+}
+
+/// Masks of a map, each once.
+class Masks {
+ public:
+  /// The number of a mask; -1 where every pixel shows a surface.
+  int number_of(Mask mask) {
+    if (std::ranges::find(mask, 0) == mask.end()) return -1;
+    auto found = std::ranges::find(masks_, mask);
+    if (found == masks_.end()) found = masks_.insert(found, std::move(mask));
+    return static_cast<int>(found - masks_.begin());
+  }
+  [[nodiscard]] const std::vector<Mask>& all() const { return masks_; }
+
+ private:
+  std::vector<Mask> masks_;
+};
+
+Json describe_channel(const DepthMap& map, const ImageChannel& channel, Masks& masks) {
+  Mask mask = surface_mask(map, channel);
+  Json told{{"name", channel.name},
+            {"meaning", meaning_of(channel.name)},
+            {"type", type_of(channel)},
+            {"kind", word_of(kind_of(channel))},
+            {"range", range_of(channel, mask)}};
+  told["mask"] = masks.number_of(std::move(mask));
+  if (shows_segments(channel.name)) told["none"] = no_segment;
+  if (const auto* names = image::names_of_channel(map, channel.name)) told["names"] = *names;
+  return told;
+}
+
+/// What a pixel's place in the world is computed from, as point_at() and camera_to_world() do.
+Json describe_camera(const Camera& camera) {
+  const Projection& projection = camera.projection;
+  return {{"orthographic", is_orthographic(projection)},
+          {"fx", projection.fx},
+          {"fy", projection.fy},
+          {"cx", projection.cx},
+          {"cy", projection.cy},
+          {"skew", projection.skew},
+          {"pixelCentre", projection.pixel_centre},
+          {"worldFromCamera", camera_to_world(camera.world_to_camera)}};
+}
+
+}  // namespace
+
+Json write_planes(const ViewedMap& viewed, const std::string& prefix, const Sink& sink) {
+  const DepthMap& map = viewed.map;
+  const ImageSize size{map.width, map.height};
+  Json told{{"name", viewed.name},
+            {"width", map.width},
+            {"height", map.height},
+            {"levels", size.levels()},
+            {"channels", Json::array()}};
+  if (viewed.camera) told["camera"] = describe_camera(*viewed.camera);
+  if (map.png_scale) told["scale"] = *map.png_scale;
+  Masks masks;
+  for (std::size_t k = 0; k < map.channels.size(); ++k) {
+    const ImageChannel& channel = map.channels[k];
+    told["channels"].push_back(describe_channel(map, channel, masks));
+    const std::string id = prefix + "-c" + std::to_string(k);
+    std::visit([&](const auto& values) { write_plane(words_of(values), size, id, sink); },
+               channel.values);
+  }
+  for (std::size_t k = 0; k < masks.all().size(); ++k) {
+    const Mask& mask = masks.all()[k];
+    write_plane(std::span(mask), size, prefix + "-k" + std::to_string(k), sink);
+  }
+  return told;
+}
+
+}  // namespace fathom::view

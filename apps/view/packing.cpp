@@ -1,0 +1,140 @@
+#include "apps/view/packing.h"
+
+#include <libdeflate.h>
+
+#include <bit>
+#include <limits>
+#include <memory>
+#include <new>
+#include <vector>
+
+namespace fathom::view {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// 9 makes pages 2 % smaller than 6 and takes twice the time; 12 takes eight times.
+constexpr int level = 9;
+
+struct FreeCompressor {
+  void operator()(libdeflate_compressor* compressor) const {
+    libdeflate_free_compressor(compressor);
+  }
+};
+
+Bytes deflated(const Bytes& bytes) {
+  const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
+      libdeflate_alloc_compressor(level));
+  if (!compressor) throw std::bad_alloc();
+  Bytes result(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()));
+  result.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(),
+                                         result.data(), result.size()));
+  return result;
+}
+
+template <class Word>
+std::vector<Word> words_of(std::span<const Word> plane, std::uint32_t width,
+                           const TilePlace& tile) {
+  std::vector<Word> words;
+  words.reserve(std::size_t{tile.columns} * tile.rows);
+  for (std::size_t j = 0; j < tile.rows; ++j) {
+    const Word* row = plane.data() + (tile.y + j * tile.step) * width + tile.x;
+    for (std::size_t i = 0; i < tile.columns; ++i) words.push_back(row[i * tile.step]);
+  }
+  return words;
+}
+
+/// Small differences of either sign as small numbers.
+template <class Word>
+Word zigzag(Word difference) {
+  constexpr int sign = std::numeric_limits<Word>::digits - 1;
+  const Word negative = static_cast<Word>(0) - static_cast<Word>(difference >> sign);
+  return static_cast<Word>(static_cast<Word>(difference << 1) ^ negative);
+}
+
+enum class Prediction : std::uint8_t { left, gradient };
+
+/// value − prediction of all values of a tile.
+template <class Word>
+std::vector<Word> residuals(const std::vector<Word>& words, std::size_t columns,
+                            Prediction prediction) {
+  std::vector<Word> result(words.size());
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    const bool has_left = k % columns != 0, has_upper = k >= columns;
+    Word expected = has_left ? words[k - 1] : has_upper ? words[k - columns] : Word{0};
+    if (prediction == Prediction::gradient && has_left && has_upper) {
+      expected = static_cast<Word>(expected + words[k - columns] - words[k - columns - 1]);
+    }
+    result[k] = zigzag(static_cast<Word>(words[k] - expected));
+  }
+  return result;
+}
+
+/// About how many bits the numbers need, each by itself.
+template <class Word>
+std::uint64_t bits_of(const std::vector<Word>& numbers) {
+  std::uint64_t sum = 0;
+  for (const Word number : numbers) sum += static_cast<std::uint64_t>(std::bit_width(number));
+  return sum;
+}
+
+template <class Word>
+std::string packed_words(std::span<const Word> plane, std::uint32_t width, const TilePlace& tile) {
+  const std::vector<Word> words = words_of(plane, width, tile);
+  Prediction prediction = Prediction::left;
+  std::vector<Word> best = residuals(words, tile.columns, prediction);
+  if (tile.rows > 1) {
+    std::vector<Word> other = residuals(words, tile.columns, Prediction::gradient);
+    if (bits_of(other) < bits_of(best)) {
+      prediction = Prediction::gradient;
+      best = std::move(other);
+    }
+  }
+  Bytes bytes{static_cast<std::uint8_t>(prediction)};
+  bytes.reserve(1 + sizeof(Word) * best.size());
+  for (std::size_t byte = 0; byte < sizeof(Word); ++byte) {
+    for (const Word word : best) bytes.push_back(static_cast<std::uint8_t>(word >> 8 * byte));
+  }
+  return base64(deflated(bytes));
+}
+
+}  // namespace
+
+std::string packed(std::span<const std::uint8_t> plane, std::uint32_t width,
+                   const TilePlace& tile) {
+  return packed_words(plane, width, tile);
+}
+
+std::string packed(std::span<const std::uint16_t> plane, std::uint32_t width,
+                   const TilePlace& tile) {
+  return packed_words(plane, width, tile);
+}
+
+std::string packed(std::span<const std::uint32_t> plane, std::uint32_t width,
+                   const TilePlace& tile) {
+  return packed_words(plane, width, tile);
+}
+
+std::string packed(std::span<const std::uint64_t> plane, std::uint32_t width,
+                   const TilePlace& tile) {
+  return packed_words(plane, width, tile);
+}
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+  constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t rest = bytes.size() - i;
+    const std::uint32_t word = static_cast<std::uint32_t>(bytes[i]) << 16 |
+                               (rest > 1 ? static_cast<std::uint32_t>(bytes[i + 1]) << 8 : 0U) |
+                               (rest > 2 ? bytes[i + 2] : 0U);
+    text += letters[word >> 18];
+    text += letters[word >> 12 & 63U];
+    text += rest > 1 ? letters[word >> 6 & 63U] : '=';
+    text += rest > 2 ? letters[word & 63U] : '=';
+  }
+  return text;
+}
+
+}  // namespace fathom::view

@@ -1,0 +1,72 @@
+#include "apps/view/page.h"
+
+#include <nlohmann/json.hpp>
+
+#include "apps/validate/report/script_data.h"
+#include "apps/view/map_data.h"
+#include "apps/view/web.h"
+#include "fathom/image/preview.h"
+
+namespace fathom::view {
+namespace {
+
+using Json = nlohmann::json;
+
+/// 256 colours from the low end to the high one, as digits: "440154…".
+std::string colour_digits(ColourMap colours) {
+  constexpr int count = 256;
+  constexpr char digits[] = "0123456789abcdef";
+  std::string text;
+  for (int k = 0; k < count; ++k) {
+    for (const std::uint8_t part : colour_at(colours, static_cast<double>(k) / (count - 1))) {
+      text += digits[part >> 4];
+      text += digits[part & 15];
+    }
+  }
+  return text;
+}
+
+Json colour_maps() {
+  Json maps = Json::object();
+  for (const char* name : {"viridis", "magma", "turbo", "grey"}) {
+    maps[name] = colour_digits(*colour_map_named(name));
+  }
+  return maps;
+}
+
+/// A module as it stands within one script with those that it imports.
+void write_module(std::string_view text, const Sink& sink) {
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+    std::string_view line = text.substr(begin, end - begin);
+    begin = end;
+    if (line.starts_with("import ")) continue;
+    if (line.starts_with("export ")) line.remove_prefix(std::string_view("export ").size());
+    sink(line);
+  }
+}
+
+}  // namespace
+
+void write_page(const std::vector<ViewedMap>& maps, bool answers_probes, const Sink& sink) {
+  for (const std::string_view part : {web::head, web::style, web::body}) sink(part);
+  Json data{{"maps", Json::array()},
+            {"tile", tile_size},
+            {"colours", colour_maps()},
+            {"probes", answers_probes}};
+  for (std::size_t k = 0; k < maps.size(); ++k) {
+    data["maps"].push_back(write_planes(maps[k], "m" + std::to_string(k), sink));
+  }
+  sink(validation::script_data(
+      "view", data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
+  sink("<script type=\"module\">\n");
+  for (const std::string_view module :
+       {web::numbers, web::planes, web::channels, web::colours, web::statistics, web::difference,
+        web::state, web::painting, web::picture, web::reading, web::histogram, web::profile,
+        web::comparison, web::controls, web::start}) {
+    write_module(module, sink);
+  }
+  sink("</script>\n</body></html>\n");
+}
+
+}  // namespace fathom::view

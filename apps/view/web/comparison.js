@@ -1,0 +1,48 @@
+/// What is drawn: one map, two side by side or in turns, or their difference.
+import { channelOf, maps } from "./channels.js";
+import { Shading } from "./colours.js";
+import { Difference, endOfDifferences } from "./difference.js";
+import { statisticsOf, together } from "./statistics.js";
+
+/// Whether B can be laid upon A: it has the same size, and the channel.
+export const isComparable = (a, b, channel) => a !== b && a.width === b.width && a.height === b.height && Boolean(channelOf(b, channel));
+
+/// The sources of a state, A first, each with a name.
+function sourcesOf(state) {
+  const a = maps[state.map], b = maps[state.other], first = channelOf(a, state.channel);
+  if (state.mode === "single" || !b) return [{ name: first.name, source: first }];
+  return [["A", first], ["B", channelOf(b, state.channel)]].map(([name, source]) => ({ name: `${name}: ${state.channel}`, source }));
+}
+
+function rangeOf(state, source, statistics) {
+  if (!statistics) return { low: 0, high: 1 };
+  const end = source.isDifference ? endOfDifferences(statistics) : 0;
+  const [low, high] = source.isDifference ? [-end, end] : [statistics.low, statistics.high];
+  return { low: state.low ?? low, high: state.high ?? high };
+}
+
+/// { layers, sources, source, statistics, shading }: what the picture, the reading and the histogram show.
+export async function shownBy(state) {
+  const sources = sourcesOf(state);
+  if (state.mode === "difference" && sources.length > 1 && sources[0].source.kind !== "colour") {
+    const source = new Difference(maps[state.map], sources[0].source, sources[1].source, state.measure);
+    const statistics = await statisticsOf(source), shading = new Shading(source, { ...state, ...rangeOf(state, source, statistics) }, statistics.sorted);
+    return { layers: [{ source, shading }], sources: [...sources, { name: "B − A", source }], source, statistics, shading };
+  }
+  const { source } = sources[0], statistics = together(await Promise.all(sources.map((each) => statisticsOf(each.source))));
+  const settings = { ...state, ...rangeOf(state, source, statistics) };
+  const layers = sources.map((each) => ({ source: each.source, shading: new Shading(each.source, settings, statistics?.sorted) }));
+  return { layers, sources, source, statistics, shading: layers[0].shading };
+}
+
+/// Shows A and B in turns; by hand only where the user wants no motion.
+export class Flicker {
+  constructor(turn) { Object.assign(this, { turn, showsOther: false, timer: null }); }
+  start() {
+    this.stop();
+    if (!matchMedia("(prefers-reduced-motion: reduce)").matches) this.timer = setInterval(() => this.swap(), 600);
+  }
+  swap() { this.showsOther = !this.showsOther; this.turn(this.showsOther); }
+  stop() { clearInterval(this.timer); this.timer = null; this.showsOther = false; }
+  get isRunning() { return this.timer !== null; }
+}

@@ -1,0 +1,91 @@
+/// The values of a map as the page holds them, tile by tile (apps/view/packing.h).
+
+async function inflated(text) {
+  const letters = atob(text), bytes = new Uint8Array(letters.length);
+  for (let k = 0; k < letters.length; ++k) bytes[k] = letters.charCodeAt(k);
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+const arrays = { 1: Uint8Array, 2: Uint16Array, 4: Uint32Array };
+
+/// Words of 8, 16 or 32 bits.
+function unpackedWords(bytes, size, columns) {
+  const count = (bytes.length - 1) / size, isGradient = bytes[0] === 1, words = new arrays[size](count);
+  for (let k = 0; k < count; ++k) {
+    let zigzag = 0;
+    for (let byte = size - 1; byte >= 0; --byte) zigzag = zigzag << 8 | bytes[1 + byte * count + k];
+    const difference = zigzag >>> 1 ^ -(zigzag & 1), hasLeft = k % columns !== 0, hasUpper = k >= columns;
+    let expected = hasLeft ? words[k - 1] : hasUpper ? words[k - columns] : 0;
+    if (isGradient && hasLeft && hasUpper) expected += words[k - columns] - words[k - columns - 1];
+    words[k] = difference + expected;
+  }
+  return words;
+}
+
+/// Words of 64 bits, as pairs of 32 bits, the lower first.
+function unpackedPairs(bytes, columns) {
+  const count = (bytes.length - 1) / 8, isGradient = bytes[0] === 1, words = new Uint32Array(2 * count);
+  const half = (first, k) => (bytes[1 + first * count + k] | bytes[1 + (first + 1) * count + k] << 8
+    | bytes[1 + (first + 2) * count + k] << 16 | bytes[1 + (first + 3) * count + k] << 24) >>> 0;
+  for (let k = 0; k < count; ++k) {
+    const low = half(0, k), high = half(4, k), sign = -(low & 1);
+    let lowSum = ((low >>> 1 | high << 31) ^ sign) >>> 0, highSum = (high >>> 1 ^ sign) >>> 0;
+    const hasLeft = k % columns !== 0, hasUpper = k >= columns;
+    const add = (from, factor) => { lowSum += factor * words[2 * from]; highSum += factor * words[2 * from + 1]; };
+    if (hasLeft) add(k - 1, 1);
+    else if (hasUpper) add(k - columns, 1);
+    if (isGradient && hasLeft && hasUpper) { add(k - columns, 1); add(k - columns - 1, -1); }
+    words[2 * k] = lowSum;
+    words[2 * k + 1] = highSum + Math.floor(lowSum / 4294967296);
+  }
+  return words;
+}
+
+/// How the bytes of each type are read.
+const types = {
+  u8: { bytes: 1, values: (words) => words },
+  u16: { bytes: 2, values: (words) => words },
+  u32: { bytes: 4, values: (words) => words },
+  f32: { bytes: 4, values: (words) => new Float32Array(words.buffer) },
+  f64: { bytes: 8, values: (words) => new Float64Array(words.buffer) } };
+
+export async function unpacked(id, type, columns) {
+  const bytes = await inflated(document.getElementById(id).textContent), { bytes: size, values } = types[type];
+  return values(size === 8 ? unpackedPairs(bytes, columns) : unpackedWords(bytes, size, columns));
+}
+
+/// What was unpacked last, up to so many bytes; a page of 16384 × 16384 pixels holds more than a browser has room for.
+class Memory {
+  constructor(limit) { this.limit = limit; this.used = 0; this.entries = new Map(); }
+  get(key) {
+    const entry = this.entries.get(key);
+    if (entry) { this.entries.delete(key); this.entries.set(key, entry); }
+    return entry;
+  }
+  put(key, entry, bytes) {
+    entry.bytes = bytes;
+    this.entries.set(key, entry);
+    this.used += bytes;
+    for (const [oldest, { bytes: freed }] of this.entries) {
+      if (this.used <= this.limit || oldest === key) break;
+      this.entries.delete(oldest);
+      this.used -= freed;
+    }
+  }
+}
+const memory = new Memory(3 << 28), pending = new Map();
+
+/// The tile that `make` returns a promise of, made once; `ready()` finds it without waiting.
+export function remembered(key, make) {
+  const entry = memory.get(key);
+  if (entry) return Promise.resolve(entry.tile);
+  if (!pending.has(key)) {
+    pending.set(key, make().then((tile) => {
+      memory.put(key, { tile }, tile.bytes);
+      return tile;
+    }).finally(() => pending.delete(key)));
+  }
+  return pending.get(key);
+}
+export const ready = (key) => memory.get(key)?.tile;

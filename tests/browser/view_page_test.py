@@ -1,0 +1,310 @@
+#!/usr/bin/python3
+"""The page of `fathom view`: it holds every bit of its maps, and shows them as its controls say.
+
+    tests/browser/view_page_test.py FATHOM-VIEW
+"""
+import base64
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import Select
+
+from headless_chromium import headless_chromium
+from page_case import PageCase
+
+DATA = pathlib.Path(__file__).resolve().parents[2] / "data"
+
+# All values of a channel, level by level, as bytes.
+VALUES = """
+const [map, name, level, done] = arguments, channel = fathom.maps[map].channels.find((c) => c.name === name);
+(async () => {
+  const { columns, rows, across, down } = channel.grid(level);
+  let all = null, mask = new Uint8Array(columns * rows);
+  for (let number = 0; number < across * down; ++number) {
+    const tile = await channel.tile(level, number);
+    const left = number % across * 512, top = Math.floor(number / across) * 512;
+    all ??= new tile.values.constructor(columns * rows);
+    for (let y = 0; y < tile.rows; ++y) {
+      all.set(tile.values.subarray(y * tile.columns, (y + 1) * tile.columns), (top + y) * columns + left);
+      for (let x = 0; x < tile.columns; ++x) mask[(top + y) * columns + left + x] = tile.mask ? tile.mask[y * tile.columns + x] : 1;
+    }
+  }
+  const text = (array) => {
+    const bytes = new Uint8Array(array.buffer), parts = [];
+    for (let k = 0; k < bytes.length; k += 32768) parts.push(String.fromCharCode(...bytes.subarray(k, k + 32768)));
+    return btoa(parts.join(""));
+  };
+  done([text(all), text(mask), columns, rows]);
+})();
+"""
+COLOUR_AT_CENTRE = """
+const canvas = document.getElementById("picture");
+return Array.from(canvas.getContext("2d").getImageData(canvas.width >> 1, canvas.height >> 1, 1, 1).data).slice(0, 3);
+"""
+READY = "return document.documentElement.dataset.ready"
+
+
+def fathom(*arguments):
+    subprocess.run([pathlib.Path(PROGRAM).parent / "fathom", "--quiet", *map(str, arguments)], check=True,
+                   stdout=subprocess.DEVNULL)
+
+
+class ViewPage(PageCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="fathom-view-")))
+        scene = DATA / "scenes/pair.json"
+        channels = ("--channels", "Z,A,id,object,N", "--size", "700x530")
+        for name, view in (("pair", "215,15"), ("turned", "218,16")):
+            fathom("render", scene, "--view", view, *channels, "-o", cls.folder / f"{name}.npz")
+        fathom("render", scene, "--view", "215,15", *channels, "-o", cls.folder / "pair.exr")
+        cls.pair, cls.turned = (numpy.load(cls.folder / f"{name}.npz") for name in ("pair", "turned"))
+        cls.page = cls.viewed("pair.exr", "turned.npz")
+        cls.driver = cls.enterClassContext(headless_chromium())
+        cls.driver.set_script_timeout(60)
+
+    @classmethod
+    def viewed(cls, *maps):
+        """The address of a page with these maps of the folder."""
+        page = cls.folder / ("-".join(pathlib.Path(name).stem for name in maps) + ".html")
+        subprocess.run([PROGRAM, *(cls.folder / name for name in maps), "-o", page], check=True)
+        return page.as_uri()
+
+    def open(self, fragment="", page=None):
+        self.driver.get("about:blank")
+        self.driver.get((page or self.page) + fragment)
+        self.wait_until_ready()
+
+    def wait_until_ready(self, after=0):
+        self.wait_for(lambda: int(self.driver.execute_script(READY) or 0) > after, "the picture")
+
+    def change(self, control, text):
+        before = int(self.driver.execute_script(READY))
+        Select(self.one("#" + control)).select_by_value(text)
+        self.wait_until_ready(before)
+
+    def values(self, number, name, dtype, level=0):
+        text, mask, columns, rows = self.driver.execute_async_script(VALUES, number, name, level)
+        shape = (rows, columns)
+        return (numpy.frombuffer(base64.b64decode(text), dtype).reshape(shape),
+                numpy.frombuffer(base64.b64decode(mask), numpy.uint8).reshape(shape))
+
+    def expect_bits(self, number, name, array, level=0):
+        found, _ = self.values(number, name, array.dtype, level)
+        words = f"u{array.dtype.itemsize}"
+        step = 2 ** level
+        numpy.testing.assert_array_equal(found.view(words), numpy.ascontiguousarray(array[::step, ::step]).view(words))
+
+    def reading(self):
+        """The table of the selected pixel, when it is there."""
+        self.wait_for(lambda: self.table("#values"), "the values")
+        return dict(self.table("#values"))
+
+    def test_every_bit_of_an_exr_and_of_an_npz_is_there(self):
+        self.open()
+        for number, maps in enumerate((self.pair, self.turned)):
+            for name in ("Z", "A", "id", "object"):
+                self.expect_bits(number, name, maps[name])
+            for k, part in enumerate("XYZ"):
+                self.expect_bits(number, f"N.{part}", maps["N"][:, :, k])
+        _, mask = self.values(0, "N.X", "f4")
+        numpy.testing.assert_array_equal(mask != 0, self.pair["object"] != 0xFFFFFFFF)
+
+    def test_every_bit_of_other_types_is_there(self):
+        random = numpy.random.default_rng(51)
+        fathom("render", DATA / "meshes/spot.obj", "--size", "600x20", "--dtype", "float64", "-o", self.folder / "double.npy")
+        words = random.integers(0, 2 ** 64, size=(7, 530), dtype="u8").view("f8")  # NaNs, infinities, everything
+        numpy.save(self.folder / "words.npy", words)
+        fathom("render", DATA / "meshes/spot.obj", "--size", "600x20", "--png-scale", "1000", "-o", self.folder / "codes.png")
+        fathom("convert", self.folder / "codes.png", "-o", self.folder / "codes.npy")
+        for name in ("double.npy", "words.npy"):
+            self.open(page=self.viewed(name))
+            self.expect_bits(0, "Z", numpy.load(self.folder / name))
+        self.open(page=self.viewed("codes.png"))
+        found, mask = self.values(0, "Z", "f8")
+        codes = numpy.round(found * 1000)
+        numpy.testing.assert_array_equal(found, codes / 1000)
+        expected = numpy.load(self.folder / "codes.npy")
+        numpy.testing.assert_array_equal(found[mask != 0].astype("f4"), expected[mask != 0].astype("f4"))
+
+    def test_large_maps_have_coarser_levels(self):
+        y, x = numpy.mgrid[0:2501, 0:3003]
+        large = (1 + x * x * 1e-7 + numpy.sin(y / 50)).astype("f4")
+        numpy.save(self.folder / "large.npy", large)
+        self.open(page=self.viewed("large.npy"))
+        self.assertEqual(self.driver.execute_script("return fathom.maps[0].levels"), 2)
+        for level in (0, 1):
+            self.expect_bits(0, "Z", large, level)
+        self.assertIn("one of 2 × 2 pixels", self.text("#histogram-said"))
+        self.open("#pixel=3002,2500", page=(self.folder / "large.html").as_uri())
+        self.assertEqual(numpy.float32(self.reading()["Z"]), large[2500, 3002])
+
+    def surface_pixels(self, count):
+        rows, columns = numpy.nonzero(self.pair["object"] != 0xFFFFFFFF)
+        chosen = numpy.random.default_rng(7).choice(len(rows), count, replace=False)
+        return [(int(columns[k]), int(rows[k])) for k in chosen]
+
+    def test_the_reading_of_a_pixel_is_the_file(self):
+        for x, y in self.surface_pixels(4):
+            self.open(f"#pixel={x},{y}")
+            told = self.reading()
+            self.assertEqual(self.text("#where"), f"Pixel {x}, {y}")
+            for name in ("Z", "A"):
+                self.assertEqual(numpy.float32(told[name]), self.pair[name][y, x])
+            self.assertEqual(int(told["id"]), self.pair["id"][y, x])
+            number = self.pair["object"][y, x]
+            self.assertEqual(told["object"], f"{number}  {['spot', 'teapot'][number]}")
+        self.open("#pixel=0,0")
+        self.assertEqual(self.text("#where"), "Pixel 0, 0: no surface")
+        self.assertEqual(self.reading()["Z"], "–")
+
+    def test_the_point_in_the_world_is_that_of_convert(self):
+        fathom("convert", self.folder / "pair.exr", "-o", self.folder / "pair.ply")
+        data = (self.folder / "pair.ply").read_bytes()
+        head, body = data.split(b"end_header\n", 1)
+        kinds = {b"double": "f8", b"float": "f4", b"uint": "u4"}
+        row = numpy.dtype([(line.split()[2].decode(), kinds[line.split()[1]]) for line in head.splitlines()
+                           if line.startswith(b"property")])
+        points = numpy.frombuffer(body, row)
+        index = numpy.cumsum((self.pair["object"] != 0xFFFFFFFF).ravel()) - 1
+        for x, y in self.surface_pixels(2):
+            self.open(f"#pixel={x},{y}")
+            told = [float(part) for part in self.reading()["world"].split(", ")]
+            point = points[index[y * 700 + x]]
+            numpy.testing.assert_allclose(told, [point["x"], point["y"], point["z"]], rtol=1e-8)
+
+    def test_pointer_and_keys_select_pixels(self):
+        self.open("#x=350.5&y=265.5&zoom=16")
+        canvas = self.one("#picture")
+        ActionChains(self.driver).move_to_element(canvas).perform()
+        self.wait_for(lambda: self.text("#where").startswith("Pixel"), "the pixel below the pointer")
+        ActionChains(self.driver).click(canvas).perform()
+        self.wait_for(lambda: self.driver.execute_script("return fathom.state().pixel"), "a selected pixel")
+        x, y = self.driver.execute_script("return fathom.state().pixel")
+        self.assertLessEqual(abs(x - 350) + abs(y - 265), 1)
+        canvas.send_keys(Keys.ARROW_RIGHT, Keys.ARROW_UP)
+        self.assertEqual(self.driver.execute_script("return fathom.state().pixel"), [x + 1, y - 1])
+        self.wait_for(lambda: self.text("#where").startswith(f"Pixel {x + 1}, {y - 1}"), "its values")
+        self.assertIn(f"pixel {x + 1}, {y - 1}: Z", self.one("#said").get_attribute("textContent"))
+
+    def colour_of(self, place, name="viridis"):
+        table = self.driver.execute_script(
+            "return JSON.parse(document.getElementById('view').textContent).colours[arguments[0]]", name)
+        k = round(255 * place)
+        return [int(table[6 * k + 2 * part:6 * k + 2 * part + 2], 16) for part in range(3)]
+
+    def test_colours_follow_scale_range_and_colour_map(self):
+        depth, seen = self.pair["Z"], numpy.isfinite(self.pair["Z"])
+        low, high = depth[seen].min(), depth[seen].max()
+        (x, y), = self.surface_pixels(1)
+        z = float(depth[y, x])
+        at = f"#x={x + 0.5}&y={y + 0.5}&zoom=16"
+        places = {"linear": (z - low) / (high - low), "log": numpy.log(z / low) / numpy.log(high / low),
+                  "inverse": (1 / low - 1 / z) / (1 / low - 1 / high),
+                  "equalised": (depth[seen] < z).mean()}
+        for scale, place in places.items():
+            self.open(f"{at}&scale={scale}")
+            wanted = self.colour_of(place)
+            for got, part in zip(self.driver.execute_script(COLOUR_AT_CENTRE), wanted):
+                self.assertLessEqual(abs(got - part), 4, scale)
+        self.open(f"{at}&low={z - 1}&high={z + 3}&colours=magma")
+        self.assertEqual(self.driver.execute_script(COLOUR_AT_CENTRE), self.colour_of(0.25, "magma"))
+
+    def test_a_link_keeps_the_view(self):
+        self.open()
+        self.change("channel", "object")
+        self.one("#closer").click()
+        ActionChains(self.driver).click(self.one("#picture")).perform()
+        self.wait_for(lambda: "pixel=" in self.driver.current_url, "the link")
+        kept = self.driver.execute_script("return fathom.state()")
+        self.open(page=self.driver.current_url)
+        again = self.driver.execute_script("return fathom.state()")
+        for key in ("channel", "pixel", "mode"):
+            self.assertEqual(again[key], kept[key])
+        for key in ("x", "y", "zoom"):
+            self.assertAlmostEqual(again[key], kept[key], 4)
+        self.assertEqual(kept["channel"], "object")
+
+    def test_wrong_links_show_the_map(self):
+        self.open("#map=7&channel=nothing&scale=jet&pixel=9999,2&low=5&high=1&zoom=-3&x=1e99&other=0&mode=flicker")
+        self.assertEqual(Select(self.one("#channel")).first_selected_option.get_attribute("value"), "Z")
+
+    def test_differences_are_those_of_the_files(self):
+        a, b = self.pair["Z"], self.turned["Z"]
+        rows, columns = numpy.nonzero(numpy.isfinite(a) & numpy.isfinite(b))
+        x, y = int(columns[len(columns) // 3]), int(rows[len(rows) // 3])
+        p, q = a[y, x], b[y, x]
+        wanted = {"absolute": float(q) - float(p), "relative": (float(q) - float(p)) / max(float(p), float(q)),
+                  "ulps": int(q.view("i4")) - int(p.view("i4"))}
+        for measure, difference in wanted.items():
+            self.open(f"#mode=difference&measure={measure}&pixel={x},{y}")
+            told = self.reading()
+            self.assertEqual((numpy.float32(told["A: Z"]), numpy.float32(told["B: Z"])), (p, q))
+            self.assertEqual(float(told["B − A"]), difference)
+        legend = self.texts("#legend li")
+        only_a = numpy.count_nonzero(numpy.isfinite(a) & ~numpy.isfinite(b))
+        self.assertTrue(any(line.startswith(f"surface in A only ({100 * only_a / a.size:.1f}") for line in legend), legend)
+
+    def test_slider_and_flicker_show_both(self):
+        x, y = self.surface_pixels(1)[0]
+        at = f"&channel=id&x={x + 0.5}&y={y + 0.5}&zoom=16"
+        colours = {}
+        for split in (0, 1):
+            self.open(f"#mode=slider&split={split}{at}")
+            colours[split] = self.driver.execute_script(COLOUR_AT_CENTRE)
+        self.open("#mode=flicker" + at)
+        seen = set()
+
+        def both():
+            seen.add(tuple(self.driver.execute_script(COLOUR_AT_CENTRE)))
+            return seen == {tuple(colours[0]), tuple(colours[1])}
+        self.assertNotEqual(colours[0], colours[1])
+        self.wait_for(both, "A and B in turns")
+
+    def test_a_profile_has_the_values_of_its_line(self):
+        x, y = self.surface_pixels(1)[0]
+        self.open(f"#line={x - 3},{y},{x + 3},{y}")
+        plot = self.one("#profile")
+        self.wait_for(lambda: self.text("#profile-said"), "the profile")
+        ActionChains(self.driver).move_to_element(plot).perform()
+        self.wait_for(lambda: self.text("#profile-value"), "a value")
+        place, value = self.text("#profile-value").split(": ")
+        column, row = map(int, place.split(", "))
+        self.assertEqual(row, y)
+        if numpy.isfinite(self.pair["Z"][y, column]):
+            self.assertAlmostEqual(float(value), float(self.pair["Z"][y, column]), 7)
+
+    def test_the_histogram_counts_values_and_takes_a_range(self):
+        self.open()
+        count = int(numpy.isfinite(self.pair["Z"]).sum())
+        self.assertTrue(self.text("#histogram-said").startswith(f"{count:,} values"))
+        chart = self.one("#histogram")
+        ActionChains(self.driver).move_to_element_with_offset(chart, -60, 0).click_and_hold().move_by_offset(120, 0).release().perform()
+        self.wait_for(lambda: self.one("#low").get_attribute("value"), "a range")
+        low, high = (float(self.one(end).get_attribute("value")) for end in ("#low", "#high"))
+        self.assertTrue(self.pair["Z"].min() < low < high)
+        self.one("#reset").click()
+        self.wait_for(lambda: not self.one("#low").get_attribute("value"), "all values")
+
+    def test_a_full_hd_map_is_small_and_needs_no_other_file(self):
+        fathom("render", DATA / "meshes/spot.obj", "--size", "1920x1080", "--channels", "Z,A", "-o", self.folder / "hd.exr")
+        self.open(page=self.viewed("hd.exr"))
+        self.assertLess((self.folder / "hd.html").stat().st_size, 4e6)
+        self.assertEqual(self.driver.execute_script("return performance.getEntriesByType('resource').length"), 0)
+
+    def test_it_fits_narrow_windows(self):
+        for width in (1280, 400):
+            self.resize(width, 850)
+            self.open("#mode=difference&pixel=300,200")
+            self.assertLessEqual(self.how_far_it_scrolls_sideways("html"), 0)
+
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    unittest.main(failfast=True)
