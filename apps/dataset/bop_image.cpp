@@ -16,7 +16,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/image/map_files.h"
-#include "fathom/image/mask_picture.h"
+#include "fathom/image/png_files.h"
 #include "fathom/image/samples.h"
 #include "fathom/render.h"
 

@@ -10,7 +10,7 @@
 #include "apps/options/output_names.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/values.h"
-#include "fathom/image/png_sidecar.h"
+#include "fathom/image/png_files.h"
 
 namespace fathom::app {
 namespace {

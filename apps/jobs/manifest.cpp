@@ -16,7 +16,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
 #include "fathom/text/parse_json.h"
-#include "fathom/text/utf8.h"
+#include "fathom/text/printable.h"
 
 namespace fathom::app {
 namespace {

@@ -18,7 +18,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/map_files.h"
-#include "fathom/image/png_sidecar.h"
+#include "fathom/image/png_files.h"
 #include "fathom/image/point_cloud.h"
 #include "fathom/image/surface.h"
 

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "apps/shell/values.h"
-#include "fathom/image/recognise_map.h"
+#include "fathom/image/map_files.h"
 #include "fathom/text/parse_json.h"
 #include "fathom/text/printable.h"
 #include "fathom/text/text_cursor.h"

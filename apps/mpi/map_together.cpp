@@ -17,7 +17,7 @@
 #include "apps/shell/failures.h"
 #include "fathom/fast/some_tiles.h"
 #include "fathom/image/exr_bands.h"
-#include "fathom/image/png_sidecar.h"
+#include "fathom/image/png_files.h"
 #include "fathom/render.h"
 
 // How to read this file: MapTogether::make() is the whole story. The ranks draw the tiles of the

@@ -11,7 +11,7 @@
 #include "fathom/camera/camera_import.h"
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
-#include "fathom/image/recognise_map.h"
+#include "fathom/image/map_files.h"
 #include "fathom/scene/framing.h"
 
 namespace fathom::app {

@@ -7,8 +7,8 @@
 #include "apps/shell/max_memory.h"
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
+#include "fathom/image/channel_names.h"
 #include "fathom/image/map_files.h"
-#include "fathom/image/missing_channel.h"
 
 namespace fathom::app {
 namespace {

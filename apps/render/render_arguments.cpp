@@ -11,6 +11,7 @@
 #include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
+#include "fathom/image/channel_names.h"
 #include "fathom/image/channel_table.h"
 #include "fathom/rendering/option_names.h"
 

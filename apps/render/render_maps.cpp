@@ -17,7 +17,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/depth_map.h"
-#include "fathom/image/png_sidecar.h"
+#include "fathom/image/png_files.h"
 #include "fathom/render.h"
 #include "fathom/rendering/options.h"
 #include "fathom/scene/triangle_source.h"

@@ -1,9 +1,8 @@
 // Whether two triangles have no area in common on the image, by their edges, against the areas of
 // both and of their union in rational numbers.
-#include "fathom/area/disjoint_surfaces.h"
-
 #include <gtest/gtest.h>
 
+#include "fathom/area/image_cell.h"
 #include "tests/area/surfaces.h"
 #include "tests/effort.h"
 #include "tests/inputs/random_scenes.h"

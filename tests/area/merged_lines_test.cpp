@@ -1,9 +1,9 @@
 // Equal half-planes are one object, others are not.
-#include "fathom/area/merged_lines.h"
-
 #include <gtest/gtest.h>
 
 #include <deque>
+
+#include "fathom/area/convex_polygon.h"
 
 namespace fathom {
 namespace {

@@ -1,11 +1,11 @@
-#include "fathom/attribution/other_size.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <string>
+
+#include "fathom/attribution/other_scene.h"
 
 namespace fathom::attribution {
 namespace {

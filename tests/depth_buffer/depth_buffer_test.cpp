@@ -8,7 +8,6 @@
 #include <string>
 
 #include "fathom/depth_format/encode.h"
-#include "fathom/depth_format/mapping.h"
 #include "fathom/failures/errors.h"
 #include "fathom/reference/probe.h"
 #include "fathom/render.h"

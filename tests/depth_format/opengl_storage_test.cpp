@@ -1,7 +1,6 @@
-#include "fathom/depth_format/opengl_storage.h"
-
 #include <gtest/gtest.h>
 
+#include "fathom/depth_format/stored_depth.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom {

@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "fathom/evaluation/bounds.h"
-#include "fathom/evaluation/distance_bounds.h"
-#include "fathom/evaluation/exact_distance.h"
 #include "fathom/numeric/rounding.h"
 #include "tests/effort.h"
 #include "tests/evaluation/rational_judge.h"

@@ -1,10 +1,9 @@
 // A window of a few bytes over a file shows what a window over the same bytes in memory does.
-#include "fathom/files/byte_window.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "fathom/files/random_access_file.h"
 #include "tests/scratch_folder.h"
 
 namespace fathom {

@@ -1,6 +1,4 @@
 // Pieces of a file through blocks that are kept: the same bytes as the file has, or an error.
-#include "fathom/files/file_blocks.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "fathom/failures/errors.h"
+#include "fathom/files/random_access_file.h"
 #include "tests/scratch_folder.h"
 
 namespace fathom::files {

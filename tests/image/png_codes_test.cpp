@@ -5,8 +5,7 @@
 #include "fathom/files/input_file.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/files/map_codecs.h"
-#include "fathom/image/mask_picture.h"
-#include "fathom/image/png_sidecar.h"
+#include "fathom/image/png_files.h"
 #include "tests/image/map_samples.h"
 #include "tests/image/run_program.h"
 

@@ -1,13 +1,13 @@
 // Limits of control groups, from trees of files as systems and containers show them.
 
-#include "fathom/memory/control_groups.h"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+
+#include "fathom/memory/available_memory.h"
 
 namespace fathom::memory {
 namespace {

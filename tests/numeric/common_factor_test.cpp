@@ -1,8 +1,7 @@
 // One representative for all vectors of the same direction.
-#include "fathom/numeric/common_factor.h"
-
 #include <gtest/gtest.h>
 
+#include "fathom/numeric/divisors.h"
 #include "tests/numeric/random_numbers.h"
 
 namespace fathom {

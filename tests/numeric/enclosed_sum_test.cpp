@@ -1,7 +1,7 @@
 // Sums of quotients against their exact sum.
-#include "fathom/numeric/enclosed_sum.h"
-
 #include <gtest/gtest.h>
+
+#include "fathom/numeric/real.h"
 
 namespace fathom {
 namespace {

@@ -1,9 +1,8 @@
-#include "fathom/numeric/last_bit.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "fathom/numeric/divisors.h"
 #include "tests/numeric/random_numbers.h"
 
 namespace fathom {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fathom/failures/errors.h"
-#include "fathom/pipeline/geometry/draw_order.h"
+#include "fathom/pipeline/geometry/window_triangle.h"
 #include "fathom/pipeline/output/draw_rules.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/pipeline/trace.h"

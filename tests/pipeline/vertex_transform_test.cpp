@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "fathom/depth_format/mapping.h"
+#include "fathom/depth_format/encode.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/pipeline/geometry/window_transform.h"

@@ -189,7 +189,7 @@ def test_texts_of_files_have_one_spelling():
 
 
 def test_info_recognises_maps_of_every_format(tmp_path, run_program):
-    """By a list of its own (recognise_map.cpp), since meshes come in ZIP archives, too."""
+    """By a list of its own (map_files.cpp), since meshes come in ZIP archives, too."""
     camera = fathom.Camera(2, 1, 1, 1, 0, 0, pixel_centre=0.5, projection="orthographic",
                            world_to_camera=np.diag([1, -1, -1, 1]))
     depths = fathom.Map({"Z": np.array([[1, 2]], np.float32)}, camera)

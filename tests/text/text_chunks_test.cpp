@@ -1,11 +1,11 @@
-#include "fathom/text/text_chunks.h"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <random>
 #include <stdexcept>
 #include <string>
+
+#include "fathom/text/text_ends.h"
 
 namespace fathom {
 namespace {

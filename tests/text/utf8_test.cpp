@@ -1,6 +1,6 @@
-#include "fathom/text/utf8.h"
-
 #include <gtest/gtest.h>
+
+#include "fathom/text/printable.h"
 
 namespace fathom::text {
 namespace {

@@ -1,10 +1,9 @@
-#include "fathom/triangle/sample_sides.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "fathom/triangle/projected_triangle.h"
+#include "fathom/triangle/triangle_boxes.h"
 #include "tests/effort.h"
 #include "tests/inputs/random_scenes.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "fathom/depth_format/opengl_storage.h"
+#include "fathom/depth_format/stored_depth.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::validation {

@@ -6,9 +6,9 @@
 
 #include "apps/bench/parts/engine_variants.h"
 #include "apps/bench/parts/ideas.h"
-#include "fathom/pipeline/geometry/draw_order.h"
 #include "fathom/pipeline/geometry/geometry_stages.h"
 #include "fathom/pipeline/geometry/vertex_transform.h"
+#include "fathom/pipeline/geometry/window_triangle.h"
 
 namespace fathom::bench {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "fathom/area/triangle_bands.h"
 #include "fathom/depth_format/encode.h"
-#include "fathom/depth_format/mapping.h"
 #include "fathom/depth_format/resolution.h"
 #include "fathom/triangle/referee.h"
 #include "fathom/triangle/sampling.h"

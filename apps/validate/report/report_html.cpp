@@ -8,6 +8,7 @@
 
 #include "apps/validate/report/page.h"
 #include "apps/validate/report/report_formats.h"
+#include "apps/validate/report/script_data.h"
 #include "fathom/image/preview.h"
 
 namespace fathom::validation {
@@ -123,14 +124,6 @@ Json json_of(const ResultChange& change) {
           {"obstacle", change.obstacle},
           {"before", is_new ? Json(nullptr) : json_of(change.before)},
           {"after", is_gone ? Json(nullptr) : json_of(change.after)}};
-}
-
-/// A script element that holds JSON, found by its id. Nothing in the JSON can end the element: `<`
-/// is escaped.
-std::string script_data(const std::string& id, std::string json) {
-  for (std::size_t i = 0; (i = json.find('<', i)) != std::string::npos;)
-    json.replace(i, 1, "\\u003c");
-  return "<script id=\"" + id + "\" type=\"application/json\">" + json + "</script>\n";
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fathom/area/convex_polygon.h"
-#include "fathom/numeric/enclosed_sum.h"
+#include "fathom/numeric/real.h"
 
 /// Unions and differences of convex polygons, exactly and for every input: overlapping, touching,
 /// with common edges, equal.

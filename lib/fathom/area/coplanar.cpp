@@ -4,8 +4,8 @@
 #include <limits>
 #include <optional>
 
+#include "fathom/area/cell_coverage.h"
 #include "fathom/area/cell_division.h"
-#include "fathom/area/covered_parts.h"
 #include "fathom/area/scene_surfaces.h"
 #include "fathom/area/separation.h"
 #include "fathom/area/visible_fragments.h"

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "fathom/area/convex_polygon.h"
 #include "fathom/area/convex_union.h"
-#include "fathom/area/merged_lines.h"
 #include "fathom/triangle/projected_triangle.h"
 
 namespace fathom::area {
@@ -150,5 +150,13 @@ class ImageCell {
   bool merges_ = false;
   std::optional<CellPart> all_;
 };
+
+/// Whether one of two surfaces lies outside an edge of the other, so that they have no area in
+/// common on the image. Exact; false says nothing if one of them reaches behind the camera.
+///
+/// Every point of s projects to Σ λᵢ·cornerᵢ with λᵢ ≥ 0. So an edge function of t that is positive
+/// at no corner of s is positive nowhere in s, wherever its corners are. A corner that both have,
+/// as in every mesh, lies on two edges of t, which no interval could decide.
+bool are_disjoint(const SurfaceRegion& s, const SurfaceRegion& t);
 
 }  // namespace fathom::area

@@ -1,10 +1,10 @@
 #include "fathom/area/visible_areas.h"
 
+#include "fathom/area/cell_coverage.h"
 #include "fathom/area/cell_division.h"
-#include "fathom/area/covered_parts.h"
 #include "fathom/area/scene_surfaces.h"
 #include "fathom/area/visible_fragments.h"
-#include "fathom/numeric/enclosed_sum.h"
+#include "fathom/numeric/real.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/scene_fault.h"

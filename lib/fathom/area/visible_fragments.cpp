@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/area/cell_coverage.h"
 #include "fathom/area/cell_division.h"
-#include "fathom/area/disjoint_surfaces.h"
-#include "fathom/area/remainder.h"
+#include "fathom/area/image_cell.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/threads/interruption.h"
 

@@ -6,13 +6,38 @@
 #include <string>
 #include <vector>
 
-#include "fathom/attribution/finding.h"
 #include "fathom/attribution/model/renderer_model.h"
 #include "fathom/attribution/other_map.h"
 #include "fathom/attribution/truth.h"
 
 /// Every pixel of another renderer's map, attributed to a cause (docs/validation.md).
 namespace fathom::attribution {
+
+/// A quantity that was estimated from a map.
+struct Estimate {
+  std::string name;
+  double value = 0;
+  /// Standard deviation, from residuals that are summed corner by corner of the mesh: triangles
+  /// that share one share its roundings.
+  double deviation = 0;
+  /// "pixels", "scene units", "rad" or empty.
+  std::string unit;
+};
+
+/// What was found out about the whole image, a triangle or some pixels: mostly that it is wrong.
+struct Finding {
+  /// See docs/validation.md, "Findings".
+  std::string kind;
+  /// The finding as a clause.
+  std::string text;
+  /// How many it explains.
+  std::uint64_t pixels = 0;
+  std::vector<Estimate> estimates = {};
+  /// Kinds of alternatives that explain the map equally well with as many parameters.
+  std::vector<std::string> alternatives = {};
+  /// The evidence, one clause per line of the report.
+  std::vector<std::string> evidence = {};
+};
 
 /// Why a pixel differs from the truth (docs/validation.md, "Classes"): the first that applies.
 enum class PixelClass : std::uint8_t {

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "fathom/attribution/finding.h"
+#include "fathom/attribution/attribution.h"
 #include "fathom/attribution/other_map.h"
 #include "fathom/attribution/truth.h"
 

@@ -11,7 +11,6 @@
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/attribution/model_choice.h"
 #include "fathom/attribution/other_scene.h"
-#include "fathom/attribution/other_size.h"
 #include "fathom/camera/clip_planes.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"

@@ -37,7 +37,7 @@ Judgement judge(std::shared_ptr<const Truth> truth, const OtherMap& other,
                 const std::optional<RendererModel>& model);
 
 /// Judges a map of a scene. One of another size than the camera's is judged as the reading of it
-/// that explains most (other_size.h), and a map that fits its scene nowhere is said to be of
+/// that explains most (other_scene.h), and a map that fits its scene nowhere is said to be of
 /// another one (other_scene.h).
 /// Fails    InputError that begins with `name`, the map's: it shows triangles that the scene has
 ///          not, or no reading of its size explains half of it.

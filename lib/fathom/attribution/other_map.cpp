@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "fathom/failures/errors.h"
-#include "fathom/image/missing_channel.h"
+#include "fathom/image/channel_names.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/standard_arithmetic.h"
 

@@ -9,7 +9,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/byte_order.h"
 #include "fathom/files/input_file.h"
-#include "fathom/gltf/gltf_transform.h"
+#include "fathom/gltf/gltf_placement.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "fathom/clipping/points.h"
-#include "fathom/clipping/window.h"
 
 /// Line clipping with outcodes.
 /// Source   [NS79] 5-1, which prints the algorithm of Danny Cohen and Ivan Sutherland, 1967.

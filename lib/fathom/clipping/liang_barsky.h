@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "fathom/clipping/points.h"
-#include "fathom/clipping/window.h"
 
 /// Line clipping by the order of parameters.
 /// Source   [LB84], with its symbols: the segment is inside at t where p_k t ≤ q_k for the edges

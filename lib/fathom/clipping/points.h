@@ -75,4 +75,14 @@ Point4<Number> interpolate(const Point4<Number>& a, const Point4<Number>& b, con
           interpolate(a.w, b.w, t)};
 }
 
+/// A clip rectangle [xmin, xmax] × [ymin, ymax], including its border; xmin ≤ xmax, ymin ≤ ymax.
+template <class Number>
+struct Window {
+  Number xmin, ymin, xmax, ymax;
+};
+
+/// Throws InputError unless xmin ≤ xmax and ymin ≤ ymax.
+template <class Number>
+void check_window(const Window<Number>& window);
+
 }  // namespace fathom::clipping

@@ -5,7 +5,6 @@
 #include "fathom/depth_buffer/buffer_work.h"
 #include "fathom/depth_format/certified_format.h"
 #include "fathom/depth_format/encode.h"
-#include "fathom/depth_format/mapping.h"
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"

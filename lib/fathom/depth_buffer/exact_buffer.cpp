@@ -5,7 +5,6 @@
 
 #include "fathom/depth_buffer/buffer_work.h"
 #include "fathom/depth_format/encode.h"
-#include "fathom/depth_format/mapping.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "fathom/triangle/sampling.h"

@@ -6,9 +6,105 @@
 #include <string>
 
 #include "fathom/failures/errors.h"
+#include "fathom/numeric/logarithm.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
+namespace {
+
+const Ratio& one() {
+  static const Ratio value = Dyadic(1.0);
+  return value;
+}
+
+}  // namespace
+
+Real stored_value(const DepthFormat& format, const Ratio& depth) {
+  const StandardArithmetic standard;
+  const auto& D = depth;
+  const Ratio near = Dyadic(format.near);
+  // Mappings that know far only as infinity may have a far that no Dyadic can hold.
+  const Ratio far = takes_infinite_far(format.mapping) ? Ratio() : Ratio(Dyadic(format.far));
+  switch (format.mapping) {
+    case Mapping::standard:
+    case Mapping::opengl:
+      return quotient(far * (D - near), D * (far - near));
+    case Mapping::reversed:
+      return quotient(near * (far - D), D * (far - near));
+    case Mapping::infinite:
+      return quotient(D - near, D);
+    case Mapping::reversed_infinite:
+      return quotient(near, D);
+    case Mapping::linear:
+      return quotient(D - near, far - near);
+    case Mapping::w:
+      return quotient(D, far);
+    case Mapping::log: {
+      const Ratio c = Dyadic(format.c);
+      return quotient_of_logarithms(one() + c * D, one() + c * far);
+    }
+    case Mapping::log_ulrich:
+      return quotient_of_logarithms(quotient(D, near), quotient(far, near));
+  }
+  return Ratio();
+}
+
+std::optional<Real> depth_of(const DepthFormat& format, const Ratio& value) {
+  const StandardArithmetic standard;
+  const auto& s = value;
+  const Ratio near = Dyadic(format.near);
+  const Ratio far = takes_infinite_far(format.mapping) ? Ratio() : Ratio(Dyadic(format.far));
+  const auto quotient_or_infinity = [](const Ratio& a, const Ratio& b) -> std::optional<Real> {
+    if (b.sign() == Sign::zero) return std::nullopt;
+    return quotient(a, b);
+  };
+  switch (format.mapping) {
+    case Mapping::standard:
+    case Mapping::opengl:
+      return quotient(near * far, far - s * (far - near));
+    case Mapping::reversed:
+      return quotient(near * far, near + s * (far - near));
+    case Mapping::infinite:
+      return quotient_or_infinity(near, one() - s);
+    case Mapping::reversed_infinite:
+      return quotient_or_infinity(near, s);
+    case Mapping::linear:
+      return near + s * (far - near);
+    case Mapping::w:
+      return s * far;
+    case Mapping::log: {
+      const Ratio c = Dyadic(format.c);
+      return affine(power_minus_one(one() + c * far, s), quotient(one(), c), Ratio());
+    }
+    case Mapping::log_ulrich:
+      return affine(power_minus_one(quotient(far, near), s), near, near);
+  }
+  return std::nullopt;
+}
+
+// a − b for two depths of one format (depth_of()), or a depth and a rational number.
+//
+// The difference is rational only if both are, or if they are equal (then the stored values are
+// too, and it is not asked for). For logarithms let x be the least root of the base, b = r^k of a
+// primitive r, such that both powers are powers of x: x = r^(1/m). X^m − r is irreducible over the
+// rationals (r > 0 is not a p-th power for any prime p), so 1, x, …, x^(m−1) are linearly
+// independent. A power x^i is a rational times x^(i mod m). If i mod m ≠ j mod m and not both are
+// 0, the difference has an irrational part; if they are equal and not 0, it is x^(i mod m) times a
+// rational that is not 0.
+Real difference(const Real& a, const Real& b) {
+  return {[a, b](long bits) {
+            const Enclosure x = a.enclose(bits), y = b.enclose(bits);
+            return Enclosure{x.low - y.high, x.high - y.low};
+          },
+          [a, b]() -> std::optional<Ratio> {
+            const std::optional<Ratio> x = a.rational();
+            if (!x) return std::nullopt;
+            const std::optional<Ratio> y = b.rational();
+            if (!y) return std::nullopt;
+            return *x - *y;
+          }};
+}
+
 namespace {
 
 bool is_beyond_far(const DepthFormat& format, const Ratio& depth) {

@@ -2,7 +2,9 @@
 
 #include <bit>
 #include <stdexcept>
+#include <string>
 
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
@@ -62,6 +64,19 @@ Ratio boundary_above(Storage storage, StoredDepth stored) {
   const StandardArithmetic standard;
   const Ratio sum = value_of(storage, stored) + value_of(storage, {stored.bits + 1});
   return {sum.numerator.scaled(-1), sum.denominator};
+}
+
+Storage storage_of_attachment(int bits, bool is_floating_point) {
+  if (is_floating_point && bits == 32) return Storage::float32;
+  for (const Storage storage : {Storage::unorm16, Storage::unorm24, Storage::unorm32}) {
+    if (!is_floating_point && bits == bits_of(storage)) return storage;
+  }
+  throw InputError("OpenGL: the depth attachment has " + std::to_string(bits) + " bits");
+}
+
+double window_depth_of_pixel(Storage storage, std::uint32_t pixel) {
+  const std::uint32_t code = storage == Storage::unorm24 ? pixel >> 8 : pixel;
+  return static_cast<double>(code) / greatest_code(storage);
 }
 
 }  // namespace fathom

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "fathom/camera/camera.h"
+#include "fathom/evaluation/placed_triangles.h"
 #include "fathom/evaluation/surface_points.h"
-#include "fathom/evaluation/triangle_tree.h"
 #include "fathom/numeric/certified_arithmetic.h"
 #include "fathom/rendering/options.h"
 

@@ -1,15 +1,27 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 #include "fathom/camera/camera.h"
-#include "fathom/evaluation/measured_points.h"
 #include "fathom/rendering/options.h"
 #include "fathom/scene/scene.h"
 
 namespace fathom {
+
+/// A point of a surface and how far it is from the other one; scene units.
+struct MeasuredPoint {
+  /// Each coordinate in the world is the exact one rounded once, as the distance is.
+  std::array<double, 3> at{};
+  double distance = 0;
+};
+
+/// The points as a PLY file, binary little endian: x y z and the distance as `quality`, the name
+/// that MeshLab and CloudCompare know, all double.
+std::vector<std::byte> ply_of(const std::vector<MeasuredPoint>& points);
 
 /// How far the points of one surface are from another, over the points that count.
 struct SurfaceDistances {

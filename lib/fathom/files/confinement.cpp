@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "fathom/failures/errors.h"
-#include "fathom/files/system_failure.h"
+#include "fathom/files/descriptor.h"
 
 namespace fathom::files {
 namespace {

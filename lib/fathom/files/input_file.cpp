@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "fathom/failures/errors.h"
-#include "fathom/files/system_failure.h"
+#include "fathom/files/descriptor.h"
 #include "fathom/memory/huge_pages.h"
 #include "fathom/threads/interruption.h"
 

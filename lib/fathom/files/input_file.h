@@ -12,7 +12,6 @@
 
 #include "fathom/files/confinement.h"
 #include "fathom/files/descriptor.h"
-#include "fathom/files/file_state.h"
 #include "fathom/files/mapped_file.h"
 
 namespace fathom::files {

@@ -4,6 +4,10 @@
 
 #include "fathom/geometry/frames.h"
 
+namespace fathom::text {
+class JsonValue;
+}
+
 /// Source   [GLTF20] 3.5.3 (transformations)
 namespace fathom::gltf {
 
@@ -16,5 +20,12 @@ struct GltfPlacement {
 
 /// T·R·S, exactly; R is the polynomial matrix of the quaternion, whatever its length.
 WorldFromMesh transform_of(const GltfPlacement& placement);
+
+// Where the nodes of a glTF lie. Only for .cpp files of this room, of mesh_files/ and of camera/.
+// Source   [GLTF20] 3.5.3 (transformations)
+
+/// What a node says of its place in its parent: a matrix, or a GltfPlacement.
+/// Fails    InputError: both, or a matrix that is not affine.
+WorldFromMesh read_transform_of_node(const text::JsonValue& node);
 
 }  // namespace fathom::gltf

@@ -8,7 +8,7 @@
 #include "fathom/image/pixel_place.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/shortest_decimal.h"
+#include "fathom/text/decimal.h"
 
 namespace fathom {
 namespace {

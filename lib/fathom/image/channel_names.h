@@ -3,9 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "fathom/failures/unknown_name.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/image/map_texts.h"
 
+/// Names of channels: first those that other programs look for, then errors about names.
+///
 /// Channels under the names that other programs look for: OpenCV, for one, shows of an EXR only
 /// channels R, G, B and Y.
 namespace fathom {
@@ -26,5 +29,31 @@ DepthMap with_channel_names(DepthMap map, const std::vector<ChannelName>& names)
 /// The map with the names that its channels had before with_channel_names(), and without that text.
 /// A text of another form is left unchanged: another program wrote it.
 DepthMap with_own_channel_names(DepthMap map);
+
+// Errors about names of channels. They contain the existing names and suggest the intended one,
+// also for words of other programs ("depth" for Z).
+
+/// The error of a name that channel_named() does not know: "there is no channel 'depth'; there are
+/// Z, A, …; did you mean 'Z'?"
+UnknownName unknown_channel(const std::string& name);
+
+/// The channels of a map as users name them: N where N.X, N.Y and N.Z are there, each once.
+std::vector<std::string> names_of_channels(const DepthMap& map);
+
+/// "Z, N"
+std::string list_of_channels(const DepthMap& map);
+
+/// "N is N.X, N.Y, N.Z" where the map holds N in parts; else empty.
+std::string text_of_parts(const DepthMap& map, const std::string& name);
+
+/// The error of a name that no single channel of the map has: "the map has no channel 'z', only Z,
+/// N; did you mean 'Z'?", or "N is N.X, N.Y, N.Z; name one"; `which` is the map, "the map".
+UsageError missing_channel(const DepthMap& map, const std::string& name,
+                           const std::string& which = "the map");
+
+/// Error about an ambiguous setting `channel`, with the channels to choose from: "this format holds
+/// one channel, and the map has Z, N; name the one to write". `refusal` is its beginning.
+UsageError ambiguous_channel(const std::vector<std::string>& names, const std::string& refusal,
+                             const std::string& use);
 
 }  // namespace fathom

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "fathom/failures/errors.h"
+#include "fathom/image/channel_names.h"
 #include "fathom/image/compare_internal.h"
-#include "fathom/image/missing_channel.h"
-#include "fathom/image/nearest_rank.h"
+#include "fathom/image/error_metrics.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {

@@ -3,8 +3,8 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/image/background.h"
+#include "fathom/image/channel_names.h"
 #include "fathom/image/convert.h"
-#include "fathom/image/missing_channel.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/standard_arithmetic.h"
 

@@ -1,7 +1,9 @@
 #include "fathom/image/map_files.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <string_view>
 
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
@@ -9,7 +11,6 @@
 #include "fathom/image/channel_names.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/npy_array.h"
-#include "fathom/image/missing_channel.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/json_text.h"
 #include "fathom/threads/threads.h"
@@ -242,6 +243,42 @@ DepthMap read_map(std::span<const std::byte> bytes, const std::string& name,
                   const MapMemory& memory) {
   const StandardArithmetic standard;
   return decode_map(bytes, name, memory);
+}
+
+namespace {
+
+/// Whether this is an archive whose first member is an array of NumPy's. Meshes come in archives,
+/// too (3MF).
+bool is_npz(std::string_view content) {
+  constexpr std::size_t name_at = 30;
+  if (!content.starts_with("PK\x03\x04") || content.size() < name_at) return false;
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(content[i]); };
+  const std::size_t length = byte(26) + std::size_t{256} * byte(27);
+  return content.substr(name_at, length).ends_with(".npy");
+}
+
+}  // namespace
+
+bool is_map(std::span<const std::byte> bytes) {
+  using namespace std::string_view_literals;
+  const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  static constexpr std::array magics{
+      "\x76\x2f\x31\x01"sv, "\x89PNG"sv, "\x93NUMPY"sv, "Pf"sv, "PF"sv, "II*\0"sv, "MM\0*"sv};
+  return std::ranges::any_of(magics,
+                             [&](std::string_view magic) { return content.starts_with(magic); }) ||
+         is_npz(content) || is_colmap_map(bytes);
+}
+
+void image::require_map_memory(std::uint32_t width, std::uint32_t height,
+                               std::uint64_t bytes_per_pixel, std::uint64_t file_bytes,
+                               const MapMemory& memory, const std::string& name) {
+  const std::string what =
+      name + ": an image of " + std::to_string(width) + "×" + std::to_string(height) + " pixels";
+  const double needed = 1.0 * width * height * static_cast<double>(bytes_per_pixel);
+  require_memory(what, needed, memory.allowance);
+  if (memory.of_small_file && needed > MapMemory::usual_ratio * static_cast<double>(file_bytes)) {
+    require_memory(what, needed, *memory.of_small_file);
+  }
 }
 
 }  // namespace fathom

@@ -6,9 +6,9 @@
 #include <cstdio>
 
 #include "fathom/failures/errors.h"
+#include "fathom/image/channel_names.h"
 #include "fathom/image/compare_internal.h"
 #include "fathom/image/files/name_tables.h"
-#include "fathom/image/missing_channel.h"
 #include "fathom/image/pictures/legend.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/standard_arithmetic.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fathom/numeric/last_bit.h"
+#include "fathom/numeric/divisors.h"
 
 namespace fathom {
 

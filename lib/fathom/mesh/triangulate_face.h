@@ -24,7 +24,7 @@ enum class Triangulation {
 ///
 /// Exact    every test, for all finite coordinates; no corner is moved or dropped. A corner that
 ///          repeats the one before it does not affect convexity or simplicity.
-/// Cost     n for convex rings; n log n to know whether a ring is simple; ear_clipping.h for ears.
+/// Cost     n for convex rings; n log n to know whether a ring is simple; clip_ears() for ears.
 /// Source   [Mei75]: a simple polygon has ears; [SSS74]: Newell's normal.
 Triangulation triangulate_face(std::span<const MeshPoint> ring,
                                std::vector<std::array<std::uint32_t, 3>>& triangles);

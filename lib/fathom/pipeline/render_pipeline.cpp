@@ -6,8 +6,8 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/pipeline/geometry/draw_order.h"
 #include "fathom/pipeline/geometry/geometry_stages.h"
+#include "fathom/pipeline/geometry/window_triangle.h"
 #include "fathom/pipeline/output/area_sampling.h"
 #include "fathom/pipeline/output/fxaa.h"
 #include "fathom/pipeline/rasterization/rasterizer.h"

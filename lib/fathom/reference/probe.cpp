@@ -9,8 +9,8 @@
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/projected_triangle.h"
-#include "fathom/triangle/sample_sides.h"
 #include "fathom/triangle/sampling.h"
+#include "fathom/triangle/triangle_boxes.h"
 
 namespace fathom {
 using namespace triangle;

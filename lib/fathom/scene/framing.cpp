@@ -7,13 +7,46 @@
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/scene/farthest_object.h"
+#include "fathom/scene/bounds.h"
+#include "fathom/text/printable.h"
 
 namespace fathom {
 using namespace camera;
 using namespace scene;
 
 namespace {
+
+double reach_of(const WorldBounds& bounds) {
+  double reach = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    reach = std::max({reach, std::abs(bounds.lower[axis]), std::abs(bounds.upper[axis])});
+  return reach;
+}
+
+/// The object that reaches farthest from the origin of the world, the first of several, for the
+/// message that no camera frames the scene: "FILE: object NAME". The scene has a triangle.
+std::string name_of_farthest_object(const Scene& scene) {
+  const Object* farthest = nullptr;
+  double farthest_reach = -1;
+  Scene part;
+  part.meshes.resize(1);
+  const Mesh* copied = nullptr;
+  for (const Object& object : scene.objects) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    if (copied != &mesh) part.meshes[0] = mesh;
+    copied = &mesh;
+    part.objects = {object};
+    part.objects[0].mesh = 0;
+    const auto bounds = world_bounds(part);
+    if (!bounds || !(reach_of(*bounds) > farthest_reach)) continue;
+    farthest = &object;
+    farthest_reach = reach_of(*bounds);
+  }
+  if (farthest == nullptr) return "the scene";
+  std::string object = "object " + text::printable(farthest->name);
+  if (farthest->source >= scene.sources.size()) return object;
+  return scene.sources[farthest->source].path + ": " + object;
+}
 
 /// The part of the image's width and height that framed bounds may fill.
 constexpr double filled = 0.9;

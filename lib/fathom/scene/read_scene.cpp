@@ -13,7 +13,6 @@
 #include "fathom/mesh_files/expansion_budget.h"
 #include "fathom/mesh_files/foreign_formats.h"
 #include "fathom/mesh_files/named_files.h"
-#include "fathom/mesh_files/odd_attributes.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/mesh_files/recognise_format.h"
 #include "fathom/numeric/standard_arithmetic.h"

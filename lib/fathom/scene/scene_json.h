@@ -32,7 +32,7 @@ struct PlacedFile {
 };
 
 /// Reads a scene file: {"meshes": [{"file", "transform", "name", "draw", "material", "label"}]},
-/// all but the first optional; draw_state_json.h has "draw".
+/// all but the first optional; read_draw_state() in scene_json.cpp has "draw".
 /// Fails    InputError, naming the key; unknown keys are errors.
 std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesystem::path& path);
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <charconv>
+#include <string>
+
 /// Decimal text to binary floating point, rounded once (specification, section 1).
 namespace fathom::text {
 
@@ -30,5 +33,13 @@ DecimalResult<Real> parse_decimal(const char* first, const char* last);
 
 extern template DecimalResult<float> parse_decimal<float>(const char*, const char*);
 extern template DecimalResult<double> parse_decimal<double>(const char*, const char*);
+
+/// The shortest decimal text that is read back as the number, a float or a double: "0.1", "1e+30",
+/// "inf".
+template <class Real>
+std::string shortest_decimal(Real value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
 
 }  // namespace fathom::text

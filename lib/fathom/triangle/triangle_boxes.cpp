@@ -3,9 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fathom/triangle/image_rows.h"
+#include "fathom/numeric/certified.h"
 
 namespace fathom::triangle {
+
+// An affine function is known from its values at four points.
+std::array<std::array<Dyadic, 4>, 3> image_rows(const Object& object, const Camera& camera) {
+  const auto image = [&](const MeshPoint& p) {
+    const HomogeneousImagePoint a =
+        to_image(camera.projection, to_camera(camera.world_to_camera, object.world_from_mesh(p)));
+    return ExactVector3{a.U, a.V, a.W};
+  };
+  const ExactVector3 origin = image({0, 0, 0}), x = image({1, 0, 0}), y = image({0, 1, 0}),
+                     z = image({0, 0, 1});
+  std::array<std::array<Dyadic, 4>, 3> rows;
+  for (std::size_t i = 0; i < 3; ++i) {
+    rows[i] = {x[i] - origin[i], y[i] - origin[i], z[i] - origin[i], origin[i]};
+  }
+  return rows;
+}
+
 namespace {
 
 constexpr std::size_t remembered_corners = 4096;
@@ -80,6 +97,34 @@ PixelBox TriangleBoxes::box(std::uint32_t triangle) {
   if (first_column > last_column || first_row > last_row) return {};
   return {static_cast<std::uint32_t>(first_column), static_cast<std::uint32_t>(last_column),
           static_cast<std::uint32_t>(first_row), static_cast<std::uint32_t>(last_row)};
+}
+
+namespace {
+
+std::array<ApproximateRow, 2> rows_of(const Object& object, const Camera& camera,
+                                      const ImagePoint& s) {
+  const auto image = image_rows(object, camera);
+  const auto difference = [&](const std::array<Dyadic, 4>& row, double place) {
+    std::array<Dyadic, 4> result;
+    for (std::size_t k = 0; k < 4; ++k) result[k] = row[k] - Dyadic(place) * image[2][k];
+    return ApproximateRow(result);
+  };
+  return {difference(image[0], s.u), difference(image[1], s.v)};
+}
+
+}  // namespace
+
+SampleSides::SampleSides(const Object& object, const Camera& camera, const ImagePoint& s)
+    : rows_(rows_of(object, camera, s)) {}
+
+SampleSides::Sides SampleSides::of(const MeshPoint& p) const {
+  unsigned sides = 0;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const Interval value = rows_[axis].at(p);
+    if (value.upper < 0) sides |= 1U << (2 * axis);
+    if (value.lower > 0) sides |= 2U << (2 * axis);
+  }
+  return static_cast<Sides>(sides);
 }
 
 }  // namespace fathom::triangle

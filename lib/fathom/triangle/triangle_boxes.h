@@ -4,11 +4,18 @@
 #include <cstdint>
 #include <vector>
 
+#include "fathom/camera/camera.h"
 #include "fathom/geometry/approximate_row.h"
 #include "fathom/geometry/pixel_box.h"
-#include "fathom/scene/scene.h"
+#include "fathom/mesh/object.h"
 
+/// Where a triangle certainly covers nothing: outside its box, and where all of it lies to one side
+/// of a sample.
 namespace fathom::triangle {
+
+/// U, V and W of the image of a point of an object's mesh, as exact affine functions of that point:
+/// the coefficients of x, y, z and 1.
+std::array<std::array<Dyadic, 4>, 3> image_rows(const Object& object, const Camera& camera);
 
 /// Boxes of the triangles of one object: outside its box a triangle covers no sample that counts.
 /// Equal to bounding_box() or a little larger. Corners are projected in binary64 with a bound, or
@@ -39,6 +46,27 @@ class TriangleBoxes {
   std::array<ApproximateRow, 3> rows_;
   /// The corner that was projected last among those whose numbers have the same low bits.
   std::vector<Corner> recent_;
+};
+
+/// On which sides of a sample (u, v) the vertices of an object lie: the signs of U − uW and V − vW,
+/// in binary64 with a bound.
+///
+/// A triangle whose corners share a side does not cover the sample. With corners a, b, c as
+/// (U, V, W), edge functions e at the sample s = (u, v, 1) satisfy e_A·a + e_B·b + e_C·c = Δ·s.
+/// The form f(p) = U − uW is 0 at s, so that e_A·f(a) + e_B·f(b) + e_C·f(c) = 0. A triangle that
+/// covers s has edge functions of the sign of Δ ≠ 0 or 0, not all of them 0. So f cannot have one
+/// strict sign at all three corners, wherever these lie, also behind the camera.
+class SampleSides {
+ public:
+  /// A set of sides that are certain, one bit each: left, right, above, below.
+  using Sides = std::uint8_t;
+
+  SampleSides(const Object& object, const Camera& camera, const ImagePoint& s);
+  [[nodiscard]] Sides of(const MeshPoint& p) const;
+
+ private:
+  /// U − uW and V − vW.
+  std::array<ApproximateRow, 2> rows_;
 };
 
 }  // namespace fathom::triangle

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "fathom/camera/camera.h"
 
 class vtkRenderer;
@@ -10,5 +13,19 @@ namespace fathom::vtk {
 /// get.
 /// Fails    InputError if no Camera has such matrices, or if the camera is not of VTK's OpenGL.
 Camera camera_of(vtkRenderer& renderer);
+
+}  // namespace fathom::vtk
+
+class vtkRenderer;
+
+namespace fathom::vtk {
+
+/// Checks that the camera of VTK's matrices follows from the position, focal point, view up, view
+/// angle or parallel scale, window centre, model transform and clipping range of its vtkCamera, up
+/// to the roundings of sums in binary64. Returns the difference as a clause, or nothing. Returns
+/// nothing if the vtkCamera has a user's view transform, an explicit projection, shear or an
+/// off-axis projection, which are matrices themselves.
+/// Source   vtkCamera's documentation of these properties.
+std::optional<std::string> fault_of_matrices(vtkRenderer& renderer, const Camera& of_matrices);
 
 }  // namespace fathom::vtk

@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <array>
 
-#include "fathom/depth_format/opengl_storage.h"
+#include "fathom/depth_format/stored_depth.h"
 
 namespace fathom::vtk {
 namespace {

@@ -19,7 +19,6 @@
 #include "fathom/attribution/truth.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/vtk/camera_description.h"
 #include "fathom/vtk/camera_of.h"
 #include "fathom/vtk/depth_buffer.h"
 #include "fathom/vtk/drawn_scene.h"

@@ -11,8 +11,8 @@
 #include "fathom/camera/camera_making.h"
 #include "fathom/camera/data_set_cameras.h"
 #include "fathom/scene/framing.h"
+#include "objects.h"
 #include "running.h"
-#include "scene.h"
 
 namespace py = pybind11;
 

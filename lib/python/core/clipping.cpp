@@ -1,12 +1,12 @@
 #include <pybind11/stl.h>
 
 #include "bindings.h"
-#include "exact.h"
 #include "fathom/clipping/boolean_by_cgal.h"
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/weiler_atherton.h"
 #include "fathom/failures/errors.h"
 #include "running.h"
+#include "values.h"
 
 namespace py = pybind11;
 

@@ -7,16 +7,14 @@
 #include <optional>
 #include <utility>
 
-#include "arrays.h"
 #include "bindings.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/map_files.h"
 #include "fathom/render.h"
-#include "maps.h"
-#include "named_value.h"
-#include "render_options.h"
+#include "objects.h"
+#include "options.h"
 #include "running.h"
-#include "scene.h"
+#include "values.h"
 
 namespace py = pybind11;
 

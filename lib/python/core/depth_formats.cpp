@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "arrays.h"
 #include "bindings.h"
 #include "fathom/depth_format/encode.h"
 #include "fathom/depth_format/resolution.h"
@@ -12,6 +11,7 @@
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/threads/threads.h"
 #include "running.h"
+#include "values.h"
 
 namespace py = pybind11;
 

@@ -10,9 +10,6 @@
 /// StandardArithmetic, so that a binding cannot forget it.
 namespace fathom::python {
 
-/// Defines the context `standard_arithmetic()`, for lines of the package that compute in Python.
-void bind_standard_arithmetic(pybind11::module_& core);
-
 using InStandardArithmetic = pybind11::call_guard<StandardArithmetic>;
 
 /// pybind11::module_, of what bindings use.

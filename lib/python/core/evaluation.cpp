@@ -2,14 +2,13 @@
 
 #include <algorithm>
 
-#include "arrays.h"
 #include "bindings.h"
 #include "fathom/evaluate.h"
 #include "fathom/rendering/option_names.h"
-#include "named_value.h"
-#include "render_options.h"
+#include "objects.h"
+#include "options.h"
 #include "running.h"
-#include "scene.h"
+#include "values.h"
 
 namespace py = pybind11;
 

@@ -1,5 +1,3 @@
-#include "maps.h"
-
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -9,7 +7,6 @@
 #include <string_view>
 #include <utility>
 
-#include "arrays.h"
 #include "bindings.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/background.h"
@@ -20,8 +17,10 @@
 #include "fathom/image/map_texts.h"
 #include "fathom/image/point_cloud.h"
 #include "fathom/rendering/option_names.h"
-#include "named_value.h"
+#include "objects.h"
+#include "options.h"
 #include "running.h"
+#include "values.h"
 
 namespace py = pybind11;
 

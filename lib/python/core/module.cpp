@@ -1,6 +1,90 @@
+#include <exception>
+#include <new>
+#include <optional>
+
 #include "bindings.h"
-#include "errors.h"
+#include "entry_points.h"
+#include "fathom/failures/errors.h"
 #include "running.h"
+
+namespace py = pybind11;
+
+namespace fathom::python {
+namespace {
+
+/// Borrowed: the module, which is never unloaded, holds them.
+PyObject *usage_error, *input_error, *output_error;
+
+PyObject* make_error(py::module_& core, const char* name, const char* doc, const py::tuple& bases) {
+  const std::string full = std::string("fathom.") + name;
+  PyObject* type = PyErr_NewExceptionWithDoc(full.c_str(), doc, bases.ptr(), nullptr);
+  if (!type) throw py::error_already_set();
+  core.attr(name) = py::reinterpret_steal<py::object>(type);
+  return type;
+}
+
+/// Names of files that are not UTF-8 stand in messages, as Python writes them.
+void set_error(PyObject* type, const std::exception& error) {
+  const std::string text = error.what();
+  PyObject* message =
+      PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "backslashreplace");
+  if (message == nullptr) return;
+  PyErr_SetObject(type, message);
+  Py_DECREF(message);
+}
+
+// NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 has it so
+void translate(std::exception_ptr pointer) {
+  try {
+    if (pointer) std::rethrow_exception(pointer);
+  } catch (const UsageError& error) {
+    set_error(usage_error, error);
+  } catch (const InputError& error) {
+    set_error(input_error, error);
+  } catch (const OutputError& error) {
+    set_error(output_error, error);
+  } catch (const std::bad_alloc&) {
+    PyErr_SetString(PyExc_MemoryError, "fathom: there is not enough memory");
+  }
+}
+
+/// Makes Error, UsageError, InputError and OutputError, and has ours become them.
+void bind_errors(py::module_& core) {
+  PyObject* const base = make_error(core, "Error", "What fathom cannot do, and why, in one line.",
+                                    py::make_tuple(py::handle(PyExc_Exception)));
+  const auto under = [&](PyObject* builtin) {
+    return py::make_tuple(py::handle(base), py::handle(builtin));
+  };
+  usage_error = make_error(core, "UsageError", "A request that makes no sense: a ValueError, too.",
+                           under(PyExc_ValueError));
+  input_error = make_error(core, "InputError",
+                           "A file, scene, camera or map that cannot be used: a ValueError, too.",
+                           under(PyExc_ValueError));
+  output_error = make_error(core, "OutputError",
+                            "What cannot be written, or does not fit its format: an OSError, too.",
+                            under(PyExc_OSError));
+  py::register_exception_translator(&translate);
+}
+
+class StandardArithmeticContext {
+ public:
+  void enter() { kept_.emplace(); }
+  void exit(const py::args&) { kept_.reset(); }
+
+ private:
+  std::optional<StandardArithmetic> kept_;
+};
+
+/// Defines the context `standard_arithmetic()`, for lines of the package that compute in Python.
+void bind_standard_arithmetic(py::module_& core) {
+  py::class_<StandardArithmeticContext>(core, "standard_arithmetic")
+      .def(py::init<>())
+      .def("__enter__", &StandardArithmeticContext::enter)
+      .def("__exit__", &StandardArithmeticContext::exit);
+}
+
+}  // namespace
+}  // namespace fathom::python
 
 PYBIND11_MODULE(_core, module) {
   module.doc() = "What the modules of fathom call: see those.";

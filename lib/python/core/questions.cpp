@@ -2,19 +2,16 @@
 
 #include <limits>
 
-#include "arrays.h"
 #include "bindings.h"
-#include "exact.h"
 #include "fathom/area/visible_areas.h"
 #include "fathom/reference/probe.h"
 #include "fathom/reference/verify.h"
 #include "fathom/render.h"
 #include "fathom/rendering/option_names.h"
-#include "maps.h"
-#include "named_value.h"
-#include "render_options.h"
+#include "objects.h"
+#include "options.h"
 #include "running.h"
-#include "scene.h"
+#include "values.h"
 
 namespace py = pybind11;
 

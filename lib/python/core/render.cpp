@@ -5,22 +5,20 @@
 #include <array>
 #include <cstddef>
 
-#include "arrays.h"
 #include "bindings.h"
 #include "fathom/failures/errors.h"
+#include "fathom/image/channel_names.h"
 #include "fathom/image/depth_map.h"
-#include "fathom/image/missing_channel.h"
 #include "fathom/memory/available_memory.h"
 #include "fathom/rendering/option_names.h"
 #include "fathom/rendering/segment_channels.h"
 #include "fathom/scene/view_warnings.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
-#include "maps.h"
-#include "named_value.h"
-#include "render_options.h"
+#include "objects.h"
+#include "options.h"
 #include "running.h"
-#include "scene.h"
+#include "values.h"
 
 namespace py = pybind11;
 

@@ -1,5 +1,3 @@
-#include "scene.h"
-
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -12,14 +10,15 @@
 #include <tuple>
 #include <vector>
 
-#include "arrays.h"
 #include "bindings.h"
 #include "fathom/failures/errors.h"
 #include "fathom/rendering/segment_channels.h"
 #include "fathom/scene/bounds.h"
 #include "fathom/scene/read_scene.h"
 #include "fathom/scene/scene_segments.h"
+#include "objects.h"
 #include "running.h"
+#include "values.h"
 
 namespace py = pybind11;
 

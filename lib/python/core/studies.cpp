@@ -14,8 +14,8 @@
 #include "apps/study/table.h"
 #include "entry_points.h"
 #include "fathom/failures/errors.h"
+#include "objects.h"
 #include "running.h"
-#include "scene.h"
 
 namespace py = pybind11;
 

@@ -19,13 +19,13 @@
 #include "apps/textbook/pipeline/pipeline_report.h"
 #include "apps/textbook/pipeline/stage_cases.h"
 #include "apps/textbook/scan/scan_cases.h"
-#include "arrays.h"
 #include "entry_points.h"
 #include "fathom/failures/errors.h"
 #include "fathom/pipeline/geometry/window_transform.h"
 #include "fathom/render_by_pipeline.h"
+#include "objects.h"
 #include "running.h"
-#include "scene.h"
+#include "values.h"
 
 namespace py = pybind11;
 

@@ -1,13 +1,12 @@
 #include <pybind11/stl.h>
 
-#include "arrays.h"
 #include "bindings.h"
 #include "fathom/attribution/cause.h"
 #include "fathom/attribution/judgement.h"
 #include "fathom/attribution/model/named_models.h"
-#include "maps.h"
+#include "objects.h"
 #include "running.h"
-#include "scene.h"
+#include "values.h"
 
 namespace py = pybind11;
 

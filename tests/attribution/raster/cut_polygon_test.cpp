@@ -1,9 +1,9 @@
-#include "fathom/attribution/raster/cut_polygon.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <vector>
+
+#include "fathom/attribution/raster/raster_polygon.h"
 
 /// Triangles at the borders of the view volume 0 ≤ z ≤ w, −w ≤ x, y ≤ w; here w = 1.
 namespace fathom::attribution {

@@ -1,11 +1,115 @@
 #include "fathom/attribution/raster/raster_polygon.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
-#include "fathom/attribution/raster/cut_polygon.h"
+#include "fathom/numeric/unit_roundoff.h"
+
+namespace fathom::attribution {
+namespace {
+
+constexpr double u = unit_roundoff<float>;
+
+/// The borders of the view volume, in the order in which they cut. Every renderer cuts at the
+/// first.
+enum Border : unsigned { near_plane, far_plane, left, right, bottom, top, border_count };
+
+bool is_of_depth(unsigned border) {
+  return border == near_plane || border == far_plane;
+}
+
+/// Signed distances from the borders, positive inside; linear in the clip coordinates.
+double distance(const ClipVertex& v, unsigned border) {
+  const auto& [x, y, z, w] = v.value;
+  switch (border) {
+    case near_plane:
+      return z;
+    case far_plane:
+      return w - z;
+    case left:
+      return w + x;
+    case right:
+      return w - x;
+    case bottom:
+      return w + y;
+    default:
+      return w - y;
+  }
+}
+
+/// Near and far are cut as far out as the errors allow: the range of depths decides there, not the
+/// cut.
+double slack(const ClipVertex& v, unsigned border) {
+  if (!is_of_depth(border)) return 0;
+  return v.error[2] + (border == far_plane ? v.error[3] : 0);
+}
+
+/// The new corner between `a` and `b`. The renderer's own lies on its own edge up to the roundings
+/// of an interpolation; where along the edge does not matter, since what is beyond the border is
+/// not drawn.
+ClipVertex between(const ClipVertex& a, const ClipVertex& b, unsigned border) {
+  const double from_a = distance(a, border) + slack(a, border);
+  const double from_b = distance(b, border) + slack(b, border);
+  const double t = from_a / (from_a - from_b);
+  ClipVertex v{.borders = 1U << border | (a.borders & b.borders)};
+  for (std::size_t k = 0; k < 4; ++k) {
+    v.value[k] = a.value[k] + t * (b.value[k] - a.value[k]);
+    v.error[k] = std::max(a.error[k], b.error[k]) +
+                 4 * u * std::max(std::abs(a.value[k]), std::abs(b.value[k]));
+  }
+  return v;
+}
+
+std::vector<ClipVertex> cut_at(const std::vector<ClipVertex>& polygon, unsigned border) {
+  std::vector<ClipVertex> inside;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const ClipVertex& a = polygon[i];
+    const ClipVertex& b = polygon[(i + 1) % polygon.size()];
+    const bool a_in = distance(a, border) + slack(a, border) >= 0;
+    const bool b_in = distance(b, border) + slack(b, border) >= 0;
+    if (a_in) inside.push_back(a);
+    if (a_in != b_in) inside.push_back(between(a, b, border));
+  }
+  return inside;
+}
+
+}  // namespace
+
+bool is_certainly_outside(const std::array<const ClipVertex*, 3>& triangle) {
+  for (unsigned border = 0; border < border_count; ++border) {
+    bool outside = true;
+    for (const ClipVertex* v : triangle) {
+      const double across = is_of_depth(border) ? v->error[2] : v->error[border <= right ? 0 : 1];
+      const double error = across + (border == near_plane ? 0 : v->error[3]);
+      outside = outside && distance(*v, border) + error < 0;
+    }
+    if (outside) return true;
+  }
+  return false;
+}
+
+bool is_certainly_inside(const std::array<const ClipVertex*, 3>& triangle) {
+  for (const ClipVertex* v : triangle) {
+    const auto& [x, y, z, w] = v->value;
+    const auto& [dx, dy, dz, dw] = v->error;
+    if (!(std::abs(x) + dx < w - dw) || !(std::abs(y) + dy < w - dw)) return false;
+    if (!(z - dz > 0) || !(z + dz < w - dw)) return false;
+  }
+  return true;
+}
+
+std::vector<ClipVertex> cut(const std::array<const ClipVertex*, 3>& triangle, bool at_border) {
+  std::vector<ClipVertex> polygon{*triangle[0], *triangle[1], *triangle[2]};
+  const unsigned last = at_border ? top : near_plane;
+  for (unsigned border = near_plane; border <= last && !polygon.empty(); ++border) {
+    polygon = cut_at(polygon, border);
+  }
+  return polygon;
+}
 
 // docs/validation.md, "A rasterizer", "Cuts", derives what stands here.
-namespace fathom::attribution {
+
 namespace {
 
 /// Twice the area, signed.

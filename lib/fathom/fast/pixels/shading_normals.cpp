@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fathom/numeric/last_bit.h"
+#include "fathom/numeric/divisors.h"
 #include "fathom/numeric/rounding.h"
 
 // Bounds are those of numeric/certified_value.h: sums and products carry them along, for operands

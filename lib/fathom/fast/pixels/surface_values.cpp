@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fathom/numeric/last_bit.h"
+#include "fathom/numeric/divisors.h"
 
 namespace fathom::fast {
 

@@ -8,10 +8,9 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/byte_order.h"
 #include "fathom/image/files/map_codecs.h"
-#include "fathom/image/files/raw_pixels.h"
 #include "fathom/image/pixel_place.h"
 #include "fathom/image/surface.h"
-#include "fathom/text/shortest_decimal.h"
+#include "fathom/text/decimal.h"
 
 /// The dense maps of COLMAP ([SZPF16], src/colmap/mvs/mat.h and .cc): width, height and channels in
 /// decimal, each ended by "&", then binary32, little endian: one channel after the other, row by

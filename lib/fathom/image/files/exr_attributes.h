@@ -12,7 +12,7 @@ Imf::Compression compression_of(Compression compression);
 /// How many rows of pixels are compressed together.
 std::uint32_t rows_of_a_chunk(Compression compression);
 
-/// Puts the map's texts, its camera (exr_camera.h) and the names of its objects into an EXR header.
+/// Puts the map's texts, its camera and the names of its objects into an EXR header.
 void set_attributes(Imf::Header& header, const DepthMap& map);
 
 /// Reads them back; every string attribute becomes a text.

@@ -7,7 +7,6 @@
 #include "fathom/image/files/exr_attributes.h"
 #include "fathom/image/files/exr_streams.h"
 #include "fathom/image/files/map_codecs.h"
-#include "fathom/image/files/map_memory.h"
 
 namespace fathom::image {
 using namespace files;

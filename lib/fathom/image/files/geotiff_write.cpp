@@ -15,7 +15,7 @@
 #include "fathom/image/files/world_from_image.h"
 #include "fathom/image/pixel_place.h"
 #include "fathom/image/surface.h"
-#include "fathom/text/shortest_decimal.h"
+#include "fathom/text/decimal.h"
 #include "fathom/text/version.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"

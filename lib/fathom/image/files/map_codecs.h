@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "fathom/failures/errors.h"
 #include "fathom/files/file_bytes.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/image/map_files.h"
+#include "fathom/text/counted.h"
 
 /// The formats as pure functions between maps and bytes, for map_files.cpp, tests and fuzzers.
 /// `name` is the file's name for messages. PFM, NPY and COLMAP's take as much as their files; the
@@ -59,5 +61,24 @@ std::vector<std::size_t> check_exr_claims(files::ByteView bytes, const std::stri
 /// Greatest ratio of image bytes to file bytes that DEFLATE reaches (1032:1, [zlib]), doubled so as
 /// not to depend on the last detail.
 inline constexpr std::uint64_t greatest_deflate_ratio = 2064;
+
+/// Refuses a map of this size before anything is allocated for it.
+/// `bytes_per_pixel` is what the map will hold, and what its decoder needs besides.
+/// Fails    InputError "NAME: an image of 20000×20000 pixels needs 1.6 GB; …".
+void require_map_memory(std::uint32_t width, std::uint32_t height, std::uint64_t bytes_per_pixel,
+                        std::uint64_t file_bytes, const MapMemory& memory, const std::string& name);
+
+/// Refuses what follows the header of a file, a "PFM file", unless it is as long as its pixels.
+/// Fails    InputError.
+inline void require_raw_pixels(files::ByteView data, std::uint32_t width, std::uint32_t height,
+                               std::size_t pixel_bytes, const std::string& file,
+                               const std::string& name) {
+  const std::uint64_t pixels = std::uint64_t{width} * height;
+  if (data.size() / pixel_bytes == pixels && data.size() % pixel_bytes == 0) return;
+  throw InputError(name + ": truncated or overlong " + file + ": expected " +
+                   std::to_string(width) + "×" + std::to_string(height) + " pixels of " +
+                   text::counted(pixel_bytes, "byte") + ", found " +
+                   text::counted(data.size(), "byte"));
+}
 
 }  // namespace fathom::image

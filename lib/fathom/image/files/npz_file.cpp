@@ -7,10 +7,10 @@
 #include "fathom/image/files/name_tables.h"
 #include "fathom/image/files/npy_array.h"
 #include "fathom/image/files/zip_archive.h"
+#include "fathom/text/decimal.h"
 #include "fathom/text/json_text.h"
 #include "fathom/text/json_value.h"
 #include "fathom/text/printable.h"
-#include "fathom/text/shortest_decimal.h"
 #include "fathom/text/version.h"
 
 /// NPZ ([Ker07]): a ZIP archive with a file NAME.npy for each channel or, where channels are the

@@ -5,8 +5,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/byte_order.h"
 #include "fathom/image/files/map_codecs.h"
-#include "fathom/image/files/raw_pixels.h"
-#include "fathom/text/shortest_decimal.h"
+#include "fathom/text/decimal.h"
 
 /// PFM ([Netpbm]): "Pf" or "PF", width, height and scale, one white space after each, then binary32
 /// rows from the bottom up. A negative scale means little endian. The scale's magnitude is a unit

@@ -11,10 +11,8 @@
 #include "fathom/image/channel_table.h"
 #include "fathom/image/files/code_texts.h"
 #include "fathom/image/files/map_codecs.h"
-#include "fathom/image/files/map_memory.h"
 #include "fathom/image/files/name_tables.h"
-#include "fathom/image/files/png_stream.h"
-#include "fathom/image/png_chunks.h"
+#include "fathom/image/png_stream.h"
 
 namespace fathom::image {
 using namespace files;

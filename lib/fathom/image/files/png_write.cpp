@@ -5,15 +5,18 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/files/byte_order.h"
+#include "fathom/image/channel_names.h"
 #include "fathom/image/channel_table.h"
 #include "fathom/image/files/code_texts.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/name_tables.h"
-#include "fathom/image/files/png_stream.h"
-#include "fathom/image/mask_picture.h"
+#include "fathom/image/png_files.h"
+#include "fathom/image/png_stream.h"
 #include "fathom/image/rgb_image.h"
 #include "fathom/image/surface.h"
-#include "fathom/text/shortest_decimal.h"
+#include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/text/decimal.h"
+#include "fathom/text/json_text.h"
 #include "fathom/text/version.h"
 
 namespace fathom::image {
@@ -129,7 +132,7 @@ void add_texts(Picture& picture, const DepthMap& map, const ImageChannel& channe
   if (std::holds_alternative<Samples<std::uint32_t>>(channel.values))
     picture.texts.emplace_back(type_text, "identifier");
   else if (map.png_scale)
-    picture.texts.emplace_back(scale_text, shortest_decimal(*map.png_scale));
+    picture.texts.emplace_back(scale_text, text::shortest_decimal(*map.png_scale));
   if (map.codes_beyond && std::holds_alternative<Samples<std::uint16_t>>(channel.values))
     picture.texts.emplace_back(beyond_text, std::to_string(*map.codes_beyond));
   for (const auto& [key, text] : name_tables(map)) picture.texts.emplace_back(key, text);
@@ -201,6 +204,39 @@ std::vector<std::byte> encode_mask(std::span<const std::uint8_t> mask, std::uint
 void write_mask(std::span<const std::uint8_t> mask, std::uint32_t width, std::uint32_t height,
                 const std::filesystem::path& path) {
   files::write_file(path, encode_mask(mask, width, height, path.string()));
+}
+
+namespace {
+
+std::string json_member(const char* name, const std::string& json) {
+  return text::json_string(name) + ": " + json;
+}
+
+const ImageChannel& channel_in_png(const DepthMap& map, const std::string& name) {
+  if (name.empty() && map.channels.size() == 1) return map.channels.front();
+  if (const ImageChannel* channel = map.find(name)) return *channel;
+  if (!name.empty()) throw missing_channel(map, name);
+  throw ambiguous_channel(names_of_channels(map), "the map has", "describe");
+}
+
+}  // namespace
+
+std::string png_sidecar(const DepthMap& map, const std::string& name) {
+  const StandardArithmetic standard;
+  require_valid(map);
+  const ImageChannel& channel = channel_in_png(map, name);
+  const bool identifiers = std::holds_alternative<Samples<std::uint32_t>>(channel.values);
+  std::string json = "{" + json_member("channel", text::json_string(channel.name));
+  if (!identifiers && map.png_scale) {
+    json += ", " + json_member("unit", text::json_string("codes per scene unit")) + ", " +
+            json_member("scale", text::shortest_decimal(*map.png_scale));
+  }
+  json += ", " + json_member("none", identifiers ? "65535" : "0");
+  if (!identifiers)
+    json += ", " + json_member("beyond", std::to_string(map.codes_beyond.value_or(0)));
+  json += ", " + json_member("width", std::to_string(map.width)) + ", " +
+          json_member("height", std::to_string(map.height));
+  return json + "}\n";
 }
 
 }  // namespace fathom

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "fathom/gltf/gltf_transform.h"
+#include "fathom/gltf/gltf_placement.h"
 #include "fathom/mesh_files/gltf/gltf_accessor.h"
 #include "fathom/text/json_value.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fathom/memory/huge_pages.h"
 #include "fathom/mesh_files/gltf/gltf_references.h"
-#include "fathom/mesh_files/reserve_large.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::mesh_files {
@@ -99,7 +99,7 @@ template <class List>
 void GltfPrimitives::make_room(List& list, std::uint64_t more) {
   accessors_.budget().take(more, sizeof(typename List::value_type));
   const std::size_t needed = list.size() + more;
-  if (needed > list.capacity()) reserve_large(list, std::max(needed, 2 * list.capacity()));
+  if (needed > list.capacity()) memory::reserve_large(list, std::max(needed, 2 * list.capacity()));
 }
 
 /// An attribute is per vertex if all triangles have it, per corner if only some do, and nothing if

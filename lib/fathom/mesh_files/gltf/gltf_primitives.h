@@ -10,8 +10,8 @@
 
 #include "fathom/failures/warnings.h"
 #include "fathom/mesh/mesh.h"
-#include "fathom/mesh_files/gltf/gltf_materials.h"
 #include "fathom/mesh_files/gltf/gltf_primitive_accessors.h"
+#include "fathom/mesh_files/gltf/gltf_references.h"
 
 /// Triangles of glTF meshes. For this room's .cpp files only.
 /// Source   [GLTF20] 3.7.2 (geometry); [KMQ22]

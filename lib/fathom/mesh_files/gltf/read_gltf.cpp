@@ -3,12 +3,11 @@
 #include <unordered_map>
 
 #include "fathom/files/sha256.h"
-#include "fathom/gltf/gltf_transform.h"
+#include "fathom/gltf/gltf_placement.h"
 #include "fathom/mesh_files/gltf/gltf_accessor.h"
 #include "fathom/mesh_files/gltf/gltf_buffers.h"
 #include "fathom/mesh_files/gltf/gltf_extensions.h"
 #include "fathom/mesh_files/gltf/gltf_instances.h"
-#include "fathom/mesh_files/gltf/gltf_materials.h"
 #include "fathom/mesh_files/gltf/gltf_primitives.h"
 #include "fathom/mesh_files/gltf/gltf_references.h"
 #include "fathom/mesh_files/read_mesh.h"

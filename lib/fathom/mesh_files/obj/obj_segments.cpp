@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fathom/text/utf8.h"
+#include "fathom/text/printable.h"
 
 namespace fathom::mesh_files {
 namespace {

@@ -1,11 +1,10 @@
 #include "fathom/failures/errors.h"
+#include "fathom/memory/huge_pages.h"
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/mesh_files/obj/obj_counts.h"
 #include "fathom/mesh_files/obj/obj_piece.h"
 #include "fathom/mesh_files/read_mesh.h"
-#include "fathom/mesh_files/reserve_large.h"
 #include "fathom/text/counted.h"
-#include "fathom/text/text_chunks.h"
 #include "fathom/text/text_cursor.h"
 #include "fathom/text/text_ends.h"
 
@@ -27,9 +26,9 @@ void make_room(const ObjCounts& total, const ReadOptions& options, const std::st
   expect_countable(total.triangles, "triangles", file);
   expect_countable(total.faces, "faces", file);
   mesh.face_count = total.faces;
-  resize_large(mesh.vertices, total.vertices);
-  resize_large(mesh.triangles, total.triangles);
-  if (total.polygons) resize_large(mesh.face_of_triangle, total.triangles);
+  memory::resize_large(mesh.vertices, total.vertices);
+  memory::resize_large(mesh.triangles, total.triangles);
+  if (total.polygons) memory::resize_large(mesh.face_of_triangle, total.triangles);
   if (options.primitives) {
     expect_countable(total.segments, "segments of lines", file);
     expect_countable(total.points, "points", file);
@@ -38,11 +37,12 @@ void make_room(const ObjCounts& total, const ReadOptions& options, const std::st
   }
   if (!options.attributes) return;
   if (total.colours) mesh.colours.assign(total.vertices, {1, 1, 1, 1});
-  resize_large(mesh.texture_coordinates, total.textures);
-  resize_large(mesh.normals, total.normals);
+  memory::resize_large(mesh.texture_coordinates, total.textures);
+  memory::resize_large(mesh.normals, total.normals);
   if (total.face_textures && total.textures > 0)
-    resize_large(mesh.texture_triangles, total.triangles);
-  if (total.face_normals && total.normals > 0) resize_large(mesh.normal_triangles, total.triangles);
+    memory::resize_large(mesh.texture_triangles, total.triangles);
+  if (total.face_normals && total.normals > 0)
+    memory::resize_large(mesh.normal_triangles, total.triangles);
   // If no face refers to them they belong to nobody; without indices, those of the vertices would
   // be used.
   if (!total.face_textures) mesh.texture_coordinates.clear();

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "fathom/failures/errors.h"
-#include "fathom/files/byte_window.h"
+#include "fathom/files/random_access_file.h"
 #include "fathom/mesh/mesh.h"
 #include "fathom/mesh_files/ply/ply_header.h"
 #include "fathom/mesh_files/ply/ply_labels.h"

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "fathom/files/file_blocks.h"
 #include "fathom/files/mapped_file.h"
 #include "fathom/files/random_access_file.h"
 #include "fathom/geometry/frames.h"

@@ -1,7 +1,7 @@
+#include "fathom/memory/huge_pages.h"
 #include "fathom/mesh_files/ply/ply_body.h"
 #include "fathom/mesh_files/ply/ply_text.h"
 #include "fathom/mesh_files/read_mesh.h"
-#include "fathom/mesh_files/reserve_large.h"
 #include "fathom/text/text_ends.h"
 
 namespace fathom::mesh_files {
@@ -21,10 +21,10 @@ class MeshSink {
     normals_ = has(slot_normal) && has(slot_normal + 1) && has(slot_normal + 2);
     textures_ = has(slot_texture) && has(slot_texture + 1);
     colours_ = has(slot_colour) && has(slot_colour + 1) && has(slot_colour + 2);
-    reserve_large(mesh_.vertices, element.count);
-    if (normals_) reserve_large(mesh_.normals, element.count);
-    if (textures_) reserve_large(mesh_.texture_coordinates, element.count);
-    if (colours_) reserve_large(mesh_.colours, element.count);
+    memory::reserve_large(mesh_.vertices, element.count);
+    if (normals_) memory::reserve_large(mesh_.normals, element.count);
+    if (textures_) memory::reserve_large(mesh_.texture_coordinates, element.count);
+    if (colours_) memory::reserve_large(mesh_.colours, element.count);
     vertices_have_labels_ = has(slot_label);
     if (vertices_have_labels_) vertex_labels_.reserve(element.count);
   }
@@ -41,7 +41,7 @@ class MeshSink {
   template <class Rows>
   void begin_faces(const PlyElement&, const PlyFaceColumns& columns, std::uint64_t most,
                    const Rows&) {
-    reserve_large(mesh_.triangles, most);
+    memory::reserve_large(mesh_.triangles, most);
     faces_have_labels_ = columns.label.has_value();
     if (faces_have_labels_) labels_.reserve(most);
   }

@@ -10,7 +10,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
 #include "fathom/image/pixel_place.h"
-#include "fathom/image/png_chunks.h"
+#include "fathom/image/png_stream.h"
 #include "fathom/text/counted.h"
 #include "fathom/threads/interruption.h"
 

@@ -1,18 +1,38 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "fathom/camera/camera.h"
 #include "fathom/clipping/homogeneous.h"
-#include "fathom/pipeline/geometry/attributes.h"
 #include "fathom/pipeline/geometry/primitive_assembly.h"
 #include "fathom/pipeline/options.h"
 
-/// Vertex stage: model, view and projection, in binary32 or binary64, each matrix rounded to it.
-///
-/// Frames   world; eye: x right, y up, z backward, as in OpenGL; clip: (x, y, z, w) with
-///          −w ≤ x, y ≤ w inside, y up, and z according to the depth format's volume.
 namespace fathom::pipeline {
+
+/// What vertices carry to fragments, by the index of its first component.
+namespace attribute {
+inline constexpr std::size_t depth = 0;  ///< along the view, scene units
+inline constexpr std::size_t world = 1;  ///< position, three
+/// In the world, three: of unit length at the corners of the mesh, on the side of the triangle
+/// that is the front for an unmirrored camera.
+inline constexpr std::size_t normal = 4;
+inline constexpr std::size_t uv = 7;      ///< texture coordinates, two
+inline constexpr std::size_t colour = 9;  ///< linear, three
+/// How many of them fragments get.
+inline constexpr std::size_t of_fragments = 12;
+/// Gouraud's light at the corners, diffuse and specular, for either side of the surface.
+inline constexpr std::size_t front_light = 12, back_light = 14;
+inline constexpr std::size_t count = 16;
+}  // namespace attribute
+
+template <class Real>
+using Attributes = std::array<Real, attribute::count>;
+
+// Vertex stage: model, view and projection, in binary32 or binary64, each matrix rounded to it.
+//
+// Frames   world; eye: x right, y up, z backward, as in OpenGL; clip: (x, y, z, w) with
+//          −w ≤ x, y ≤ w inside, y up, and z according to the depth format's volume.
 
 template <class Real>
 using Matrix = std::array<std::array<Real, 4>, 4>;

@@ -55,4 +55,11 @@ std::array<GridPoint, 3> snapped(const WindowTriangle<Real>& triangle, int bits)
 template <class Real>
 Real depth_offset(const WindowTriangle<Real>& triangle, Storage storage, const DepthBias& bias);
 
+/// Puts triangles into the order that the options ask for. By depth means by that of the mean of a
+/// triangle's three corners along the view, equal ones as in the file: right for small triangles
+/// that do not penetrate each other, and only for these (painters_algorithm.h is right for more).
+template <class Real>
+void put_into_draw_order(std::vector<WindowTriangle<Real>>& triangles,
+                         const PipelineOptions& options);
+
 }  // namespace fathom::pipeline

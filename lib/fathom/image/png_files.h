@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fathom/image/depth_map.h"
+
+namespace fathom {
+
+/// What the codes of a 16-bit PNG mean, for programs that read no text chunks: a JSON object on one
+/// line, with a line end.
+///   channel   the channel that is written: that of this name, or the map's only one
+///   unit      what `scale` counts: "codes per scene unit"
+///   scale     a depth is code / scale; none of identifiers
+///   none      the code where no surface is: 0; 65535 of identifiers
+///   beyond    how many pixels show a surface that lies too deep for the codes and has `none`
+///   width, height   pixels
+/// Fails    UsageError if there is no such channel, or several of which none is named; InputError
+///          if the map has a fault.
+std::string png_sidecar(const DepthMap& map, const std::string& channel = "");
+
+/// A mask as the bytes of a PNG of one 8-bit grey channel, 255 where the mask is not 0 and else 0,
+/// as in mask/ and mask_visib/ of BOP data sets. The same mask gives the same bytes.
+///   mask    height × width values, row by row from the top
+///   name    the file's name for messages
+/// Fails    InputError if the mask has no pixel, or not as many as the size says, or the size is
+///          above 2^31 − 1.
+std::vector<std::byte> encode_mask(std::span<const std::uint8_t> mask, std::uint32_t width,
+                                   std::uint32_t height, const std::string& name);
+
+/// Writes it to a file. Fails as encode_mask(), and OutputError, "PATH: why", if it cannot be
+/// written.
+void write_mask(std::span<const std::uint8_t> mask, std::uint32_t width, std::uint32_t height,
+                const std::filesystem::path& path);
+
+}  // namespace fathom
