@@ -124,7 +124,7 @@ std::string to_text(const DisparityMetrics& m) {
                      100 * m.bad_0_5, 100 * m.bad_1, 100 * m.bad_2);
 }
 
-/// "2 ulp, 0.001 absolute or 1e-06 relative", those that are not 0.
+/// "2 ulp, 0.001 absolute or 1e-06 relative", without tolerances of 0.
 std::string to_text(const CompareOptions& options) {
   std::vector<std::string> tolerances;
   if (options.tolerance_ulp > 0 ||

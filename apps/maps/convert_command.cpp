@@ -66,7 +66,7 @@ Camera camera_in(const std::string& file, const DepthMap& map, const Console& co
   return cameras[0];
 }
 
-/// That of the camera file where one is named, else the one that the map carries.
+/// The camera of the camera file, if given, else the map's camera.
 Camera camera_for(const DepthMap& map, const ConvertArguments& arguments, const Console& console) {
   if (!arguments.camera.empty()) return camera_in(arguments.camera, map, console);
   const std::optional<Camera> camera = camera_of(map, arguments.map);
@@ -100,7 +100,7 @@ DepthMap converted(DepthMap map, const ConvertArguments& arguments, const Consol
     return map;
   }
   const DepthQuantity from = arguments.from.value_or(DepthQuantity::planar_depth);
-  // PFM, PNG and NPY do not name their channel: it is what the user says it is.
+  // PFM, PNG and NPY do not name their channel: the user names the quantity.
   if (map.channels.size() == 1 && map.texts.empty()) map.channels[0].name = name_of(from);
   return convert_quantity(map, from, *arguments.to, camera_for(map, arguments, console),
                           rig_of(arguments), arguments.storage.background);
@@ -119,7 +119,7 @@ DepthMap only_parts(DepthMap map, const std::string& name) {
   return map;
 }
 
-/// Every channel, those of depth as wide as they are asked to be.
+/// Every channel; depth channels have the requested type.
 DepthMap all_stored(DepthMap map, const StorageOptions& storage) {
   if (!storage.dtype) return map;
   for (ImageChannel& channel : map.channels) {
@@ -176,7 +176,7 @@ WriteOptions write_options(const DepthMap& map, const ConvertArguments& argument
   return options;
 }
 
-/// The map and, where one is asked for, what its codes mean.
+/// The map and, if requested, the description of its codes.
 void write_outputs(const DepthMap& map, const ConvertArguments& arguments, MapFormat format,
                    const WriteOptions& options) {
   OutputFile output(arguments.output);
@@ -197,7 +197,7 @@ int run_convert(const ConvertArguments& arguments, const Console& console) {
   }
   const MapFormat format = arguments.storage.format_of(arguments.output);
   StorageOptions dress = arguments.storage;
-  // A conversion has made the background already, from what it knew of the map that it was.
+  // A conversion has already set the background, because it needs the background of its input.
   if (arguments.to) dress.background.reset();
   const DepthMap map = dress.dressed(
       stored(converted(read_map_argument(arguments.map), arguments, console), arguments, format),

@@ -8,14 +8,14 @@
 #include "fathom/image/depth_map.h"
 #include "fathom/scene/scene.h"
 
-/// What `fathom info` says of a file.
+/// The answer of `fathom info` for a file.
 namespace fathom::app {
 
 enum class FileKind { mesh, scene, camera, map };
 
-/// Told by the content of a file. JSON with `meshes` is a scene file unless it is glTF, which has
-/// `asset`. What is none of them is taken for a mesh, or for a camera if it looks like JSON: the
-/// reader says what is wrong with it.
+/// Detected from the content of a file. JSON with `meshes` is a scene file unless it is glTF, which
+/// has `asset`. Any other file counts as a mesh, or as a camera if it looks like JSON; the reader
+/// reports its fault.
 FileKind kind_of(std::string_view content);
 
 /// A line of `fathom info` with the first names of a list, and how many more there are; nothing for
@@ -29,7 +29,7 @@ enum class AnswerForm { text, json };
 std::string info_of_map(const DepthMap& map, const std::string& file, AnswerForm form);
 
 /// Vertices, faces, triangles, bounds, the objects and the sources of a mesh or a scene file. A
-/// mesh file of vertices alone is a point cloud, whose bounds are those of its vertices.
+/// mesh file with only vertices is a point cloud; its bounds contain all vertices.
 std::string info_of_scene(Scene scene, FileKind kind, const std::string& file, AnswerForm form);
 
 /// Where each camera of the file stands and looks, and its numbers.

@@ -88,14 +88,14 @@ ChannelSummary summarise(const DepthMap& map, const ImageChannel& channel) {
   return summary;
 }
 
-/// The shortest text that denotes the value in the channel's type; "-" where there is none.
+/// The shortest text that denotes the value in the channel's type; "-" without a value.
 std::string figure(const ChannelSummary& summary, double value) {
   if (summary.finite == 0) return "-";
   return summary.type == "float32" ? fmt::format("{}", static_cast<float>(value))
                                    : fmt::format("{}", value);
 }
 
-/// Camera and sources are JSON themselves; any other text, and what is nested too deep, is a
+/// Camera and sources are JSON themselves; any other text, and JSON that is nested too deeply, is a
 /// string.
 Json as_json(const std::string& value) {
   try {
@@ -106,7 +106,7 @@ Json as_json(const std::string& value) {
   return value;
 }
 
-/// A text of several lines, none of which can be taken for one of ours.
+/// A text of several lines, indented so that no line looks like a line of this program.
 std::string indented(const std::string& value) {
   std::string text;
   for (const char c : value) text += c == '\n' ? std::string("\n    ") : std::string(1, c);

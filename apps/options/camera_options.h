@@ -12,7 +12,7 @@
 
 namespace fathom::app {
 
-/// `--view --up`: where a camera stands as seen from what it looks at.
+/// `--view --up`: direction of a camera, seen from the point that it looks at.
 std::array<Option, 2> add_view_options(Command& command, View& view);
 
 /// `--up`: a word for an axis of the world, or a vector.
@@ -32,7 +32,7 @@ class CameraOptions {
   /// Warnings of the file go to the console.
   /// Fails with InputError where the file holds no camera, or the scene no triangle to frame.
   [[nodiscard]] std::vector<Camera> get(const Scene& scene, const Console& console) const;
-  /// For a command that takes no path of cameras. Fails with UsageError where there is one.
+  /// For a command that takes a single camera. Fails with UsageError for a path of cameras.
   [[nodiscard]] Camera get_one(const Scene& scene, const char* command,
                                const Console& console) const;
 

@@ -19,7 +19,7 @@ struct DepthFormatOptions {
   [[nodiscard]] DepthFormat format() const;
 };
 
-/// `--mapping` and `--c` beside options of another command's own. Fails with UsageError where the
+/// `--mapping` and `--c` for commands with other options for the rest. Fails with UsageError if the
 /// mapping has no constant C.
 void require_constant_of(Mapping mapping, const std::optional<double>& c);
 

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Part of a pattern: a text as it stands, or a field.
+/// Part of a pattern: a literal text or a field.
 struct Part {
   enum class Kind { text, index, name, stem };
   Kind kind = Kind::text;
@@ -28,7 +28,7 @@ constexpr const char* fields =
     "the fields are {index}, {index:04} with leading zeros, {name} and {stem}, and {{ stands for a "
     "brace";
 
-/// The field between two braces. Fails with UsageError where there is no such field.
+/// The field between two braces. Fails with UsageError for an unknown field.
 Part field_named(const char* option, const std::string& field) {
   const std::size_t colon = field.find(':');
   const std::string name = field.substr(0, colon);
@@ -141,7 +141,7 @@ std::vector<std::string> names_of_outputs(const char* option, const std::string&
       throw InputError(fmt::format(
           "camera {} has no name for '{}': camera files say it as \"name\"", i, pattern));
     }
-    // Of a stem alone it does not matter where the image lies.
+    // A stem alone does not depend on the folder of the image.
     const std::string where = fmt::format("camera {}", i);
     if (has_name) require_within_folder(where, name);
     if (has_stem) require_within_folder(where, stem_of(name));

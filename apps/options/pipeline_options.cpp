@@ -17,7 +17,7 @@ pipeline::Culling culling_of(Cull cull) {
                               : pipeline::Culling::front;
 }
 
-/// What is too large for an int is refused by the pipeline all the same.
+/// The pipeline refuses numbers that are too large for an int anyway.
 int parse_bits(const std::string& text) {
   return static_cast<int>(std::min(99U, parse_count(text)));
 }

@@ -11,14 +11,14 @@
 
 namespace fathom::app {
 
-/// The options of the pipeline's stages, of `render --engine pipeline` and `pipeline trace`: all
-/// but those that other commands have too (culling, the depth format). Of the pipeline itself
-/// nothing is needed here but the types of its options.
+/// The options of the pipeline's stages, for `render --engine pipeline` and `pipeline trace`,
+/// except options that other commands have too (culling, the depth format). Needs only the option
+/// types of the pipeline.
 class PipelineArguments {
  public:
   /// Declares the options below a heading of the help.
   void add_to(Command& command, const std::string& heading);
-  /// Those that change what becomes of one primitive, and of the pixel that it is drawn into.
+  /// Options that affect a single primitive and the pixels that it is drawn into.
   void add_to_trace(Command& command, const std::string& heading);
 
   /// Of the picture; the command has an option for it.
@@ -27,7 +27,7 @@ class PipelineArguments {
   /// The stages as they were asked for; the depth format is still the default.
   [[nodiscard]] pipeline::PipelineOptions options(Cull cull) const;
 
-  /// What --normals says, which is for channel Ns of the exact engines as well.
+  /// Value of --normals, which also applies to channel Ns of the exact engines.
   [[nodiscard]] NormalSource normals() const { return stages_.normals_from; }
 
   /// All that add_to() declared.

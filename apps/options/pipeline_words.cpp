@@ -105,7 +105,7 @@ Material parse_material(const std::string& text) {
 
 namespace {
 
-/// "THRESHOLD", "THRESHOLD,LEAST" or "THRESHOLD,LEAST,SUBPIXEL"; the pipeline knows their range.
+/// "THRESHOLD", "THRESHOLD,LEAST" or "THRESHOLD,LEAST,SUBPIXEL"; the pipeline checks their range.
 FxaaSettings parse_fxaa(const std::string& text) {
   const std::vector<std::string> parts = parse_list(text);
   if (parts.empty() || parts.size() > 3) {

@@ -25,7 +25,7 @@
 namespace fathom::app {
 namespace {
 
-/// Whether it came to an end does not matter: whoever needs what it provides looks for that.
+/// Its exit status does not matter: the caller checks whether the program exists afterwards.
 void run_to_its_end(char* program) {
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
@@ -40,9 +40,10 @@ void run_to_its_end(char* program) {
   }
 }
 
-/// Where fathom-formats lies: beside this program. Where it is not there, the program that the
-/// environment names in FATHOM_PROVIDE_FORMATS is run first, to put it there: scripts/fathom names
-/// one that installs what it needs and builds it. What that program says goes to standard error.
+/// Path of fathom-formats: in the folder of this program. If it is missing, runs the program named
+/// by the environment variable FATHOM_PROVIDE_FORMATS first: scripts/fathom names a script that
+/// installs the dependencies and builds fathom-formats. That script's output goes to standard
+/// error.
 std::filesystem::path formats_program() {
   std::filesystem::path path = companion_path("fathom-formats");
   std::error_code error;

@@ -15,8 +15,8 @@
 
 namespace fathom::app {
 
-/// `--outside-files --confine --max-expansion`: what files of others may make a command open, and
-/// how much memory they may fill. Every command that reads a scene takes them.
+/// `--outside-files --confine --max-expansion`: which files an untrusted file may name, and how
+/// much memory it may fill. Every command that reads a scene takes them.
 struct ReadLimits {
   bool outside_files = false;
   std::filesystem::path confine;

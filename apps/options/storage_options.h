@@ -18,17 +18,17 @@ namespace fathom::app {
 struct StorageOptions {
   std::optional<Compression> compression;  ///< of an EXR
   std::optional<double> png_scale;         ///< codes per unit of a PNG
-  std::optional<bool> png_beyond_is_none;  ///< whether what is too deep for a PNG's codes gets 0
-  bool png_sidecar = false;          ///< whether a JSON file beside a PNG says what codes mean
-  std::optional<StoredType> dtype;   ///< of an NPY or NPZ: binary32 or binary64
-  std::optional<double> background;  ///< of depth channels
+  std::optional<bool> png_beyond_is_none;  ///< whether depths beyond a PNG's codes become 0
+  bool png_sidecar = false;                ///< whether a JSON file describes the codes of a PNG
+  std::optional<StoredType> dtype;         ///< of an NPY or NPZ: binary32 or binary64
+  std::optional<double> background;        ///< of depth channels
   std::vector<ChannelName> channel_names;  ///< of an EXR or NPZ
 
   void add_to(Command& command);
-  /// `--png-beyond` alone, for commands that know all else.
+  /// Only `--png-beyond`, for commands whose layout fixes the rest.
   void add_beyond_to(Command& command);
-  /// The format that the suffix of `target` names; that of a device or a pipe is EXR. Fails with
-  /// UsageError where there is none, or an option does not belong to it.
+  /// The format of the suffix of `target`; EXR for a device or a pipe. Fails with UsageError if no
+  /// format has this suffix, or an option does not apply to the format.
   [[nodiscard]] MapFormat format_of(const std::string& target) const;
   [[nodiscard]] DepthEncoding encoding_for(MapFormat format) const;
   [[nodiscard]] WriteOptions write_options(int threads) const;
@@ -40,15 +40,15 @@ struct StorageOptions {
   [[nodiscard]] bool has_png_options() const {
     return png_scale || png_beyond_is_none || png_sidecar;
   }
-  /// Where the JSON file of a PNG goes: map.json beside map.png; empty where none was asked for.
+  /// Path of the JSON file of a PNG: map.json next to map.png; empty if it is not requested.
   [[nodiscard]] std::string sidecar_of(const std::string& target) const;
 
  private:
   void check_png_options(const std::string& target, MapFormat format) const;
 };
 
-/// Says how many surfaces of a map, written as `target`, lie beyond its codes, where there are
-/// some.
+/// Reports the number of surfaces of a map, written as `target`, that lie beyond its codes, unless
+/// it is 0.
 void warn_of_codes_beyond(const DepthMap& map, const std::string& target, const Console& console);
 
 /// "0", "nan", "inf" or a number. Fails with UsageError.

@@ -65,7 +65,7 @@ void end_with(pid_t parent) {
 [[noreturn]] void work_and_exit(const std::function<std::string()>& work, int pipe, pid_t parent,
                                 bool has_group) {
   end_with(parent);
-  if (has_group) ::setpgid(0, 0);  // so that what it starts is ended with it
+  if (has_group) ::setpgid(0, 0);  // so that processes started by it end with it
   write_all(pipe, work());
   ::_exit(0);  // what the work leaves behind goes with the process
 }

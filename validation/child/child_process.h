@@ -8,29 +8,29 @@
 
 namespace fathom::validation {
 
-/// A process of its own was ended by a signal, took too long or gave no answer that is understood.
+/// A child process was ended by a signal, took too long or gave an unreadable answer.
 class ChildFailure : public InputError {
  public:
   using InputError::InputError;
 };
 
-/// How a process of its own is run.
+/// Settings of a child process.
 struct ChildOptions {
-  /// What it is called in messages.
+  /// Its name in messages.
   std::string name = "a process to measure in";
-  /// It and what it has started are ended after so many seconds; 0: never.
+  /// The child and its children are ended after so many seconds; 0: never.
   int seconds = 0;
 };
 
-/// Runs `work` in a process of its own, a fork of this one, and returns its bytes: so that its
-/// memory, its threads and the libraries it loads are its own. It ends when this process does.
+/// Runs `work` in a separate process, a fork of this one, and returns its bytes, so that its
+/// memory, its threads and the libraries it loads stay separate. It ends when this process does.
 ///
 /// Needs    a process that has started no threads. `work` does not throw.
 /// Fails    ChildFailure.
 std::string bytes_from_child(const std::function<std::string()>& work, const ChildOptions& options);
 
-/// What a program printed, on standard output and on standard error, and its exit status: 127 where
-/// there is no such program, 128 + the signal where one ended it.
+/// Standard output and standard error of a program, and its exit status: 127 if the program does
+/// not exist, 128 + the signal if a signal ended it.
 struct Said {
   std::string text;
   int status = 0;

@@ -56,8 +56,8 @@ Answer<Result> answer_of(const Work& work) {
   }
 }
 
-/// What the bytes of an answer say, as the work did: returned or thrown. `name` is who it is from.
-/// Fails    ChildFailure where they are not those of such an answer.
+/// Decodes the bytes of an answer: returns or throws as the work did. `name` is the sender.
+/// Fails    ChildFailure if the bytes are not such an answer.
 template <class Result>
 Result result_from(const std::string& bytes, const std::string& name) {
   Answer<Result> answer;
@@ -72,8 +72,8 @@ Result result_from(const std::string& bytes, const std::string& name) {
   return std::move(*answer.result);
 }
 
-/// Runs `work` in a process of its own and returns what it does: anything that write_fields.h
-/// takes.
+/// Runs `work` in a separate process and returns its result: any type that write_fields.h
+/// supports.
 ///
 /// Needs    a process that has started no threads.
 /// Fails    as `work` does, with the same kind of error and message; else ChildFailure.

@@ -133,8 +133,8 @@ void read(const Json& json, T& value, const std::string& where) {
 
 }  // namespace fields_detail
 
-/// The value that to_bytes() was given.
-/// Fails    ForeignAnswer, in one line, where the bytes are not those of such a value, whole.
+/// The value that was given to to_bytes().
+/// Fails    ForeignAnswer, in one line, unless the bytes are exactly such a value.
 template <class T>
 T from_bytes(const std::string& bytes) {
   nlohmann::json json;

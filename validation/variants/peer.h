@@ -9,8 +9,8 @@
 
 #include "validation/variants/variants.h"
 
-/// Renderers and the ways in which each of them is asked to draw. Names are read here, once;
-/// everything behind works on the types.
+/// Renderers and the variants in which each of them draws. Names are parsed only here; all other
+/// code uses the types.
 namespace fathom::validation {
 
 /// How Embree traces.
@@ -43,24 +43,24 @@ struct DrivenRenderer {
 
 /// "vtk", "opengl", "embree", "blender"; "opengl@softpipe".
 std::string name_of(const DrivenRenderer& renderer);
-/// Fails    UsageError where there is no such renderer or driver, naming those that there are, or
-///          where the renderer draws without OpenGL.
+/// Fails    UsageError for an unknown renderer or driver, naming the existing ones, or for a driver
+///          of a renderer that draws without OpenGL.
 DrivenRenderer renderer_named(std::string_view name);
 
 DrivenRenderer renderer_of(const Peer& peer);
 /// Nothing for a renderer that draws without OpenGL.
 void set_driver(Peer& peer, Driver driver);
-/// The variant alone, without its driver: "float32 reversed", "robust", "cycles".
+/// The variant without its driver: "float32 reversed", "robust", "cycles".
 std::string variant_name(const Peer& peer);
 
-/// The named model (attribution/model/named_models.h) that fits what it draws, where there is one.
+/// The named model (attribution/model/named_models.h) of its maps, if it has one.
 std::optional<std::string> matching_model(const Peer& peer);
 
 /// Fails    UsageError where `variant` is not one of the renderer's, saying which there are.
 Peer peer_named(const DrivenRenderer& renderer, std::string_view variant);
 
-/// Those of `peers` whose variant is among `variants`, in the order of `peers`.
-/// Fails    UsageError for a variant that none of them has, naming those that there are.
+/// The `peers` whose variant is among `variants`, in the order of `peers`.
+/// Fails    UsageError for a variant that no peer has, naming the existing variants.
 std::vector<Peer> with_variants(std::span<const Peer> peers, std::span<const std::string> variants);
 
 }  // namespace fathom::validation

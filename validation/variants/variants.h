@@ -39,14 +39,14 @@ std::optional<Storage> attachment_named(std::string_view word);
 
 /// How OpenGL draws: the depth attachment and how it is used.
 struct OpenGlVariant {
-  /// One of attachment_storages; what the driver grants is recorded in the model.
+  /// One of attachment_storages; the model records the storage that the driver grants.
   Storage storage = Storage::unorm24;
   /// glClipControl(…, GL_ZERO_TO_ONE), near and far exchanged, the greater depth wins.
   bool reversed = false;
   /// glPolygonOffset(0, units); 0: none.
   int offset_units = 0;
-  /// Samples per pixel; 1: no multisampling. What is read back is what glBlitFramebuffer resolves
-  /// to.
+  /// Samples per pixel; 1: no multisampling. Reads back the sample to which glBlitFramebuffer
+  /// resolves.
   int samples = 1;
   Driver driver = Driver::usual;
 
@@ -56,14 +56,14 @@ struct OpenGlVariant {
 /// Without the driver: "unorm24", "float32 reversed", "unorm24 offset 16", "unorm24 4 samples".
 std::string name_of(const OpenGlVariant& variant);
 
-/// What `name` says: a storage and, each at most once, `reversed`, `offset` with a positive number
-/// of units, a number of samples from 2. Nothing where any word is left over.
+/// Parses `name`: a storage and, each at most once, `reversed`, `offset` with a positive number of
+/// units, a number of samples of at least 2. Nothing if a word is left over.
 std::optional<OpenGlVariant> opengl_variant_named(std::string_view name);
 
 /// In a sentence: what names there are.
 std::string opengl_variant_names();
 
-/// How VTK draws: the depth attachment and what is written to it.
+/// How VTK draws: the depth attachment and the encoding of its depths.
 struct VtkVariant {
   enum class Encoding {
     interpolated,        ///< VTK's own
@@ -81,7 +81,7 @@ struct VtkVariant {
   /// One of attachment_storages; VTK's own choice where not given.
   std::optional<Storage> attachment;
   Encoding encoding = Encoding::interpolated;
-  /// Samples per pixel that VTK is asked for; 0: no multisampling. Interpolated depths only.
+  /// Samples per pixel requested from VTK; 0: no multisampling. Interpolated depths only.
   int samples = 0;
   /// Peeled meshes have VTK's own attachment, interpolated depths and no multisampling.
   Mesh mesh = Mesh::opaque;
@@ -94,8 +94,8 @@ struct VtkVariant {
 /// peeled".
 std::string name_of(const VtkVariant& variant);
 
-/// What `name` says: `own` or a storage, then nothing, one encoding or a positive number of
-/// samples; or `own` and how the mesh is peeled. Nothing where any word is left over.
+/// Parses `name`: `own` or a storage, then nothing, an encoding or a positive number of samples; or
+/// `own` and the way of peeling. Nothing if a word is left over.
 std::optional<VtkVariant> vtk_variant_named(std::string_view name);
 
 /// In a sentence: what names there are.

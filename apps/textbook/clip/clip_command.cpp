@@ -21,8 +21,8 @@ using clip::Form;
 using clip::Json;
 using Algorithm = Json (*)(const Json&, Form);
 
-/// An algorithm over either kernel; `binary64` is null where it has the exact one alone. `way` is
-/// its key that says how it finds the answer, not which one: another algorithm has no use for it.
+/// An algorithm over either kernel; `binary64` is null if it has only the exact kernel. `way` is a
+/// key that affects how it finds the answer, not the answer: other algorithms ignore it.
 struct Kernels {
   Algorithm exact, binary64;
   std::string_view way = {};
@@ -45,7 +45,7 @@ Kernels parse_algorithm(const std::string& text) {
 }
 #undef FATHOM_CLIP
 
-/// What an option names: how it is spelt, and what it is.
+/// A word of an option: its spelling and its value.
 struct NamedAlgorithm {
   std::string name;
   Kernels kernels{};
@@ -93,7 +93,7 @@ Json answer_beside(const Kernels& other, const Kernels& own, Algorithm algorithm
   return algorithm(rest, form);
 }
 
-/// The other algorithm's answer beside one's own, over the exact kernel.
+/// The other algorithm's answer, over the exact kernel, next to the first answer.
 class Comparison {
  public:
   Comparison(const ClipArguments& arguments, Algorithm algorithm, const Console& console)
@@ -104,7 +104,7 @@ class Comparison {
     if (arguments.kernel == Kernel::binary64) names_.first += " in binary64";
   }
 
-  /// What the first algorithm says.
+  /// Answer of the first algorithm.
   [[nodiscard]] Json own_answer(const Json& object, Form form) const {
     return answer_beside(other(), arguments_.algorithm.kernels, algorithm_, object, form);
   }

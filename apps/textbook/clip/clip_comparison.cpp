@@ -42,7 +42,7 @@ Rings<Rational> rings_of(const Json& answer) {
 /// Pieces of edges between corners of either answer, each with how often it is a border.
 using Border = std::map<std::pair<Point2<Rational>, Point2<Rational>>, int>;
 
-/// `corners` are those of both answers, in order.
+/// `corners`: the corners of both answers, in order.
 Border border_of(const Rings<Rational>& rings, const Ring<Rational>& corners) {
   Border border;
   for (const Ring<Rational>& ring : rings)
@@ -134,7 +134,7 @@ std::optional<Json> region_difference(const Json& first, const Json& second, con
               {"piece", std::move(piece)}};
 }
 
-/// The first place at which two values differ, as a pointer; nullopt where there is none.
+/// The first place at which two values differ, as a pointer; nullopt if they are equal.
 std::optional<std::string> first_place(const Json& a, const Json& b, const std::string& at) {
   if (a == b) return std::nullopt;
   if (a.is_array() && b.is_array() && a.size() == b.size()) {

@@ -5,7 +5,7 @@
 
 #include "apps/textbook/cases/case_reading.h"
 
-/// What `fathom clip --against` says about two answers to a case.
+/// The comparison of two answers to a case by `fathom clip --against`.
 namespace fathom::app::clip {
 
 using cases::Json;
@@ -16,15 +16,15 @@ struct Names {
 };
 
 /// The first thing in which two answers differ, both written with Form::exact; nullopt if they are
-/// the same. Of answers with "polygons" it is
+/// the same. For answers with "polygons" it is
 ///   {"kind": "region", "only": NAME, "inside": point, "area": "p/q", "piece": [ring, …]}
-///       a piece of the plane that one of them has alone: the one with the least corner
+///       a piece of the plane that only one of them has: the piece with the least corner
 ///   {"kind": "border", "only": NAME, "edge": [point, point]}
-///       where the regions are the same: an edge that is a border of one of them alone
+///       if the regions are the same: an edge that is a border of only one of them
 ///   {"kind": "polygons", "only": NAME, "polygon": [ring, …]}
-///       where the borders are the same too: a polygon that one of them has alone
-/// of all others {"kind": "value", "at": "/key/0/1", NAME: value, NAME: value}.
-/// Exact    regions are compared by CGAL, borders and values as they stand.
+///       if the borders are the same too: a polygon that only one of them has
+/// for all other answers {"kind": "value", "at": "/key/0/1", NAME: value, NAME: value}.
+/// Exact    regions are compared by CGAL, borders and values directly.
 std::optional<Json> first_difference(const Json& first, const Json& second, const Names& names);
 
 /// The difference in a line, for people.

@@ -29,7 +29,7 @@ Rings<Number> over_kernel(const Rings<double>& rings) {
 }
 
 void put_area(Json& result, double area, Form form) {
-  cases::to_json(area, form);  // refuses what is not finite
+  cases::to_json(area, form);  // refuses infinite numbers and NaN
   result["area"] = to_decimal(Ratio(Dyadic(area)), 17);
 }
 

@@ -146,7 +146,7 @@ Json segment_after_division(const clipping::Segment4<Number>& segment, const Jso
   return result;
 }
 
-/// In which halves of the hourglass to clip, or after the division, where there is none.
+/// Halves of the hourglass to clip in, or clipping after the division, which has no hourglass.
 enum class Order { upper_half, both_halves, after_division };
 
 Order order_of(const Json& object) {
@@ -188,7 +188,7 @@ Json homogeneous_segment(const Json& object, Form form) {
   return result;
 }
 
-/// Fails    InputError: the normal is zero, and the exact one says why.
+/// Fails    InputError if the normal is zero; the message follows from the exact normal.
 template <class Number>
 void check_normal(const clipping::Point3<Number>& N,
                   const std::vector<std::vector<double>>& corners) {
@@ -200,9 +200,9 @@ void check_normal(const clipping::Point3<Number>& N,
   throw InputError("the triangle's normal is rounded to zero; --kernel exact has it");
 }
 
-/// The plane through three points, front where they run counter-clockwise as seen, with what it
-/// says of itself: its normal, the normal's length, which is twice the triangle's area (rounded
-/// once), and on which side an eye is: N·V with V from the first corner to the eye.
+/// The plane through three points, whose front sees them counter-clockwise, with its normal, the
+/// normal's length, which is twice the triangle's area (rounded once), and the side of an eye: N·V
+/// with V from the first corner to the eye.
 template <class Number>
 clipping::Plane<Number> plane_of_triangle(const Json& object, Json& result, Form form) {
   if (object.contains("plane")) throw InputError("expected \"plane\" or \"triangle\", not both");
