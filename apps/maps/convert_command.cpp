@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <cctype>
 #include <filesystem>
 #include <memory>
 
@@ -21,6 +20,7 @@
 #include "fathom/image/png_files.h"
 #include "fathom/image/point_cloud.h"
 #include "fathom/image/surface.h"
+#include "fathom/text/small_letters.h"
 
 namespace fathom::app {
 namespace {
@@ -42,9 +42,7 @@ PointFrame parse_frame(const std::string& text) {
 }
 
 bool ends_with_ply(const std::string& name) {
-  std::string suffix = std::filesystem::path(name).extension();
-  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return suffix == ".ply";
+  return text::in_small_letters(std::filesystem::path(name).extension().string()) == ".ply";
 }
 
 std::optional<StereoRig> rig_of(const ConvertArguments& arguments) {

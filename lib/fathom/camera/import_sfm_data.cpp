@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -14,9 +13,11 @@
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/json_value.h"
+#include "fathom/text/small_letters.h"
 
 namespace fathom {
 using namespace camera;
+using text::in_small_letters;
 using text::JsonValue;
 
 namespace fs = std::filesystem;
@@ -63,12 +64,6 @@ std::vector<JsonValue> elements_of(const std::optional<JsonValue>& list) {
   return list->elements();
 }
 
-std::string lowered(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 double rounded_quotient(const Dyadic& numerator, const Dyadic& denominator) {
   return round_to_binary64(Ratio(numerator, denominator));
 }
@@ -76,12 +71,12 @@ double rounded_quotient(const Dyadic& numerator, const Dyadic& denominator) {
 /// Fills in the distortion; fails where the lens has no pinhole part.
 void read_lens_type(const JsonValue& intrinsic, Version version, ImportedCamera& one) {
   const JsonValue type = intrinsic.at("type");
-  std::string name = lowered(type.string());
+  std::string name = in_small_letters(type.string());
   std::string distortion = "none", undistortion = "none";
   if (version >= Version{1, 2, 8}) {
     if (name != "pinhole") type.fail("the camera " + name + " is no pinhole camera");
-    distortion = lowered(intrinsic.at("distortionType").string());
-    undistortion = lowered(intrinsic.at("undistortionType").string());
+    distortion = in_small_letters(intrinsic.at("distortionType").string());
+    undistortion = in_small_letters(intrinsic.at("undistortionType").string());
   } else if (name != "pinhole") {
     distortion = name;  // until then type named both
   }

@@ -6,6 +6,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/image/channel_table.h"
 #include "fathom/image/files/npy_array.h"
+#include "fathom/text/small_letters.h"
 
 namespace fathom {
 namespace {
@@ -104,11 +105,6 @@ constexpr auto other_names = std::to_array<OtherName>({{"depth", "Z"},
                                                        {"points", "P"},
                                                        {"barycentric", "bary"}});
 
-std::string in_small_letters(std::string text) {
-  for (char& c : text) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
-}
-
 /// "N" of "N.X" where the map has all parts of N; else the name.
 std::string name_for_users(const DepthMap& map, const std::string& name) {
   const std::string stem = name.substr(0, name.rfind('.'));
@@ -122,7 +118,8 @@ std::string name_for_users(const DepthMap& map, const std::string& name) {
 /// `message`, and behind it the names that may be meant.
 UnknownName channel_suggested(const std::string& message, const std::string& name,
                               std::vector<std::string> names) {
-  const auto other = std::ranges::find(other_names, in_small_letters(name), &OtherName::other);
+  const auto other =
+      std::ranges::find(other_names, text::in_small_letters(name), &OtherName::other);
   const bool is_meant = nearest_names(name, names).empty() && other != other_names.end() &&
                         std::ranges::find(names, other->name) != names.end();
   const std::string meant =

@@ -5,6 +5,7 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/failures/unknown_name.h"
+#include "fathom/text/small_letters.h"
 
 namespace fathom {
 namespace {
@@ -32,10 +33,7 @@ std::string_view suffix_of(const MapFormatDescription& format) {
 }  // namespace
 
 std::optional<MapFormat> map_format_of(const std::filesystem::path& path) {
-  std::string suffix = path.extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](char c) {
-    return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
+  const std::string suffix = text::in_small_letters(path.extension().string());
   if (suffix.empty()) return std::nullopt;
   for (const MapFormatDescription& format : map_format_table)
     if (std::ranges::count(format.suffixes, suffix) > 0) return format.format;

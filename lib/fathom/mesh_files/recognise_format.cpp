@@ -1,7 +1,6 @@
 #include "fathom/mesh_files/recognise_format.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -9,18 +8,13 @@
 #include "fathom/mesh_files/foreign_formats.h"
 #include "fathom/mesh_files/off/off_keyword.h"
 #include "fathom/mesh_files/stl/stl_binary.h"
+#include "fathom/text/small_letters.h"
 #include "fathom/text/text_cursor.h"
 
 namespace fathom::mesh_files {
 using namespace text;
 
 namespace {
-
-std::string in_small_letters(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
 
 std::optional<FileFormat> format_by_suffix(const std::filesystem::path& path) {
   const std::string suffix = in_small_letters(path.extension().string());

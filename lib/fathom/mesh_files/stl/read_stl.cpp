@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <limits>
 
 #include "fathom/mesh/element_counts.h"
 #include "fathom/mesh_files/occurrences.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/mesh_files/stl/stl_binary.h"
+#include "fathom/text/small_letters.h"
 #include "fathom/text/text_cursor.h"
 #include "fathom/text/text_ends.h"
 
@@ -66,7 +66,7 @@ class AsciiStlReader {
     const std::string_view word = cursor_.word();
     const std::size_t size = std::min(word.size(), word_.size());
     std::transform(word.begin(), word.begin() + static_cast<std::ptrdiff_t>(size), word_.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+                   small_letter);
     return {word_.data(), size};
   }
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 
 #include "fathom/failures/errors.h"
 #include "fathom/text/counted.h"
+#include "fathom/text/small_letters.h"
 #include "fathom/text/text_cursor.h"
 #include "fathom/text/text_ends.h"
 
@@ -74,8 +74,7 @@ bool is_binary_stl(std::span<const std::byte> head, std::uint64_t size) {
     if (!word.starts_with(';') && !word.starts_with("//")) break;
     cursor.skip_line();
   }
-  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return word != "solid" || text.find('\0') != text.npos;
+  return in_small_letters(word) != "solid" || text.find('\0') != text.npos;
 }
 
 }  // namespace fathom::mesh_files

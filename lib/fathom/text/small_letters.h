@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace fathom::text {
+
+/// A to Z as a to z, whatever the locale of the process; other bytes as they are.
+constexpr char small_letter(char c) {
+  return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+inline std::string in_small_letters(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = small_letter(c);
+  return result;
+}
+
+}  // namespace fathom::text
