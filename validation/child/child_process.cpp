@@ -78,8 +78,6 @@ int status_of(pid_t child) {
   return status;
 }
 
-extern char** environ;
-
 [[noreturn]] void refuse_to_start(const std::string& program, int error) {
   throw InputError(program + ": cannot be started: " + std::generic_category().message(error));
 }
