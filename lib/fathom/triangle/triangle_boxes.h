@@ -7,6 +7,7 @@
 #include "fathom/camera/camera.h"
 #include "fathom/geometry/approximate_row.h"
 #include "fathom/geometry/pixel_box.h"
+#include "fathom/mesh/mesh.h"
 #include "fathom/mesh/object.h"
 
 /// Where a triangle certainly covers nothing: outside its box, and where all of it lies to one side
