@@ -7,6 +7,7 @@
 #include <random>
 #include <utility>
 
+#include "fathom/camera/rounded_projection.h"
 #include "fathom/image/depth_map.h"
 
 namespace fathom::validation {
@@ -84,10 +85,8 @@ ImageCorner in_image(const attribution::Truth& truth, std::uint32_t point) {
     const auto& row = c.world_to_camera[i];
     q[i] = row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
   }
-  const double w = is_perspective(c.projection) ? q[2] : 1;
-  const PrincipalPoint centre = principal_point(c.projection);
-  return {(c.projection.fx * q[0] + c.projection.skew * q[1]) / w + centre.x,
-          c.projection.fy * q[1] / w + centre.y, q[2]};
+  const auto [x, y] = RoundedProjection(c.projection).image_of(q);
+  return {x, y, q[2]};
 }
 
 double linear_depth(const attribution::Truth& truth, std::uint32_t triangle, double x, double y) {
@@ -233,13 +232,11 @@ MapChange affine_depths() {
 
 MapChange ray_distances() {
   return [](OtherMap& map, const RightMap& right, double) {
-    const Camera& c = right.truth.camera;
-    const auto [cx, cy] = principal_point(c.projection);
+    const RoundedProjection projection(right.truth.camera.projection);
     for (std::size_t i = 0; i < map.depths.size(); ++i) {
       if (!is_surface(map.depths[i])) continue;
       const auto [u, v] = centre_of(map, i);
-      const double y = (v - cy) / c.projection.fy,
-                   x = (u - cx - c.projection.skew * y) / c.projection.fx;
+      const auto [x, y] = projection.plane_point_at(u, v);
       set(map, i, rounded(map.depths[i] * std::sqrt(1 + x * x + y * y)));
     }
   };

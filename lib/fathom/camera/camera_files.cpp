@@ -65,13 +65,13 @@ void expect_either(const JsonValue& value, const char* one, const char* other) {
   }
 }
 
-void read_intrinsic_matrix(const JsonValue& value, Camera& camera) {
+void read_intrinsic_matrix(const JsonValue& value, Projection& projection) {
   const std::vector<JsonValue> rows = value.elements(3);
   const std::vector<double> u = rows[0].numbers(3), v = rows[1].numbers(3), w = rows[2].numbers(3);
   if (v[0] != 0) rows[1].fail("expected 0 in the first place of K's second row");
   if (w != std::vector<double>{0, 0, 1}) rows[2].fail("expected the last row of K to be 0 0 1");
-  camera.projection.fx = u[0], camera.projection.skew = u[1], camera.projection.cx = u[2];
-  camera.projection.fy = v[1], camera.projection.cy = v[2];
+  projection.fx = u[0], projection.skew = u[1], projection.cx = u[2];
+  projection.fy = v[1], projection.cy = v[2];
 }
 
 void read_number(const JsonValue& value, const char* key, double& number) {
@@ -79,14 +79,24 @@ void read_number(const JsonValue& value, const char* key, double& number) {
 }
 
 /// fx, fy, cx, cy and skew, or all of them as the matrix K.
-void read_intrinsics_or_matrix(const JsonValue& value, Camera& camera) {
+void read_intrinsics_or_matrix(const JsonValue& value, Projection& projection) {
   for (const char* number : {"fx", "fy", "cx", "cy", "skew"}) expect_either(value, "K", number);
-  if (const auto K = value.find("K")) return read_intrinsic_matrix(*K, camera);
-  camera.projection.fx = value.at("fx").number();
-  camera.projection.fy = value.at("fy").number();
-  camera.projection.cx = value.at("cx").number();
-  camera.projection.cy = value.at("cy").number();
-  read_number(value, "skew", camera.projection.skew);
+  if (const auto K = value.find("K")) return read_intrinsic_matrix(*K, projection);
+  projection.fx = value.at("fx").number();
+  projection.fy = value.at("fy").number();
+  projection.cx = value.at("cx").number();
+  projection.cy = value.at("cy").number();
+  read_number(value, "skew", projection.skew);
+}
+
+Projection read_projection(const JsonValue& value) {
+  Projection projection;
+  if (const auto model = value.find("projection")) projection.model = read_model(*model);
+  read_intrinsics_or_matrix(value, projection);
+  expect_either(value, "pixel_centre", "pixel_center");
+  read_number(value, "pixel_centre", projection.pixel_centre);
+  read_number(value, "pixel_center", projection.pixel_centre);
+  return projection;
 }
 
 void read_world_to_camera(const JsonValue& value, Camera& camera) {
@@ -108,12 +118,7 @@ Camera read_camera(const JsonValue& value) {
   Camera camera;
   camera.width = static_cast<std::uint32_t>(value.at("width").integer(1, largest_size));
   camera.height = static_cast<std::uint32_t>(value.at("height").integer(1, largest_size));
-  if (const auto projection = value.find("projection"))
-    camera.projection.model = read_model(*projection);
-  read_intrinsics_or_matrix(value, camera);
-  expect_either(value, "pixel_centre", "pixel_center");
-  read_number(value, "pixel_centre", camera.projection.pixel_centre);
-  read_number(value, "pixel_center", camera.projection.pixel_centre);
+  camera.projection = read_projection(value);
   read_world_to_camera(value, camera);
   read_number(value, "near", camera.near);
   if (const auto far = value.find("far"); far && !far->is_null()) camera.far = far->number();
@@ -178,13 +183,14 @@ std::string to_json(const Camera& camera) {
   if (!camera.name.empty()) member("name", json_string(camera.name));
   member("width", std::to_string(camera.width));
   member("height", std::to_string(camera.height));
-  member("projection", json_string(name_of(camera.projection.model)));
-  member("fx", to_json(camera.projection.fx));
-  member("fy", to_json(camera.projection.fy));
-  member("cx", to_json(camera.projection.cx));
-  member("cy", to_json(camera.projection.cy));
-  member("skew", to_json(camera.projection.skew));
-  member("pixel_centre", to_json(camera.projection.pixel_centre));
+  const Projection& projection = camera.projection;
+  member("projection", json_string(name_of(projection.model)));
+  member("fx", to_json(projection.fx));
+  member("fy", to_json(projection.fy));
+  member("cx", to_json(projection.cx));
+  member("cy", to_json(projection.cy));
+  member("skew", to_json(projection.skew));
+  member("pixel_centre", to_json(projection.pixel_centre));
   std::string rows;
   for (const auto& [r0, r1, r2, t] : camera.world_to_camera)
     rows += (rows.empty() ? "[" : ",\n    [") + to_json(r0) + ", " + to_json(r1) + ", " +

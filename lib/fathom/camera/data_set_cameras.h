@@ -45,7 +45,7 @@ struct GivenLens {
 /// A pose with its image's name: 3×4, [A | b].
 struct NamedPose {
   std::string name;
-  std::array<std::array<double, 4>, 3> pose{};
+  Pose pose{};
 };
 
 /// K and poses at hand, in the order of the poses: one K for all of them, or one for each.

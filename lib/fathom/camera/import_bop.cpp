@@ -31,7 +31,7 @@ void read_intrinsics(const JsonValue& cam_K, Camera& camera) {
   const auto numbers = cam_K.numbers(9);
   IntrinsicMatrix K;
   std::copy(numbers.begin(), numbers.end(), K.begin());
-  set_intrinsics(camera, K, cam_K.where());
+  set_intrinsics(camera.projection, K, cam_K.where());
   camera.projection.pixel_centre = 0;
 }
 

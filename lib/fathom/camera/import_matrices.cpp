@@ -74,7 +74,7 @@ std::vector<ImportedCamera> import_matrices(const std::vector<NamedPose>& poses,
       one.camera.width = width;
       one.camera.height = height;
       one.camera.projection.pixel_centre = convention.pixel_centre;
-      set_intrinsics(one.camera, K[K.size() == 1 ? 0 : i], where + ": K");
+      set_intrinsics(one.camera.projection, K[K.size() == 1 ? 0 : i], where + ": K");
     });
     cameras.push_back(placed(lens, poses[i], convention.direction, convention.axes, where));
   }

@@ -13,14 +13,14 @@ namespace fathom::camera {
 
 namespace fs = std::filesystem;
 
-void set_intrinsics(Camera& camera, const IntrinsicMatrix& K, const std::string& where) {
+void set_intrinsics(Projection& projection, const IntrinsicMatrix& K, const std::string& where) {
   if (K[3] != 0 || K[6] != 0 || K[7] != 0 || K[8] != 1)
     throw InputError(where + ": expected fx s cx, 0 fy cy, 0 0 1");
-  camera.projection.fx = K[0];
-  camera.projection.skew = K[1];
-  camera.projection.cx = K[2];
-  camera.projection.fy = K[4];
-  camera.projection.cy = K[5];
+  projection.fx = K[0];
+  projection.skew = K[1];
+  projection.cx = K[2];
+  projection.fy = K[4];
+  projection.cy = K[5];
 }
 
 IntrinsicMatrix intrinsic_matrix(double fx, double fy, double cx, double cy) {
@@ -32,7 +32,7 @@ Camera lens_of(const GivenLens& given, const GivenLens& data_set, const std::str
   camera.width = given.width != 0 ? given.width : data_set.width;
   camera.height = given.height != 0 ? given.height : data_set.height;
   camera.projection.pixel_centre = given.pixel_centre.value_or(data_set.pixel_centre.value_or(0));
-  if (const auto& K = given.K ? given.K : data_set.K) set_intrinsics(camera, *K, where);
+  if (const auto& K = given.K ? given.K : data_set.K) set_intrinsics(camera.projection, *K, where);
   return camera;
 }
 

@@ -12,7 +12,7 @@
 namespace fathom::camera {
 
 /// fx s cx, 0 fy cy, 0 0 1.
-void set_intrinsics(Camera& camera, const IntrinsicMatrix& K, const std::string& where);
+void set_intrinsics(Projection& projection, const IntrinsicMatrix& K, const std::string& where);
 
 /// The intrinsic matrix of four numbers.
 IntrinsicMatrix intrinsic_matrix(double fx, double fy, double cx, double cy);

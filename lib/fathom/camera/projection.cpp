@@ -9,15 +9,6 @@
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
-namespace {
-
-/// A coordinate of the principal point in the image of the specification, where the centre of the
-/// top left pixel is at ½: c + (½ − pixel_centre).
-Dyadic centred(double c, double pixel_centre) {
-  return Dyadic(c) + (Dyadic(0.5) - pixel_centre);
-}
-
-}  // namespace
 
 std::string_view name_of(ProjectionModel model) {
   return model == ProjectionModel::perspective ? "perspective" : "orthographic";
@@ -36,10 +27,10 @@ std::optional<std::string> find_fault(const Projection& projection) {
 }
 
 HomogeneousImagePoint to_image(const Projection& projection, const CameraPoint& p) {
-  const Projection& m = projection;
-  const Dyadic W = is_perspective(m) ? p.z : Dyadic(1.0);
-  return {m.fx * p.x + m.skew * p.y + centred(m.cx, m.pixel_centre) * W,
-          m.fy * p.y + centred(m.cy, m.pixel_centre) * W, W};
+  const ExactPrincipalPoint centre = exact_principal_point(projection);
+  const Dyadic W = is_perspective(projection) ? p.z : Dyadic(1.0);
+  return {projection.fx * p.x + projection.skew * p.y + centre.x * W,
+          projection.fy * p.y + centre.y * W, W};
 }
 
 PrincipalPoint principal_point(const Projection& projection) {
@@ -48,10 +39,14 @@ PrincipalPoint principal_point(const Projection& projection) {
   // For 0 and ½ the difference is exact, and the sum is the only rounding.
   if (half_less_centre.lo == 0)
     return {projection.cx + half_less_centre.hi, projection.cy + half_less_centre.hi};
-  const auto rounded = [&](double c) {
-    return round_to_binary64(Ratio(centred(c, projection.pixel_centre)));
-  };
-  return {rounded(projection.cx), rounded(projection.cy)};
+  const ExactPrincipalPoint centre = exact_principal_point(projection);
+  return {round_to_binary64(Ratio(centre.x)), round_to_binary64(Ratio(centre.y))};
+}
+
+// In the image of the specification the centre of the top left pixel is at ½.
+ExactPrincipalPoint exact_principal_point(const Projection& projection) {
+  const Dyadic half_less_centre = Dyadic(0.5) - projection.pixel_centre;
+  return {projection.cx + half_less_centre, projection.cy + half_less_centre};
 }
 
 }  // namespace fathom

@@ -37,6 +37,11 @@ struct Projection {
   return projection.model == ProjectionModel::orthographic;
 }
 
+/// Whether the image is mirrored: whether fx and fy differ in sign.
+[[nodiscard]] constexpr bool is_mirrored(const Projection& projection) {
+  return (projection.fx < 0) != (projection.fy < 0);
+}
+
 /// What is wrong with a projection, in one line, or nothing if all numbers are finite, and fx and
 /// fy ≠ 0.
 std::optional<std::string> find_fault(const Projection& projection);
@@ -52,5 +57,11 @@ struct PrincipalPoint {
 /// The principal point; accounts for `pixel_centre`.
 /// Exact    each number is the exact one rounded once. Exact computations use to_image() instead.
 PrincipalPoint principal_point(const Projection& projection);
+
+/// The principal point, exactly.
+struct ExactPrincipalPoint {
+  Dyadic x, y;
+};
+ExactPrincipalPoint exact_principal_point(const Projection& projection);
 
 }  // namespace fathom

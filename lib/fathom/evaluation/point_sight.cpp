@@ -84,7 +84,7 @@ PointSight::PointSight(const TriangleSource& source, const PlacedTriangles& tria
   }
   near_ = scaled(camera.near, power);
   one_ = scaled(1, power);
-  lens_ = fathom::sign_of((camera.projection.fx > 0) == (camera.projection.fy > 0) ? 1 : -1);
+  lens_ = is_mirrored(camera.projection) ? Sign::negative : Sign::positive;
   const auto inverse = camera_to_world(camera.world_to_camera);
   for (std::size_t k = 0; k < 3; ++k) {
     eye_[k] = is_perspective(camera.projection) ? std::ldexp(inverse[k][3], static_cast<int>(power))

@@ -16,12 +16,11 @@ using namespace files;
 namespace {
 
 using Vector = std::array<double, 3>;
-using Affine = std::array<std::array<double, 4>, 3>;
 
 using Rows34 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 
 /// Summed from the left.
-Vector transform_point(const Affine& m, const Vector& p) {
+Vector transform_point(const Pose& m, const Vector& p) {
   const Eigen::Map<const Rows34> M(m.front().data());
   const Eigen::Vector3d moved = M.col(0) * p[0] + M.col(1) * p[1] + M.col(2) * p[2] + M.col(3);
   return {moved.x(), moved.y(), moved.z()};
@@ -104,7 +103,7 @@ class Points {
   const Camera& camera_;
   PointFrame frame_;
   Triple position_, normal_;
-  Affine world_from_camera_{};
+  Pose world_from_camera_{};
   const ImageChannel* source_ = nullptr;
   bool ray_distance_ = false;
   Samples<double> depth_;

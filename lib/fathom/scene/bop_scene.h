@@ -17,7 +17,7 @@ namespace fathom {
 /// An instance of a model in an image of BOP: [cam_R_m2c | cam_t_m2c], lengths in millimetres.
 struct BopInstance {
   std::uint32_t model = 0;
-  std::array<std::array<double, 4>, 3> pose{};
+  Pose pose{};
 };
 
 /// An image of a BOP scene. The world is the camera's frame, in which the file has its poses.

@@ -42,8 +42,8 @@ double distance_from_identity(const Matrix3& G, double square) {
 }
 
 void add_warnings_of_rotation(const Camera& camera, std::vector<ViewWarning>& warnings) {
-  const bool lens_mirrors = (camera.projection.fx < 0) != (camera.projection.fy < 0);
-  if (!lens_mirrors && determinant_of_rotation(camera.world_to_camera).sign() == Sign::negative) {
+  if (!is_mirrored(camera.projection) &&
+      determinant_of_rotation(camera.world_to_camera).sign() == Sign::negative) {
     warnings.push_back(
         {Kind::mirrored,
          "world_to_camera mirrors: the determinant of its 3×3 part is negative; negate one row, or "

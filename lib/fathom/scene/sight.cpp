@@ -6,8 +6,6 @@
 #include "fathom/numeric/rounding.h"
 
 namespace fathom::scene {
-using namespace camera;
-
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -71,22 +69,16 @@ Vector Sight::middle() const {
 }
 
 ApproximateCamera::ApproximateCamera(const Camera& camera, const Pose& pose, double scale)
-    : camera_(camera), pose_(pose), principal_(principal_point(camera.projection)), scale_(scale) {}
+    : camera_(camera), pose_(pose), projection_(camera.projection), scale_(scale) {}
 
 Vector ApproximateCamera::camera_point(const Vector& X) const {
   return applied(pose_, {scale_ * X[0], scale_ * X[1], scale_ * X[2]});
 }
 
-std::array<double, 2> ApproximateCamera::image_point(const Vector& p) const {
-  const double w = is_perspective(camera_.projection) ? p[2] : 1;
-  return {(camera_.projection.fx * p[0] + camera_.projection.skew * p[1]) / w + principal_.x,
-          camera_.projection.fy * p[1] / w + principal_.y};
-}
-
 double ApproximateCamera::distance_from_middle(const Vector& X) const {
   const Vector p = camera_point(X);
   if (!(p[2] > 0)) return infinity;
-  const auto [u, v] = image_point(p);
+  const auto [u, v] = projection_.image_of(p);
   return std::max(std::abs(2 * u / camera_.width - 1), std::abs(2 * v / camera_.height - 1));
 }
 
@@ -101,7 +93,7 @@ void ApproximateCamera::look_at(const Vector& X, Sight& sight) const {
   sight.greatest_depth = std::max(sight.greatest_depth, p[2]);
   if (!(p[2] > 0)) return;
   ++sight.in_front;
-  const auto [u, v] = image_point(p);
+  const auto [u, v] = projection_.image_of(p);
   sight.first = {std::min(sight.first[0], u), std::min(sight.first[1], v)};
   sight.last = {std::max(sight.last[0], u), std::max(sight.last[1], v)};
   if (p[2] >= camera_.near && p[2] <= camera_.far && u >= 0 && u <= camera_.width && v >= 0 &&

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "fathom/camera/camera.h"
-#include "fathom/camera/rounded_poses.h"
+#include "fathom/camera/rounded_projection.h"
 #include "fathom/scene/scene.h"
 
 /// Visibility of a scene's corners in binary64: good for a warning, not for a decision about a
@@ -40,8 +40,6 @@ class ApproximateCamera {
   ApproximateCamera(const Camera& camera, const Pose& pose, double scale = 1);
 
   [[nodiscard]] Vector camera_point(const Vector& X) const;
-  /// Of a camera point in front; pixels.
-  [[nodiscard]] std::array<double, 2> image_point(const Vector& p) const;
   /// How far from the middle of the image a point is seen: 1 at its sides; infinite behind.
   [[nodiscard]] double distance_from_middle(const Vector& X) const;
   /// Counts the corners of every `step`-th triangle. A mesh of two vertices is the outline of a
@@ -53,7 +51,7 @@ class ApproximateCamera {
 
   const Camera& camera_;
   Pose pose_;
-  PrincipalPoint principal_;
+  RoundedProjection projection_;
   double scale_;
 };
 

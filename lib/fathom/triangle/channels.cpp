@@ -57,7 +57,7 @@ ChannelWriter::ChannelWriter(DepthMap& map, const TriangleSource& triangles, con
       perspective_(is_perspective(camera.projection)),
       encoding_(options.depth_encoding),
       code_factor_(code_factor_of(encoding_)),
-      image_handedness_(Dyadic(camera.projection.fx).sign() * Dyadic(camera.projection.fy).sign()),
+      image_handedness_(is_mirrored(camera.projection) ? Sign::negative : Sign::positive),
       handedness_(image_handedness_ * determinant_of_rotation(camera.world_to_camera).sign()),
       values_(map),
       exact_corner_normals_([this] { return ExactCornerNormals(corner_normals_); }) {

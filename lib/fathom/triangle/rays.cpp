@@ -174,10 +174,8 @@ SceneRays::SceneRays(const TriangleSource& triangles, const Camera& camera)
       handedness_(determinant_of_rotation(camera.world_to_camera).sign()),
       world_(identity(), camera),
       objects_(triangles.objects().size()) {
-  const Dyadic half_less_centre = Dyadic(0.5) - camera.projection.pixel_centre;
+  const auto [cx, cy] = exact_principal_point(camera.projection);
   const Dyadic fx(camera.projection.fx), fy(camera.projection.fy), skew(camera.projection.skew);
-  const Dyadic cx = Dyadic(camera.projection.cx) + half_less_centre,
-               cy = Dyadic(camera.projection.cy) + half_less_centre;
   const Dyadic product = fx * fy;
   const std::array<std::array<Ratio, 3>, 2> exact{
       {{Ratio(1.0, fx), Ratio(-skew, product), Ratio(skew * cy - cx * fy, product)},

@@ -43,8 +43,6 @@ Camera camera_of(vtkRenderer& renderer) {
 
 namespace {
 
-using Rows = std::array<std::array<double, 4>, 3>;
-
 /// Fewer than 2⁷ roundings to binary64, of VTK and here, lose less than this of the terms.
 constexpr double lost = 0x1p-45;
 
@@ -84,7 +82,7 @@ Camera described(vtkCamera& c, std::uint32_t width, std::uint32_t height) {
 
 /// The view after the model transform, and the sums of the magnitudes of its terms.
 struct View {
-  Rows rows{}, terms{};
+  Pose rows{}, terms{};
 };
 
 View with_model(const Camera& camera, vtkCamera& c) {

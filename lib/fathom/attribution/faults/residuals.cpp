@@ -81,16 +81,12 @@ struct SamplePoint {
 };
 
 SamplePoint sample_point(const Camera& c, const SamplePosition& sample, std::size_t pixel) {
-  const auto [cx, cy] = principal_point(c.projection);
-  const std::size_t column = pixel % c.width, row = pixel / c.width;
-  SamplePoint s;
-  s.shown_y = (static_cast<double>(row) + sample.y - cy) / c.projection.fy;
-  s.shown_x = (static_cast<double>(column) + sample.x - cx - c.projection.skew * s.shown_y) /
-              c.projection.fx;
-  const auto [x, y] = undistorted(s.shown_x, s.shown_y, sample.k1, sample.k2);
-  s.x = x;
-  s.y = y;
-  return s;
+  const auto column = static_cast<double>(pixel % c.width),
+             row = static_cast<double>(pixel / c.width);
+  const auto [shown_x, shown_y] =
+      RoundedProjection(c.projection).plane_point_at(column + sample.x, row + sample.y);
+  const auto [x, y] = undistorted(shown_x, shown_y, sample.k1, sample.k2);
+  return {.x = x, .y = y, .shown_y = shown_y, .shown_x = shown_x};
 }
 
 /// Derivatives of the affine value by where the lens shows the point: those by the ideal point p

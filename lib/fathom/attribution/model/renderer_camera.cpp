@@ -7,6 +7,7 @@
 #include "fathom/attribution/raster/clip_vertex.h"
 #include "fathom/attribution/ray/vector3.h"
 #include "fathom/camera/clip_planes.h"
+#include "fathom/camera/rounded_projection.h"
 
 namespace fathom::attribution {
 
@@ -34,8 +35,8 @@ Matrix4 eye_from_world(const Camera& camera) {
 }
 
 Matrix4 clip_from_eye(const Camera& camera, const ClipRange& range, ClipDepth depth) {
-  const double w = camera.width, h = camera.height;
-  const auto [cx, cy] = principal_point(camera.projection);
+  const auto [xx, xy, x1, yy, y1] =
+      RoundedProjection(camera.projection).clip_rows(camera.width, camera.height);
   const double length = range.far - range.near, sum = range.far + range.near;
   const bool reversed = depth == ClipDepth::one_to_zero;
   // The row of z: of the eye's z, and constant.
@@ -43,19 +44,18 @@ Matrix4 clip_from_eye(const Camera& camera, const ClipRange& range, ClipDepth de
   const double one_orthographic = (reversed ? range.far : -sum) / length;
   const double z_perspective = (reversed ? range.near : -sum) / length;
   const double one_perspective = (reversed ? 1 : -2) * range.far * range.near / length;
-  const double xx = 2 * camera.projection.fx / w, xy = -2 * camera.projection.skew / w,
-               yy = 2 * camera.projection.fy / h;
   // clang-format off
   if (is_orthographic(camera.projection)) {
-    return {xx, xy, 0,              2 * cx / w - 1,
-            0,  yy, 0,              1 - 2 * cy / h,
-            0,  0,  z_orthographic, one_orthographic,
-            0,  0,  0,              1};
+    return {xx, -xy, 0,              x1,
+            0,  -yy, 0,              y1,
+            0,  0,   z_orthographic, one_orthographic,
+            0,  0,   0,              1};
   }
-  return {xx, xy, 1 - 2 * cx / w, 0,
-          0,  yy, 2 * cy / h - 1, 0,
-          0,  0,  z_perspective,  one_perspective,
-          0,  0,  -1,             0};
+  // Differences, so that no zero becomes negative.
+  return {xx, -xy, 0 - x1,        0,
+          0,  -yy, 0 - y1,        0,
+          0,  0,   z_perspective, one_perspective,
+          0,  0,   -1,            0};
   // clang-format on
 }
 
@@ -66,9 +66,10 @@ CameraRays camera_rays(const Camera& camera) {
   const auto [cx, cy] = principal_point(camera.projection);
 
   // y = (v − cy)/fy, x = (u − cx − skew·y)/fx on the plane z = 1 (orthographic: on every plane).
-  const double skew = camera.projection.skew / (camera.projection.fx * camera.projection.fy);
-  const Vector3 corner(-cx / camera.projection.fx + skew * cy, -cy / camera.projection.fy, 0);
-  const Vector3 per_u(1 / camera.projection.fx, 0, 0), per_v(-skew, 1 / camera.projection.fy, 0);
+  const double fx = camera.projection.fx, fy = camera.projection.fy;
+  const double skew = camera.projection.skew / (fx * fy);
+  const Vector3 corner(-cx / fx + skew * cy, -cy / fy, 0);
+  const Vector3 per_u(1 / fx, 0, 0), per_v(-skew, 1 / fy, 0);
   const bool perspective = is_perspective(camera.projection);
   const Vector3 forward(0, 0, 1), origin = -camera_from_world.col(3);
 

@@ -24,7 +24,7 @@ inline constexpr double own_roundings = 1 + 0x1p-20;
 /// takes to clip coordinates by one matrix, which it has multiplied in binary64 and rounded once.
 struct RasterPart {
   /// Takes the part's frame to the world.
-  std::array<std::array<double, 4>, 3> world_from_part{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+  Pose world_from_part{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
   /// In the part's frame.
   std::array<double, 3> shift{0, 0, 0};
   std::shared_ptr<const std::vector<std::array<double, 3>>> points;

@@ -22,7 +22,7 @@ std::array<double, 2> undistorted(double x, double y, double k1, double k2) {
 }
 
 SampleGrid::SampleGrid(const Camera& camera, const SamplePosition& sample)
-    : camera_(camera), sample_(sample) {
+    : projection_(camera.projection), sample_(sample) {
   if (sample.k1 == 0 && sample.k2 == 0) return;
   for (const std::uint32_t row : {0U, camera.height / 2, camera.height - 1}) {
     for (const std::uint32_t column : {0U, camera.width / 2, camera.width - 1}) {
@@ -36,12 +36,9 @@ SampleGrid::SampleGrid(const Camera& camera, const SamplePosition& sample)
 std::array<double, 2> SampleGrid::at(std::uint32_t column, std::uint32_t row) const {
   const double u = column + sample_.x, v = row + sample_.y;
   if (sample_.k1 == 0 && sample_.k2 == 0) return {u, v};
-  const auto [cx, cy] = principal_point(camera_.projection);
-  const double y = (v - cy) / camera_.projection.fy;
-  const double x = (u - cx - camera_.projection.skew * y) / camera_.projection.fx;
+  const auto [x, y] = projection_.plane_point_at(u, v);
   const auto [ideal_x, ideal_y] = undistorted(x, y, sample_.k1, sample_.k2);
-  return {camera_.projection.fx * ideal_x + camera_.projection.skew * ideal_y + cx,
-          camera_.projection.fy * ideal_y + cy};
+  return projection_.image_of({ideal_x, ideal_y, 1});
 }
 
 }  // namespace fathom::attribution

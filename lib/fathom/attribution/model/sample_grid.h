@@ -5,6 +5,7 @@
 
 #include "fathom/attribution/model/renderer_model.h"
 #include "fathom/camera/camera.h"
+#include "fathom/camera/rounded_projection.h"
 
 namespace fathom::attribution {
 
@@ -22,7 +23,7 @@ class SampleGrid {
   [[nodiscard]] double reach() const { return reach_; }
 
  private:
-  Camera camera_;
+  RoundedProjection projection_;
   SamplePosition sample_;
   double reach_ = 0;
 };

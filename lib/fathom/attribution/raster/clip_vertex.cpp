@@ -6,6 +6,7 @@
 
 #include "fathom/attribution/model/renderer_model.h"
 #include "fathom/attribution/model/window_depth.h"
+#include "fathom/camera/rounded_projection.h"
 #include "fathom/geometry/eigen_arrays.h"
 #include "fathom/numeric/unit_roundoff.h"
 
@@ -15,11 +16,8 @@ namespace {
 
 /// Rows of x, y (up), z, w over the camera frame (x, y, depth, 1), as OpenGL has them.
 Eigen::Matrix4d clip_from_camera(const Camera& camera, const WindowDepth& window) {
-  const double w = camera.width, h = camera.height;
-  const auto [cx, cy] = principal_point(camera.projection);
-  const double xx = 2 * camera.projection.fx / w, xy = 2 * camera.projection.skew / w,
-               x1 = 2 * cx / w - 1;
-  const double yy = -2 * camera.projection.fy / h, y1 = 1 - 2 * cy / h;
+  const auto [xx, xy, x1, yy, y1] =
+      RoundedProjection(camera.projection).clip_rows(camera.width, camera.height);
   double a = window.a, b = window.b;
   if (window.minus_one_to_one) {  // 2z − w
     a = window.perspective ? 2 * a - 1 : 2 * a;
@@ -40,9 +38,9 @@ Eigen::Matrix4d clip_from_camera(const Camera& camera, const WindowDepth& window
   return m;
 }
 
-Eigen::Matrix4d camera_from_world(const Camera& camera) {
+Eigen::Matrix4d homogeneous(const Pose& pose) {
   Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
-  m.topRows<3>() = geometry::as_matrix(camera.world_to_camera);
+  m.topRows<3>() = geometry::as_matrix(pose);
   return m;
 }
 
@@ -63,8 +61,7 @@ struct Place {
   Eigen::Matrix4d value = Eigen::Matrix4d::Identity(), terms = Eigen::Matrix4d::Identity();
 };
 
-Place place_of(const std::array<std::array<double, 4>, 3>& world_from_part,
-               const std::array<double, 3>& shift) {
+Place place_of(const Pose& world_from_part, const std::array<double, 3>& shift) {
   Place place;
   const Eigen::Vector3d s = geometry::as_vector(shift);
   place.value.topRows<3>() = geometry::as_matrix(world_from_part);
@@ -79,7 +76,7 @@ std::array<ClipRow, 4> rows_from(const Camera& camera, Mapping mapping, const Pl
   const WindowDepth window =
       window_depth(camera.projection.model, mapping, camera.near, camera.far);
   const Eigen::Matrix4d projection = clip_from_camera(camera, window);
-  const Eigen::Matrix4d view = camera_from_world(camera);
+  const Eigen::Matrix4d view = homogeneous(camera.world_to_camera);
   const Eigen::Matrix4d placed_view = view * place.value;
   const Eigen::Matrix4d product = projection * placed_view;
   const Eigen::Matrix4d magnitude = premultiplied

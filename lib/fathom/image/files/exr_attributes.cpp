@@ -88,8 +88,8 @@ std::vector<double> for_row_vectors(const Matrix4& matrix) {
   return flat;
 }
 
-Matrix4 camera_from_world(const Camera& camera) {
-  auto [x, y, z] = camera.world_to_camera;
+Matrix4 camera_from_world(const Pose& world_to_camera) {
+  auto [x, y, z] = world_to_camera;
   for (double& component : y) component = -component;
   return {x, y, z, {0, 0, 0, 1}};
 }
@@ -97,14 +97,13 @@ Matrix4 camera_from_world(const Camera& camera) {
 /// The image after division by the last component.
 Matrix4 ndc_from_world(const Camera& camera) {
   const auto& [x, y, z] = camera.world_to_camera;
-  const bool perspective = is_perspective(camera.projection);
-  const auto [cx, cy] = principal_point(camera.projection);
+  const Projection& projection = camera.projection;
+  const auto [cx, cy] = principal_point(projection);
   Matrix4 m{};
-  m[3] = perspective ? z : std::array<double, 4>{0, 0, 0, 1};
+  m[3] = is_perspective(projection) ? z : std::array<double, 4>{0, 0, 0, 1};
   for (std::size_t k = 0; k < 4; ++k) {
-    m[0][k] =
-        (camera.projection.fx * x[k] + camera.projection.skew * y[k] + cx * m[3][k]) / camera.width;
-    m[1][k] = (camera.projection.fy * y[k] + cy * m[3][k]) / camera.height;
+    m[0][k] = (projection.fx * x[k] + projection.skew * y[k] + cx * m[3][k]) / camera.width;
+    m[1][k] = (projection.fy * y[k] + cy * m[3][k]) / camera.height;
     m[2][k] = z[k];
   }
   return m;
@@ -145,7 +144,7 @@ void set_window(Imf::Header& header, const ExrNumbers& numbers) {
 ExrNumbers exr_numbers(const Camera& camera) {
   const auto [cx, cy] = principal_point(camera.projection);
   // The window is on the plane z = 1; for an orthographic camera it is the image's extent.
-  return {{"worldToCamera", for_row_vectors(camera_from_world(camera))},
+  return {{"worldToCamera", for_row_vectors(camera_from_world(camera.world_to_camera))},
           {"worldToNDC", for_row_vectors(ndc_from_world(camera))},
           {"pixelAspectRatio", {std::abs(camera.projection.fy / camera.projection.fx)}},
           {"screenWindowCenter",

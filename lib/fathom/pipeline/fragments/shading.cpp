@@ -50,7 +50,7 @@ Lighting lighting_of(const Camera& camera, const PipelineOptions& options) {
   lighting.orthographic = is_orthographic(camera.projection);
   lighting.eye = as_array(lighting.orthographic ? to_world({0, 0, -1}).normalized()
                                                 : to_world(-camera_from_world.col(3)));
-  lighting.mirrored = ((camera.projection.fx < 0) != (camera.projection.fy < 0)) !=
+  lighting.mirrored = is_mirrored(camera.projection) !=
                       (determinant_of_rotation(camera.world_to_camera).sign() == Sign::negative);
   lighting.material = options.material;
   return lighting;

@@ -17,18 +17,13 @@ using geometry::as_vector;
 using Map34 = geometry::RowMatrix<double, 3, 4>;
 
 /// (U, V, W) of points in the camera frame.
-Map34 image_from_camera(const Camera& camera) {
-  const PrincipalPoint centre = principal_point(camera.projection);
-  Map34 m;
-  if (is_perspective(camera.projection)) {
-    m << camera.projection.fx, camera.projection.skew, centre.x, 0,  //
-        0, camera.projection.fy, centre.y, 0,                        //
-        0, 0, 1, 0;
-  } else {
-    m << camera.projection.fx, camera.projection.skew, 0, centre.x,  //
-        0, camera.projection.fy, 0, centre.y,                        //
-        0, 0, 0, 1;
-  }
+Map34 image_from_camera(const Projection& projection) {
+  const auto [cx, cy] = principal_point(projection);
+  const Eigen::Vector3d centre(cx, cy, 1);
+  Map34 m = Map34::Zero();
+  m.row(0).head<2>() << projection.fx, projection.skew;
+  m(1, 1) = projection.fy;
+  m.col(is_perspective(projection) ? 2 : 3) = centre;
   return m;
 }
 
@@ -44,7 +39,7 @@ Map34 composed(const Map34& a, const Map34& b) {
 ImageTriangles::ImageTriangles(const Scene& scene, const Camera& camera)
     : first_{0}, scene_(&scene) {
   const auto camera_from_world = as_matrix(camera.world_to_camera);
-  const Map34 image_from_world = composed(image_from_camera(camera), camera_from_world);
+  const Map34 image_from_world = composed(image_from_camera(camera.projection), camera_from_world);
   for (const Object& object : scene.objects) {
     as_matrix(image_from_mesh_.emplace_back()) =
         composed(image_from_world, geometry::rounded(object.world_from_mesh));

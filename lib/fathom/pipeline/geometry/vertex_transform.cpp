@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fathom/camera/rounded_projection.h"
 #include "fathom/failures/errors.h"
 #include "fathom/geometry/eigen_arrays.h"
 
@@ -32,9 +33,9 @@ Matrix4<double> model_matrix(const Object& object) {
 }
 
 /// The camera's frame has y down and z forward; the eye's has y up and z backward.
-Matrix4<double> view_matrix(const Camera& camera) {
+Matrix4<double> view_matrix(const Pose& world_to_camera) {
   Matrix4<double> m = Matrix4<double>::Identity();
-  m.topRows<3>() = Eigen::Vector3d(1, -1, -1).asDiagonal() * as_matrix(camera.world_to_camera);
+  m.topRows<3>() = Eigen::Vector3d(1, -1, -1).asDiagonal() * as_matrix(world_to_camera);
   return m;
 }
 
@@ -60,18 +61,15 @@ std::array<double, 2> depth_row(const DepthFormat& f, bool perspective) {
 
 Matrix4<double> projection_matrix(const Camera& camera, const DepthFormat& format) {
   const bool perspective = is_perspective(camera.projection);
-  const double w = camera.width, h = camera.height;
-  const PrincipalPoint centre = principal_point(camera.projection);
-  const double cx = 2 * centre.x / w - 1;
-  const double cy = 1 - 2 * centre.y / h;
+  const ClipRows rows = RoundedProjection(camera.projection).clip_rows(camera.width, camera.height);
   const auto [za, zb] = depth_row(format, perspective);
   Matrix4<double> m;
-  m << 2 * camera.projection.fx / w, -2 * camera.projection.skew / w, 0, 0,  //
-      0, 2 * camera.projection.fy / h, 0, 0,                                 //
-      0, 0, za, zb,                                                          //
+  m << rows.xx, -rows.xy, 0, 0,  //
+      0, -rows.yy, 0, 0,         //
+      0, 0, za, zb,              //
       0, 0, 0, 0;
-  m(0, perspective ? 2 : 3) = perspective ? -cx : cx;
-  m(1, perspective ? 2 : 3) = perspective ? -cy : cy;
+  m(0, perspective ? 2 : 3) = perspective ? -rows.x1 : rows.x1;
+  m(1, perspective ? 2 : 3) = perspective ? -rows.y1 : rows.y1;
   m(3, perspective ? 2 : 3) = perspective ? -1 : 1;
   return m;
 }
@@ -112,7 +110,7 @@ template <class Real>
 VertexTransform<Real>::VertexTransform(const Camera& camera, const Object& object,
                                        const PipelineOptions& options)
     : world_from_mesh(rounded<Real>(model_matrix(object))),
-      eye_from_world(rounded<Real>(view_matrix(camera))),
+      eye_from_world(rounded<Real>(view_matrix(camera.world_to_camera))),
       clip_from_eye(rounded<Real>(projection_matrix(camera, options.depth_format))) {}
 
 template <class Real>
