@@ -8,9 +8,13 @@
 #include <ImfStringAttribute.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <cstring>
+#include <fstream>
 
 #include "fathom/failures/errors.h"
+#include "fathom/image/deep_files.h"
 
 namespace fathom {
 namespace {
@@ -95,8 +99,95 @@ TEST_P(DeepMaps, MayHaveNoSample) {
   read(file, "Z", Imf::FLOAT, map.counts, Z);
 }
 
+TEST_P(DeepMaps, AreReadBackBitForBit) {
+  for (const bool has_samples : {true, false}) {
+    DeepMap map = three_pixels();
+    if (!has_samples) {
+      map.counts.assign(6, 0);
+      map.samples.clear();
+    }
+    const std::string file = folder_ / "deep.exr";
+    write_deep_map(map, file, GetParam());
+    const DeepMap found = read_deep_map(file);
+    EXPECT_EQ(found.description.width, 3U);
+    EXPECT_EQ(found.description.height, 2U);
+    EXPECT_EQ(found.description.texts.at("fathom.camera"), "a camera");
+    EXPECT_EQ(found.counts, map.counts);
+    ASSERT_EQ(found.samples.size(), map.samples.size());
+    EXPECT_EQ(std::memcmp(found.samples.data(), map.samples.data(),
+                          map.samples.size() * sizeof(DeepSample)),
+              0);
+  }
+}
+
+std::vector<char> bytes_of(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// What reading a file of these bytes reports, without its name; empty: it was read.
+std::string refusal_of(const std::string& file, const std::vector<char>& bytes) {
+  std::ofstream(file, std::ios::binary)
+      .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  try {
+    read_deep_map(file);
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_EQ(text.rfind(file + ": ", 0), 0U) << text;
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+    return text.substr(file.size() + 2);
+  }
+  return "";
+}
+
+TEST_P(DeepMaps, ThatAreTruncatedAreRefused) {
+  const std::string file = folder_ / "deep.exr";
+  write_deep_map(three_pixels(), file, GetParam());
+  std::vector<char> bytes = bytes_of(file);
+  while (!bytes.empty()) {
+    bytes.pop_back();
+    EXPECT_NE(refusal_of(file, bytes), "") << bytes.size();
+  }
+}
+
+TEST_P(DeepMaps, ThatAreChangedAnywhereAreReadOrRefused) {
+  const std::string file = folder_ / "deep.exr";
+  write_deep_map(three_pixels(), file, GetParam());
+  const std::vector<char> bytes = bytes_of(file);
+  for (std::size_t k = 0; k < bytes.size(); ++k) {
+    for (const int change : {1, 0x40, 0xFF}) {
+      std::vector<char> changed = bytes;
+      changed[k] = static_cast<char>(changed[k] ^ change);
+      refusal_of(file, changed);
+    }
+  }
+}
+
+TEST_P(DeepMaps, ThatClaimMoreThanTheyHoldAreRefused) {
+  const std::string file = folder_ / "deep.exr";
+  write_deep_map(three_pixels(), file, GetParam());
+  std::vector<char> bytes = bytes_of(file);
+  const std::string window("dataWindow\0box2i", 16);
+  const auto at = std::search(bytes.begin(), bytes.end(), window.begin(), window.end());
+  ASSERT_NE(at, bytes.end());
+  at[16 + 1 + 4 + 10] = 0x7F;  // the third byte of xMax
+  EXPECT_NE(refusal_of(file, bytes).find("its header claims"), std::string::npos);
+}
+
 INSTANTIATE_TEST_SUITE_P(Compressions, DeepMaps,
                          ::testing::Values(Compression::none, Compression::rle, Compression::zips));
+
+TEST_P(DeepMaps, OfOtherKindsAreRefused) {
+  const std::string file = folder_ / "flat.exr";
+  DepthMap flat;
+  flat.width = flat.height = 1;
+  flat.channels.push_back({"Z", Samples<float>(1, 2.5F)});
+  write_map(flat, file, MapFormat::exr);
+  EXPECT_EQ(refusal_of(file, bytes_of(file)),
+            "not a deep map: expected an EXR of deep scan lines in one part");
+  EXPECT_EQ(refusal_of(file, {'P', 'f'}), "expected a deep map (EXR)");
+  EXPECT_THROW(read_deep_map(folder_ / "missing.exr"), InputError);
+}
 
 TEST(DeepMapFaults, OtherCompressionsAndPlaces) {
   EXPECT_THROW(write_deep_map(three_pixels(), "/tmp/never.exr", Compression::piz), UsageError);

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace fathom {
@@ -33,5 +35,8 @@ struct RgbImage {
 /// image.
 /// Fails    OutputError: "PATH: why"; InputError if there is no pixel, or not a colour for each.
 void write_png(const RgbImage& image, const std::filesystem::path& path);
+/// The bytes of such a file; `name` is its name for messages.
+/// Fails    InputError as write_png().
+std::vector<std::byte> encode_png(const RgbImage& image, const std::string& name);
 
 }  // namespace fathom

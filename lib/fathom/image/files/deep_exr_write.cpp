@@ -5,13 +5,13 @@
 #include <ImfPartType.h>
 #include <ImfStandardAttributes.h>
 
-#include <array>
 #include <cstddef>
 #include <numeric>
 
 #include "fathom/failures/errors.h"
 #include "fathom/files/file_bytes.h"
 #include "fathom/image/deep_map.h"
+#include "fathom/image/files/deep_channels.h"
 #include "fathom/image/files/exr_attributes.h"
 #include "fathom/image/files/exr_streams.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -22,19 +22,6 @@ using namespace image;
 using namespace files;
 
 namespace {
-
-struct DeepChannel {
-  const char* name;
-  Imf::PixelType type;
-  /// Where the value is within a sample, in bytes.
-  std::size_t offset;
-};
-
-const std::array<DeepChannel, 5> deep_channels{{{"A", Imf::FLOAT, offsetof(DeepSample, A)},
-                                                {"Z", Imf::FLOAT, offsetof(DeepSample, Z)},
-                                                {"ZBack", Imf::FLOAT, offsetof(DeepSample, ZBack)},
-                                                {"area", Imf::FLOAT, offsetof(DeepSample, area)},
-                                                {"id", Imf::UINT, offsetof(DeepSample, id)}}};
 
 /// For each pixel, where the values of a channel begin.
 std::vector<const char*> beginnings(const DeepMap& map, std::size_t offset) {

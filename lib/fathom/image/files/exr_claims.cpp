@@ -18,6 +18,9 @@ namespace {
 
 constexpr std::uint32_t flag_deep = 0x800, flag_multipart = 0x1000;
 
+/// The bytes before the counts of a deep row.
+constexpr std::uint64_t deep_chunk_header = 28;
+
 /// For OpenEXR's compression codes 0 … 9: scan lines per chunk, and a bound on image bytes per file
 /// byte. RLE: 128 from 2. DEFLATE: 1032; its doubling covers PXR24, which first drops a byte of
 /// four. PIZ: a code of one bit and a run length of 8 give at most 256 16-bit values, 455. B44: 32
@@ -81,22 +84,38 @@ class Claims {
   Claims(ByteView bytes, const std::string& name) : bytes_(bytes), name_(name) {}
 
   std::vector<std::size_t> check() {
-    if (bytes_.size() < 8) fail("truncated: expected a header");
-    const auto version = load<std::uint32_t>(&bytes_[4], std::endian::little);
-    if ((version & 0xFF) != 2) fail("expected version 2 of the format");
-    position_ = 8;
+    const std::uint32_t version = read_version();
     Attributes part = read_attributes();
     if ((version & flag_deep && !(version & flag_multipart)) || is_deep(part))
       fail("deep images are not read as maps: expected scan lines or tiles");
     for (bool first = true; !part.empty(); first = false) {
-      check_part(part, first);
+      check_part(part, first ? bytes_of_a_pixel(attribute(part, "channels", 1)) : 0);
       if (!(version & flag_multipart)) break;
       part = read_attributes();
     }
     return defused_;
   }
 
+  DeepClaims check_deep() {
+    const std::uint32_t version = read_version();
+    const Attributes part = read_attributes();
+    if (!(version & flag_deep) || (version & flag_multipart) || !has_type(part, "deepscanline"))
+      fail("not a deep map: expected an EXR of deep scan lines in one part");
+    if (attribute(part, "compression", 1)[0] > std::byte{2})
+      fail("corrupt: deep images have no such compression");
+    check_part(part, sizeof(std::uint32_t));  // the number of a pixel's samples
+    return {defused_, check_deep_chunks(part)};
+  }
+
  private:
+  std::uint32_t read_version() {
+    if (bytes_.size() < 8) fail("truncated: expected a header");
+    const auto version = load<std::uint32_t>(&bytes_[4], std::endian::little);
+    if ((version & 0xFF) != 2) fail("expected version 2 of the format");
+    position_ = 8;
+    return version;
+  }
+
   [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
 
   std::string_view read_name() {
@@ -131,12 +150,13 @@ class Claims {
     }
   }
 
-  static bool is_deep(const Attributes& part) {
+  static bool has_type(const Attributes& part, std::string_view beginning) {
     const auto type = part.find("type");
-    return type != part.end() && type->second.size() >= 4 &&
-           std::equal(type->second.begin(), type->second.begin() + 4,
-                      std::as_bytes(std::span("deep")).begin());
+    return type != part.end() && type->second.size() >= beginning.size() &&
+           std::ranges::equal(type->second.first(beginning.size()),
+                              std::as_bytes(std::span(beginning)));
   }
+  static bool is_deep(const Attributes& part) { return has_type(part, "deep"); }
 
   ByteView attribute(const Attributes& part, std::string_view name, std::size_t least_size) const {
     const auto found = part.find(name);
@@ -163,7 +183,8 @@ class Claims {
     return sum;
   }
 
-  void check_part(const Attributes& part, bool first) const {
+  /// `bytes_of_pixel` is 0 for a part that is not read.
+  void check_part(const Attributes& part, std::uint64_t bytes_of_pixel) const {
     const ByteView window = attribute(part, "dataWindow", 16);
     const std::int64_t columns = int_at(window, 8) - int_at(window, 0) + 1;
     const std::int64_t rows = int_at(window, 12) - int_at(window, 4) + 1;
@@ -178,10 +199,9 @@ class Claims {
         static_cast<std::uint64_t>(int_at(attribute(part, "chunkCount", 4), 0)) > bytes_.size() / 8)
       refuse(width, height);
     if (!tiled && (height - 1) / bound.lines >= bytes_.size() / 8) refuse(width, height);
-    if (!first) return;
+    if (bytes_of_pixel == 0) return;
 
     // width·height < 2^64 is compared with a quotient: times a pixel's bytes it might overflow.
-    const std::uint64_t bytes_of_pixel = bytes_of_a_pixel(attribute(part, "channels", 1));
     const std::uint64_t most_bytes = bytes_.size() * bound.ratio;
     if (width * height > most_bytes / bytes_of_pixel) refuse(width, height);
     const std::uint64_t allowed = std::max(most_bytes, block_bytes) / bytes_of_pixel;
@@ -190,6 +210,32 @@ class Claims {
     } else if (width > allowed / bound.lines) {
       refuse(width, height);
     }
+  }
+
+  /// Each chunk is one row: its y, the packed sizes of its counts and of its samples, and the
+  /// unpacked size of these, which OpenEXR allocates. The table of where they are comes first.
+  std::uint64_t check_deep_chunks(const Attributes& part) const {
+    const ByteView window = attribute(part, "dataWindow", 16);
+    const auto rows = static_cast<std::uint64_t>(int_at(window, 12) - int_at(window, 4) + 1);
+    const auto code = static_cast<std::size_t>(attribute(part, "compression", 1)[0]);
+    const auto number = [&](std::uint64_t at) {
+      return load<std::uint64_t>(&bytes_[at], std::endian::little);
+    };
+    if ((bytes_.size() - position_) / 8 < rows) fail("truncated: its table of rows does not end");
+    std::uint64_t sum = 0;
+    for (std::uint64_t row = 0; row < rows; ++row) {
+      const std::uint64_t at = number(position_ + 8 * row);
+      if (at > bytes_.size() || bytes_.size() - at < deep_chunk_header)
+        fail("corrupt or truncated: a row is outside the file");
+      const std::uint64_t rest = bytes_.size() - at - deep_chunk_header;
+      const std::uint64_t counts = number(at + 4), packed = number(at + 12),
+                          samples = number(at + 20);
+      if (counts > rest || packed > rest - counts ||
+          samples > packed * compression_bounds[code].ratio)
+        fail("corrupt or truncated: a row claims more samples than the file can hold");
+      sum += samples;
+    }
+    return sum;
   }
 
   /// OpenEXR allocates whole chunks and rows of tiles even where the image ends inside them: these
@@ -223,6 +269,10 @@ class Claims {
 
 std::vector<std::size_t> check_exr_claims(ByteView bytes, const std::string& name) {
   return Claims(bytes, name).check();
+}
+
+DeepClaims check_deep_exr_claims(ByteView bytes, const std::string& name) {
+  return Claims(bytes, name).check_deep();
 }
 
 }  // namespace fathom::image

@@ -58,6 +58,16 @@ DepthMap decode_map(files::ByteView bytes, const std::string& name, const MapMem
 /// Returns the positions of attribute types that OpenEXR must not interpret (see ByteInput).
 std::vector<std::size_t> check_exr_claims(files::ByteView bytes, const std::string& name);
 
+/// What the header and the rows of a deep image claim.
+struct DeepClaims {
+  /// As check_exr_claims() returns them.
+  std::vector<std::size_t> defused;
+  /// Of the samples of all rows, unpacked.
+  std::uint64_t sample_bytes = 0;
+};
+/// The same for deep scan lines in one part.
+DeepClaims check_deep_exr_claims(files::ByteView bytes, const std::string& name);
+
 /// Greatest ratio of image bytes to file bytes that DEFLATE reaches (1032:1, [zlib]), doubled so as
 /// not to depend on the last detail.
 inline constexpr std::uint64_t greatest_deflate_ratio = 2064;

@@ -173,7 +173,7 @@ Bytes encode_png(const DepthMap& map, const ImageChannel& channel, const std::st
 
 namespace fathom {
 
-void write_png(const RgbImage& image, const std::filesystem::path& path) {
+std::vector<std::byte> encode_png(const RgbImage& image, const std::string& name) {
   if (image.width == 0 || image.height == 0 ||
       image.pixels.size() != std::size_t{image.width} * image.height) {
     throw InputError("picture: expected a colour for each of its pixels, and at least one");
@@ -182,7 +182,11 @@ void write_png(const RgbImage& image, const std::filesystem::path& path) {
   const auto bytes = std::as_bytes(std::span(image.pixels));
   picture.pixels.assign(bytes.begin(), bytes.end());
   picture.texts = {{"Software", text::software_in_outputs()}};
-  files::write_file(path, image::encode(picture, path.string()));
+  return image::encode(picture, name);
+}
+
+void write_png(const RgbImage& image, const std::filesystem::path& path) {
+  files::write_file(path, encode_png(image, path.string()));
 }
 
 std::vector<std::byte> encode_mask(std::span<const std::uint8_t> mask, std::uint32_t width,

@@ -1,0 +1,111 @@
+#include <ImfChannelList.h>
+#include <ImfDeepFrameBuffer.h>
+#include <ImfDeepScanLineInputPart.h>
+#include <ImfMultiPartInputFile.h>
+
+#include <numeric>
+
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
+#include "fathom/image/deep_files.h"
+#include "fathom/image/files/deep_channels.h"
+#include "fathom/image/files/exr_attributes.h"
+#include "fathom/image/files/exr_streams.h"
+#include "fathom/image/files/map_codecs.h"
+#include "fathom/numeric/standard_arithmetic.h"
+
+namespace fathom {
+using namespace image;
+using namespace files;
+
+namespace {
+
+void require_channels(const Imf::ChannelList& channels, const std::string& name) {
+  for (const DeepChannel& each : deep_channels) {
+    const Imf::Channel* const found = channels.findChannel(each.name);
+    if (!found || found->type != each.type || found->xSampling != 1 || found->ySampling != 1)
+      throw InputError(name +
+                       ": expected the channels A, Z, ZBack, area (FLOAT) and id (UINT) of a " +
+                       "deep map, found none such as " + each.name);
+  }
+}
+
+/// Reads the counts, and then the samples that they count.
+void read_samples(Imf::DeepScanLineInputPart& part, DeepMap& map, std::uint64_t most_samples,
+                  const std::string& name) {
+  const Imath::Box2i window = part.header().dataWindow();
+  const std::size_t width = map.description.width, pixels = width * map.description.height;
+  map.counts.resize(pixels);
+  // OpenEXR addresses pixels by their coordinates, which may begin anywhere.
+  const auto first =
+      -(static_cast<std::ptrdiff_t>(window.min.y) * static_cast<std::ptrdiff_t>(width) +
+        window.min.x);
+  Imf::DeepFrameBuffer target;
+  target.insertSampleCountSlice(
+      Imf::Slice(Imf::UINT, reinterpret_cast<char*>(map.counts.data() + first), 4, 4 * width));
+  std::vector<std::vector<char*>> pointers(deep_channels.size(), std::vector<char*>(pixels));
+  for (std::size_t c = 0; c < deep_channels.size(); ++c)
+    target.insert(
+        deep_channels[c].name,
+        Imf::DeepSlice(deep_channels[c].type, reinterpret_cast<char*>(pointers[c].data() + first),
+                       sizeof(char*), sizeof(char*) * width, sizeof(DeepSample)));
+  part.setFrameBuffer(target);
+  part.readPixelSampleCounts(window.min.y, window.max.y);
+  const std::uint64_t samples =
+      std::accumulate(map.counts.begin(), map.counts.end(), std::uint64_t{0});
+  if (samples > most_samples)
+    throw InputError(name + ": corrupt: its rows hold fewer samples than its pixels have");
+  map.samples.resize(samples);
+  for (std::size_t c = 0; c < deep_channels.size(); ++c) {
+    char* next = reinterpret_cast<char*>(map.samples.data()) + deep_channels[c].offset;
+    for (std::size_t k = 0; k < pixels; ++k) {
+      pointers[c][k] = next;
+      next += map.counts[k] * sizeof(DeepSample);
+    }
+  }
+  part.readPixels(window.min.y, window.max.y);
+}
+
+DeepMap decode(ByteView bytes, const std::string& name, const MapMemory& memory) {
+  DeepClaims claims = check_deep_exr_claims(bytes, name);
+  ByteInput stream(bytes, name, std::move(claims.defused));
+  Imf::MultiPartInputFile file(stream, reserve_exr_threads(0), false);
+  Imf::DeepScanLineInputPart part(file, 0);
+  const Imf::Header& header = part.header();
+  require_channels(header.channels(), name);
+  const Imath::Box2i window = header.dataWindow();
+  if (window != header.displayWindow())
+    throw InputError(name + ": cropped and overscanned deep maps are not read");
+  DeepMap map;
+  map.description.width = static_cast<std::uint32_t>(window.max.x - window.min.x + 1);
+  map.description.height = static_cast<std::uint32_t>(window.max.y - window.min.y + 1);
+  const std::uint64_t pixels = std::uint64_t{map.description.width} * map.description.height;
+  // A count and five pointers for each pixel; the samples, and their columns, that the rows claim.
+  const std::uint64_t bytes_per_pixel = 44 + 2 * claims.sample_bytes / pixels;
+  require_map_memory(map.description.width, map.description.height, bytes_per_pixel, bytes.size(),
+                     memory, name);
+  read_samples(part, map, claims.sample_bytes / sizeof(DeepSample), name);
+  get_attributes(header, map.description);
+  return map;
+}
+
+}  // namespace
+
+DeepMap read_deep_map(const std::filesystem::path& path, const MapMemory& memory) {
+  const StandardArithmetic standard;
+  const InputFile input(path);
+  const std::string name = path.string();
+  if (!input.text().starts_with("\x76\x2f\x31\x01"))
+    throw InputError(name + ": expected a deep map (EXR)");
+  try {
+    return decode(input.bytes(), name, memory);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& failure) {
+    throw InputError(name + ": corrupt or truncated EXR file: " + exr_reason(failure));
+  }
+}
+
+}  // namespace fathom
