@@ -9,7 +9,7 @@ GROUPS = {
     "Rendering": ["render"],
     "Scenes": ["Scene", "scene.Object", "scene.Origin"],
     "Cameras": ["Camera", "Lens", "read_cameras", "write_cameras", "ViewWarning"],
-    "Maps": ["Map", "read_map", "compare", "NO_SURFACE"],
+    "Maps": ["Map", "read_map", "compare", "MapComparison", "NO_SURFACE"],
     "Questions": ["probe", "questions.CoveringTriangle", "visible", "questions.VisibleAreas", "questions.Areas",
                   "render_deep", "DeepMap", "verify", "questions.Verification", "questions.Disagreement"],
     "Evaluation": ["evaluate", "evaluation.Evaluation", "evaluation.Depth", "evaluation.Distances"],

@@ -149,6 +149,10 @@ calls = {
     "Camera.read": lambda g: Camera.read(g.camera_file),
     "Camera.to_json": lambda g: g.camera.to_json(),
     "Camera.write": lambda g: g.written("w.json", g.camera.write),
+    "Camera.project": lambda g: g.camera.project(g.vertices),
+    "Camera.unproject": lambda g: g.camera.unproject(g.vertices[:, :2], g.vertices[:, 2]),
+    "Camera.rays": lambda g: g.camera.rays(),
+    "Camera.scaled": lambda g: g.camera.scaled(0.3),
     "Camera.with_size": lambda g: g.camera.with_size(16, 12),
     "Camera.from_colmap": lambda g: Camera.from_colmap(source / "data/cameras/colmap"),
     "Camera.from_nerf": lambda g: Camera.from_nerf(source / "data/cameras/transforms.json"),
@@ -163,6 +167,7 @@ calls = {
     "Camera.from_replica": lambda g: Camera.from_replica(g.replica),
     "Camera.from_kitti": lambda g: Camera.from_kitti(g.kitti, poses=g.poses, camera=2, size=(1241, 376)),
     "DeepMap.at": lambda g: g.deep.at(3, 2),
+    "DeepMap.read": lambda g: fathom.DeepMap.read(g.write("deep.exr", g.deep.write)),
     "DeepMap.write": lambda g: g.written("deep.exr", g.deep.write),
     "DepthFormat.encode": lambda g: g.format.encode(g.depths),
     "DepthFormat.decode": lambda g: g.format.decode(g.format.encode(g.depths)),
@@ -176,6 +181,8 @@ calls = {
     "Map.write": lambda g: [g.written("w" + suffix, lambda file: g.map.write(file, channel=channel))
                             for suffix, channel in ((".exr", ""), (".npz", ""), (".pfm", "Z"), (".npy", "A"))]
     + [g.written("w.png", g.codes.write), *(path.read_bytes() for path in sorted(g.folder.glob("w.png*")))],
+    "Map.preview": lambda g: [g.map.preview(), g.map.preview(channel="N"), g.written("w.png", lambda file: g.map.preview(file, unit="m"))],
+    "MapComparison.preview": lambda g: fathom.compare(g.map, g.near_map, channel="Z").preview(by="relative"),
     "Map.view": lambda g: fathom.render(g.vertices, g.faces, K, np.stack([turned, np.eye(4)]), (8, 6), pixel_centre=0.5).view(1),
     "Map.mask": lambda g: g.scene.render(g.camera, background=0.1).mask(),
     "Map.to_distance": lambda g: g.scene.render(g.camera).to_distance(),
@@ -196,6 +203,7 @@ calls = {
 }
 #: An object of each class whose properties are looked at.
 of_class = {"Camera": lambda g: g.camera, "DeepMap": lambda g: g.deep, "DepthFormat": lambda g: g.format,
+            "MapComparison": lambda g: fathom.compare(g.map, g.near_map, channel="Z"),
             "Map": lambda g: g.scene.render(g.camera, background=0.1), "Scene": lambda g: g.scene,
             "Validation": lambda g: g.validation, "studies.Study": lambda g: fathom.studies.run("depth-resolution", samples=20)}
 

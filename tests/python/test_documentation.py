@@ -13,7 +13,7 @@ import pytest
 import fathom
 
 source = pathlib.Path(os.environ["FATHOM_SOURCE"])
-modules = ["_importing", "camera", "clipping", "deep", "depth_formats", "lens", "maps",
+modules = ["_importing", "camera", "clipping", "comparison", "deep", "depth_formats", "lens", "maps",
            "pipeline", "questions", "rendering", "scanning", "scene", "studies", "validation"]
 
 
@@ -80,6 +80,26 @@ fathom.Camera.frame("scene.json")
 """)
     found = [line for line in run_mypy(calls).stdout.splitlines() if "calls.py" in line]
     assert [line.partition("calls.py:")[2].partition(":")[0] for line in found] == ["4", "5", "7", "9"], found
+
+
+def test_type_checkers_know_names_and_channels(tmp_path):
+    calls = tmp_path / "calls.py"
+    calls.write_text("""import fathom
+
+scene = fathom.Scene()
+camera = fathom.Camera.look_at((0, 0, 3), up="z")
+maps = scene.render(camera, channels=("Z", "id"))
+scene.render(camera, channels=("depth",))
+fathom.validate(maps, scene, camera, "opengl")
+fathom.validate(maps.Z, scene, camera, "gl-unorm24")
+fathom.DepthFormat("standard", "d24", near=1, far=9)
+maps.z
+maps.write("a.exr", compression="zipped")
+fathom.compare(maps, maps).preview(by="ulps")
+camera.rays(frame="eye")
+""")
+    found = [line for line in run_mypy(calls).stdout.splitlines() if "calls.py" in line]
+    assert [line.partition("calls.py:")[2].partition(":")[0] for line in found] == ["6", "7", "9", "10", "11", "12", "13"], found
 
 
 def test_the_stub_has_what_the_extension_module_has():

@@ -72,6 +72,30 @@ def test_deep_maps_are_written_as_the_program_writes_them(spot, camera, run_prog
     assert fathom.Camera.from_json(deep.metadata["fathom.camera"]) == camera == deep.camera
 
 
+@pytest.mark.parametrize("compression", ["none", "rle", "zips"])
+def test_deep_maps_are_read_back_bit_for_bit(spot, camera, tmp_path, compression):
+    deep = fathom.render_deep(spot, camera)
+    deep.write(tmp_path / "deep.exr", compression=compression)
+    again = fathom.DeepMap.read(tmp_path / "deep.exr")
+    for name in ("Z", "ZBack", "area", "A", "id", "offsets"):
+        kept, found = getattr(deep, name), getattr(again, name)
+        assert kept.dtype == found.dtype and kept.tobytes() == found.tobytes(), name
+    assert again.camera == camera and again.metadata["fathom.sources"] == deep.metadata["fathom.sources"]
+    again.write(tmp_path / "again.exr", compression=compression)
+    assert (tmp_path / "again.exr").read_bytes() == (tmp_path / "deep.exr").read_bytes()
+
+
+def test_files_that_are_no_deep_maps_are_refused(spot, camera, tmp_path):
+    spot.render(camera).write(tmp_path / "flat.exr")
+    (tmp_path / "text.exr").write_text("no")
+    fathom.render_deep(spot, camera).write(tmp_path / "cut.exr")
+    (tmp_path / "cut.exr").write_bytes((tmp_path / "cut.exr").read_bytes()[:-1])
+    for name, text in (("flat.exr", "not a deep map: expected an EXR of deep scan lines in one part"),
+                       ("text.exr", r"expected a deep map \(EXR\)"), ("cut.exr", "truncated"), ("missing.exr", "")):
+        with pytest.raises(fathom.InputError, match=f"{name}: .*{text}"):
+            fathom.DeepMap.read(tmp_path / name)
+
+
 def test_deep_maps_that_do_not_fit_together_are_refused(spot, camera, tmp_path):
     rendered = fathom.render_deep(spot, camera)
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import fathom
-from fathom import _core, _render, lens, maps
+from fathom import _core, lens, maps, names
 
 source = pathlib.Path(os.environ["FATHOM_SOURCE"])
 
@@ -144,9 +144,25 @@ def test_the_header_for_c_has_every_cull():
     assert {name.lower() for name in re.findall(r"FATHOM_CULL_(\w+) =", c_header)} == set(_core.culls)
 
 
-@pytest.mark.parametrize("words, kind", [(_core.culls, _render.Cull), (_core.normal_sources, _render.Normals)])
-def test_types_for_checkers_have_every_word(words, kind):
-    assert set(typing.get_args(kind)) == set(words)
+@pytest.mark.parametrize("name, words", {
+    "Channel": channels, "Cull": _core.culls, "Normals": _core.normal_sources, "Engine": _core.engines,
+    "Compression": _core.compressions, "Mapping": _core.mappings, "Storage": _core.storages,
+    "Model": ["auto", *_core.model_names.split(", ")]}.items())
+def test_types_for_checkers_have_every_word(name, words):
+    given = typing.get_args(getattr(names, name))
+    assert sorted(given) == sorted(words) and len(given) >= 2
+
+
+def test_deep_compressions_are_those_that_are_written(tmp_path):
+    scene = fathom.Scene()
+    scene.add_mesh([(0, 0, 1), (2, 0, 1), (0, 2, 1)], [(0, 1, 2)])
+    deep = fathom.render_deep(scene, fathom.Camera(2, 2, 1, 1, 0, 0, pixel_centre=0.5))
+    for each in _core.compressions:
+        if each in typing.get_args(names.DeepCompression):
+            deep.write(tmp_path / f"{each}.exr", compression=each)
+        else:
+            with pytest.raises(fathom.UsageError, match="compressed by"):
+                deep.write(tmp_path / f"{each}.exr", compression=each)
 
 
 def test_projections_are_those_of_camera_files():

@@ -9,6 +9,8 @@ namespace fathom::python {
 void bind_camera(Module& core);
 void bind_scene(Module& core);
 void bind_maps(Module& core);
+void bind_comparison(Module& core);
+void bind_pictures(Module& core);
 void bind_render(Module& core);
 void bind_questions(Module& core);
 void bind_evaluation(Module& core);

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <array>
 
 #include "bindings.h"
@@ -10,9 +11,12 @@
 #include "fathom/camera/camera_import.h"
 #include "fathom/camera/camera_making.h"
 #include "fathom/camera/data_set_cameras.h"
+#include "fathom/camera/image_points.h"
 #include "fathom/scene/framing.h"
+#include "fathom/threads/threads.h"
 #include "objects.h"
 #include "running.h"
+#include "values.h"
 
 namespace py = pybind11;
 
@@ -103,6 +107,62 @@ void bind_making(Module& core) {
     return run(
         [&](const auto& progress) { return orbit_scene(first, count, *scene, lens, progress); });
   });
+}
+
+using Numbers = ContiguousArray<double>;
+
+/// A row of `columns` numbers for each of `count` points; work(i, row) fills it.
+template <class Work>
+py::array rows_of(std::size_t count, std::size_t columns, const Work& work) {
+  Samples<double> numbers(count * columns);
+  run([&](const auto& progress) {
+    constexpr std::size_t part = 256;
+    const std::size_t parts = (count + part - 1) / part;
+    Progress done(progress, parts);
+    parallel_for(std::size_t{0}, parts, [&](std::size_t number) {
+      const std::size_t end = std::min((number + 1) * part, count);
+      for (std::size_t i = number * part; i < end; ++i) work(i, &numbers[i * columns]);
+      done.part_done();
+    });
+  });
+  return array_of(std::move(numbers),
+                  {static_cast<py::ssize_t>(count), static_cast<py::ssize_t>(columns)});
+}
+
+ImageRays rays_of(const Camera& camera, const std::string& frame) {
+  return {camera, frame == "camera" ? ImageRays::Frame::camera : ImageRays::Frame::world};
+}
+
+/// Python has made sure of the shapes, N×3, N×2 and N, and that the numbers are finite.
+void bind_image_points(Module& core) {
+  core.def("project", [](const Camera& camera, const Numbers& points) {
+    const double* const first = points.data();
+    return rows_of(static_cast<std::size_t>(points.shape(0)), 3, [&](std::size_t i, double* row) {
+      const ImageOfPoint image =
+          project(camera, {first[3 * i], first[3 * i + 1], first[3 * i + 2]});
+      row[0] = image.u;
+      row[1] = image.v;
+      row[2] = image.depth;
+    });
+  });
+  core.def("unproject", [](const Camera& camera, const Numbers& pixels, const Numbers& depths,
+                           const std::string& frame) {
+    const ImageRays rays = rays_of(camera, frame);
+    const double *const pixel = pixels.data(), *const depth = depths.data();
+    return rows_of(static_cast<std::size_t>(depths.size()), 3, [&](std::size_t i, double* row) {
+      std::ranges::copy(rays.point(pixel[2 * i], pixel[2 * i + 1], depth[i]), row);
+    });
+  });
+  core.def("rays_of_pixels", [](const Camera& camera, const std::string& frame) {
+    const ImageRays rays = rays_of(camera, frame);
+    const std::size_t width = camera.width;
+    return rows_of(width * camera.height, 3, [&](std::size_t i, double* row) {
+      std::ranges::copy(rays.of_pixel(static_cast<std::uint32_t>(i % width),
+                                      static_cast<std::uint32_t>(i / width)),
+                        row);
+    });
+  });
+  core.def("resized", &resized);
 }
 
 void bind_importing(Module& core) {
@@ -217,6 +277,7 @@ void bind_camera(Module& core) {
         return camera_to_world(camera.world_to_camera);
       });
   bind_making(core);
+  bind_image_points(core);
   bind_importing(core);
   bind_data_sets(core);
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bindings.h"
+#include "fathom/image/deep_files.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/map_files.h"
 #include "fathom/render.h"
@@ -22,12 +23,7 @@ namespace fathom::python {
 namespace {
 
 /// Samples by column, where those of each pixel begin, and the rest of the map.
-py::tuple deep(const SharedScene& shared, const Camera& camera, const std::string& cull,
-               int threads) {
-  const std::shared_ptr<const Scene> scene = shared.scene;
-  DeepMap map = run([&](const auto& progress) {
-    return render_deep(*scene, camera, options_of(cull, threads), {}, progress);
-  });
+py::tuple arrays_of(DeepMap map) {
   const std::size_t count = map.samples.size();
   Samples<float> front(count), back(count), area(count), alpha(count);
   Samples<std::uint32_t> id(count);
@@ -50,6 +46,14 @@ py::tuple deep(const SharedScene& shared, const Camera& camera, const std::strin
   const auto offset_count = static_cast<py::ssize_t>(offsets.size());
   result["offsets"] = array_of(std::move(offsets), {offset_count});
   return py::make_tuple(result, std::make_shared<DepthMap>(std::move(map.description)));
+}
+
+py::tuple deep(const SharedScene& shared, const Camera& camera, const std::string& cull,
+               int threads) {
+  const std::shared_ptr<const Scene> scene = shared.scene;
+  return arrays_of(run([&](const auto& progress) {
+    return render_deep(*scene, camera, options_of(cull, threads), {}, progress);
+  }));
 }
 
 /// Python has made sure that the arrays fit each other.
@@ -84,6 +88,9 @@ SharedMap cryptomatte(const SharedScene& shared, const Camera& camera, const std
 
 void bind_deep(Module& core) {
   core.def("deep", &deep);
+  core.def("read_deep", [](const std::filesystem::path& path) {
+    return arrays_of(run([&](const auto&) { return read_deep_map(path); }));
+  });
   core.def("write_deep",
            [](const SharedMap& description, const ContiguousArray<float>& front,
               const ContiguousArray<float>& back, const ContiguousArray<float>& area,

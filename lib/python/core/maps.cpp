@@ -11,7 +11,6 @@
 #include "fathom/failures/errors.h"
 #include "fathom/image/background.h"
 #include "fathom/image/channel_names.h"
-#include "fathom/image/compare.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/map_texts.h"
@@ -152,84 +151,6 @@ std::map<std::string, std::string> set_background(
   return run([&](const auto&) { return with_background(std::move(map), value, rendered).texts; });
 }
 
-void bind_metrics(Module& core) {
-  Class<DepthMetrics>(core, "DepthMetrics")
-      .def_readonly("pixels", &DepthMetrics::pixels)
-      .def_readonly("left_out", &DepthMetrics::left_out)
-      .def_readonly("abs_rel", &DepthMetrics::abs_rel)
-      .def_readonly("sq_rel", &DepthMetrics::sq_rel)
-      .def_readonly("rmse", &DepthMetrics::rmse)
-      .def_readonly("rmse_log", &DepthMetrics::rmse_log)
-      .def_readonly("mae", &DepthMetrics::mae)
-      .def_readonly("delta_1", &DepthMetrics::delta_1)
-      .def_readonly("delta_2", &DepthMetrics::delta_2)
-      .def_readonly("delta_3", &DepthMetrics::delta_3);
-  Class<DisparityMetrics>(core, "DisparityMetrics")
-      .def_readonly("pixels", &DisparityMetrics::pixels)
-      .def_readonly("left_out", &DisparityMetrics::left_out)
-      .def_readonly("epe", &DisparityMetrics::epe)
-      .def_readonly("rmse", &DisparityMetrics::rmse)
-      .def_readonly("bad_0_5", &DisparityMetrics::bad_0_5)
-      .def_readonly("bad_1", &DisparityMetrics::bad_1)
-      .def_readonly("bad_2", &DisparityMetrics::bad_2);
-}
-
-void bind_comparison(Module& core) {
-  Class<DifferenceSummary>(core, "DifferenceSummary")
-      .def_readonly("max", &DifferenceSummary::max)
-      .def_readonly("mean", &DifferenceSummary::mean)
-      .def_readonly("p50", &DifferenceSummary::p50)
-      .def_readonly("p90", &DifferenceSummary::p90)
-      .def_readonly("p99", &DifferenceSummary::p99)
-      .def_readonly("p99_9", &DifferenceSummary::p99_9)
-      .def_property_readonly("worst", [](const DifferenceSummary& summary) {
-        return std::pair(summary.worst.x, summary.worst.y);
-      });
-  Class<ChannelComparison>(core, "ChannelComparison")
-      .def_readonly("truth_channel", &ChannelComparison::truth_channel)
-      .def_readonly("other_channel", &ChannelComparison::other_channel)
-      .def_readonly("pixels", &ChannelComparison::pixels)
-      .def_readonly("both", &ChannelComparison::both)
-      .def_readonly("only_truth", &ChannelComparison::only_truth)
-      .def_readonly("only_other", &ChannelComparison::only_other)
-      .def_readonly("neither", &ChannelComparison::neither)
-      .def_readonly("compared", &ChannelComparison::compared)
-      .def_readonly("bit_equal", &ChannelComparison::bit_equal)
-      .def_readonly("incommensurable", &ChannelComparison::incommensurable)
-      .def_readonly("different_identifiers", &ChannelComparison::different_identifiers)
-      .def_readonly("beyond_tolerance", &ChannelComparison::beyond_tolerance)
-      .def_readonly("absolute", &ChannelComparison::absolute)
-      .def_readonly("relative", &ChannelComparison::relative)
-      .def_readonly("ulp", &ChannelComparison::ulp)
-      .def_readonly("notes", &ChannelComparison::notes)
-      .def_readonly("depth_metrics", &ChannelComparison::depth_metrics)
-      .def_readonly("disparity_metrics", &ChannelComparison::disparity_metrics)
-      .def_property_readonly("within_tolerance", &ChannelComparison::within_tolerance);
-  Class<MapComparison>(core, "MapComparison")
-      .def_readonly("channels", &MapComparison::channels)
-      .def_readonly("only_in_truth", &MapComparison::only_in_truth)
-      .def_readonly("only_in_other", &MapComparison::only_in_other)
-      .def_readonly("notes", &MapComparison::notes)
-      .def_property_readonly("within_tolerance", &MapComparison::within_tolerance);
-  core.def("compare_maps",
-           [](const SharedMap& truth, const SharedMap& other, const std::string& channel,
-              const std::string& other_channel, const std::array<double, 3>& tolerances,
-              const std::array<std::optional<double>, 2>& backgrounds, const std::string& metrics) {
-             CompareOptions options;
-             options.channel = channel;
-             options.other_channel = other_channel;
-             options.tolerance_ulp = tolerances[0];
-             options.tolerance_absolute = tolerances[1];
-             options.tolerance_relative = tolerances[2];
-             options.truth_background = backgrounds[0];
-             options.other_background = backgrounds[1];
-             options.metrics = metrics == "channel"     ? Metrics::by_channel
-                               : metrics == "disparity" ? Metrics::of_disparity
-                                                        : Metrics::none;
-             return run([&](const auto&) { return compare_maps(*truth, *other, options); });
-           });
-}
-
 }  // namespace
 
 void bind_maps(Module& core) {
@@ -258,8 +179,6 @@ void bind_maps(Module& core) {
            [](const SharedMap& map, const Camera& camera, const std::filesystem::path& path,
               const std::string& frame,
               bool binary64) { write_points(*map, camera, path, frame, binary64); });
-  bind_metrics(core);
-  bind_comparison(core);
   core.attr("background_text") = background_text;
   core.attr("camera_text") = camera_text;
   core.attr("normals_text") = normals_text;

@@ -97,6 +97,8 @@ PYBIND11_MODULE(_core, module) {
   bind_camera(core);
   bind_scene(core);
   bind_maps(core);
+  bind_comparison(core);
+  bind_pictures(core);
   bind_render(core);
   bind_questions(core);
   bind_evaluation(core);

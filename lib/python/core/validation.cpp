@@ -1,5 +1,6 @@
 #include <pybind11/stl.h>
 
+#include "attributes.h"
 #include "bindings.h"
 #include "fathom/attribution/cause.h"
 #include "fathom/attribution/judgement.h"
@@ -57,7 +58,8 @@ void bind_validation(Module& core) {
       .def_readonly("name", &Estimate::name)
       .def_readonly("value", &Estimate::value)
       .def_readonly("deviation", &Estimate::deviation)
-      .def_readonly("unit", &Estimate::unit);
+      .def_readonly("unit", &Estimate::unit)
+      .def("__repr__", Attributes("Estimate", {"name", "value", "deviation", "unit"}));
   Class<Finding>(core, "Finding")
       .def_readonly("kind", &Finding::kind)
       .def_readonly("text", &Finding::text)

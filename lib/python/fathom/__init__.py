@@ -14,11 +14,12 @@ from ._core import version as __version__
 from ._warnings import ViewWarning
 from .camera import Camera, read_cameras, write_cameras
 from .clipping import clip
+from .comparison import MapComparison, compare
 from .deep import DeepMap, render_deep
 from .depth_formats import DepthFormat
 from .evaluation import evaluate
 from .lens import Lens
-from .maps import NO_SEGMENT, NO_SURFACE, Map, compare, read_map
+from .maps import NO_SEGMENT, NO_SURFACE, Map, read_map
 from .questions import probe, verify, visible
 from .rendering import render
 from .scanning import scan
@@ -35,6 +36,7 @@ __all__ = [
     "InputError",
     "Lens",
     "Map",
+    "MapComparison",
     "OutputError",
     "Scene",
     "UsageError",

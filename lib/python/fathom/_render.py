@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal, Union
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -25,10 +25,7 @@ from .camera import Camera
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-Cull = Literal["none", "back", "front"]
-Background = Union[float, Literal["inf", "nan"]]
-Normals = Literal["file", "vertex", "place"]
-
+    from .names import Background, Channels
 
 #: The channels that fathom renders: the letters of their parts, and their type, or "" for the
 #: requested type.
@@ -38,7 +35,7 @@ rendered = _core.channels()
 def render_cameras(
     scene: _core.Scene,
     camera: Camera | Sequence[Camera],
-    channels: Sequence[str],
+    channels: Channels,
     cull: str,
     dtype: npt.DTypeLike,
     scale: float,
@@ -157,13 +154,12 @@ def list_of_cameras(cameras: Sequence[Camera]) -> list[Camera]:
     return listed
 
 
-def channel_names(channels: Sequence[str]) -> list[str]:
-    if isinstance(channels, str):
-        channels = channels.split(",")
-    if not isinstance(channels, Iterable):
+def channel_names(channels: Channels) -> list[str]:
+    listed = channels.split(",") if isinstance(channels, str) else channels
+    if not isinstance(listed, Iterable):
         raise TypeError(f"channels: expected a sequence of names, found {channels!r}")
     names: list[str] = []
-    for name in channels:
+    for name in listed:
         if not isinstance(name, str):
             raise TypeError(f"channels: expected names, found {name!r}")
         if name not in rendered:

@@ -17,9 +17,12 @@ from ._arguments import (
     as_count,
     as_finite,
     as_number,
+    as_numbers,
     as_size,
     as_text,
     camera_handle,
+    in_pixels,
+    in_words,
     one_of,
     pose_of,
     scene_handle,
@@ -27,6 +30,7 @@ from ._arguments import (
 )
 from ._files import Path, make_folder_of, path_of
 from ._importing import intrinsics_of
+from ._shown import html_of
 from ._warnings import warn
 from .lens import Lens, Projection, lens_handle, projections
 
@@ -36,9 +40,11 @@ if TYPE_CHECKING:
 
     from ._arguments import HasScene as Scene
     from .lens import LensKeywords
+    from .names import Frame
 
     Arguments = ParamSpec("Arguments")
 
+frames = ("world", "camera")
 Up = Union[Literal["x", "y", "z", "-x", "-y", "-z"], "npt.ArrayLike"]
 
 
@@ -371,6 +377,113 @@ class Camera:
         """4×4, the inverse of world_to_camera: each entry is exact, rounded once."""
         return np.array([*self._handle.camera_to_world, (0, 0, 0, 1)], np.float64)
 
+    @property
+    def eye(self) -> npt.NDArray[np.float64]:
+        """Where the camera is, in the world, in scene units: 3 numbers, each exact, rounded once. The rays of an orthographic
+        camera begin in the plane through this point that is parallel to the image."""
+        return self.camera_to_world[:3, 3]
+
+    @property
+    def forward(self) -> npt.NDArray[np.float64]:
+        """The direction in the world in which the camera looks: 3 numbers, each exact, rounded once. The point
+        eye + d·forward has planar depth d; the length is 1 if world_to_camera has a rotation."""
+        return self.camera_to_world[:3, 2]
+
+    def project(self, points: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """The images of points, and their depths.
+
+        points   …×3, in the world, in scene units, finite
+        Returns  …×2: u (right) and v (down) in pixels, counted like cx and cy, so that the centre of
+                 the pixel in column x and row y is (x + pixel_centre, y + pixel_centre); NaN for a
+                 perspective camera where the depth is not positive. And …: planar depths, in scene
+                 units. The image size, near and far are not taken into account.
+        Exact    each number is exact, rounded once.
+
+        >>> camera = Camera(640, 480, 500, 500, 320, 240, pixel_centre=0.5)
+        >>> camera.project((1, 0.5, 4))
+        (array([445. , 302.5]), array(4.))
+        """
+        numbers = as_finite("points", points)
+        if numbers.ndim == 0 or numbers.shape[-1] != 3:
+            raise ValueError(f"points: expected shape …×3, found {in_words(numbers.shape)}")
+        found = _core.project(self._handle, numbers.reshape(-1, 3))
+        shape = numbers.shape[:-1]
+        return found[:, :2].reshape(*shape, 2), found[:, 2].reshape(shape)
+
+    def unproject(self, pixels: npt.ArrayLike, depths: npt.ArrayLike, *, frame: Frame = "world") -> npt.NDArray[np.float64]:
+        """The points at image positions and planar depths: the inverse of project().
+
+        pixels   …×2: u and v, counted like cx and cy; finite
+        depths   …, or one number for all: planar depths in scene units
+        frame    "world" or "camera" (x right, y down, z forward)
+        Returns  …×3, in scene units; NaN where the depth is not finite, as of a map without a surface
+        Exact    each number is exact for these numbers, rounded once.
+
+        >>> camera = Camera(640, 480, 500, 500, 320, 240, pixel_centre=0.5)
+        >>> camera.unproject((445, 302.5), 4)
+        array([1. , 0.5, 4. ])
+        """
+        places = as_finite("pixels", pixels)
+        if places.ndim == 0 or places.shape[-1] != 2:
+            raise ValueError(f"pixels: expected shape …×2, found {in_words(places.shape)}")
+        lengths = as_numbers("depths", depths)
+        shape = places.shape[:-1]
+        if lengths.shape not in ((), shape):
+            raise ValueError(f"depths: expected shape {in_words(shape)} or a number, found {in_words(lengths.shape)}")
+        known = np.isfinite(lengths)
+        flat = np.broadcast_to(np.where(known, lengths, 1.0), shape).ravel()
+        points = _core.unproject(self._handle, places.reshape(-1, 2), flat, one_of("frame", frame, frames)).reshape(*shape, 3)
+        points[~np.broadcast_to(known, shape)] = np.nan
+        return points
+
+    def rays(self, *, frame: Frame = "world") -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """The rays through the centres of all pixels.
+
+        frame    "world" or "camera" (x right, y down, z forward)
+        Returns  origins and directions, H×W×3 each, in scene units. origins + d·directions has planar
+                 depth d: directions have no unit length. One of the two is the same for all pixels,
+                 and read-only: the origins of a perspective camera, the directions of an orthographic
+                 camera.
+        Exact    each number is exact, rounded once.
+
+        >>> camera = Camera(640, 480, 500, 500, 320, 240, pixel_centre=0.5)
+        >>> origins, directions = camera.rays()
+        >>> origins.shape, directions[240, 320]
+        ((480, 640, 3), array([0.001, 0.001, 1.   ]))
+        """
+        shape = (self.height, self.width, 3)
+        if self.width * self.height > 2**31:
+            raise ValueError(f"size: rays of {in_pixels(self.size)} pixels do not fit into memory: take unproject()")
+        varying = _core.rays_of_pixels(self._handle, one_of("frame", frame, frames)).reshape(shape)
+        pose = self.camera_to_world if frame == "world" else np.eye(4)
+        if self.projection == "orthographic":
+            return varying, np.broadcast_to(pose[:3, 2], shape)
+        return np.broadcast_to(pose[:3, 3], shape), varying
+
+    def scaled(self, factor: float | None = None, *, size: Size | None = None) -> Camera:
+        """The camera of the same image at another resolution: it shows the same view up to the edges.
+
+        factor  the new width and height are factor·width and factor·height, rounded to whole pixels
+        size    instead, the new (width, height)
+
+        fx, fy, skew and the principal point are scaled by new / old width and height, about the top
+        left corner of the image: with pixel_centre 0, that is about (−½, −½). Each is exact, rounded
+        once. world_to_camera, near, far and name stay.
+
+        >>> Camera(640, 480, 500, 500, 319.5, 239.5, pixel_centre=0).scaled(0.5)
+        Camera(320×240, perspective, fx=250, fy=250, cx=159.5, cy=119.5, pixel_centre=0)
+        """
+        if (factor is None) == (size is None):
+            raise TypeError("scaled: expected either a factor or a size")
+        if size is not None:
+            return Camera._of(_core.resized(self._handle, *as_size(size)))
+        number = as_number("factor", factor)
+        if not 0 < number < math.inf:
+            raise ValueError(f"factor: expected a positive number, found {number!r}")
+        with _core.standard_arithmetic():
+            width, height = (max(1, round(number * length)) for length in self.size)
+        return Camera._of(_core.resized(self._handle, *as_size((width, height))))
+
     def with_size(self, width: int, height: int) -> Camera:
         """The same camera with another image size and the same principal point in pixels."""
         return Camera(width, height, self.fx, self.fy, self.cx, self.cy,
@@ -389,6 +502,30 @@ class Camera:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _from_json, (self.to_json(),)
+
+    def _repr_html_(self) -> str:
+        forward, eye = self.camera_to_world[:3, 2], self.camera_to_world[:3, 3]
+        with _core.standard_arithmetic():  # Python writes decimals by binary64 arithmetic
+            rows = [
+                (f"{self.projection} camera", self.name),
+                ("size", f"{self.width}×{self.height} pixels"),
+                ("fx, fy, skew", f"{self.fx:.6g}, {self.fy:.6g}, {self.skew:.6g}"),
+                ("cx, cy", f"{self.cx:.6g}, {self.cy:.6g} (centre of the first pixel: {self.pixel_centre:.6g})"),
+                ("eye", ", ".join(f"{each:.6g}" for each in eye)),
+                ("forward", ", ".join(f"{each:.6g}" for each in forward)),
+                ("near to far", f"{self.near:.6g} to {self.far:.6g}"),
+            ]
+        return html_of(repr(self), rows, extra=self._sketch())
+
+    def _sketch(self) -> str:
+        """An SVG: the image's outline with its principal point, as far as that is inside."""
+        with _core.standard_arithmetic():
+            shift = 0.5 - self.pixel_centre
+            x, y, dot = self.cx + shift, self.cy + shift, max(self.size) / 50
+            return (f'<svg width="160" height="120" viewBox="0 0 {self.width} {self.height}" role="img">'
+                    f"<title>the image and its principal point</title>"
+                    f'<rect width="{self.width}" height="{self.height}" fill="none" stroke="currentColor" '
+                    f'stroke-width="{dot / 2:.6g}"/><circle cx="{x:.6g}" cy="{y:.6g}" r="{dot:.6g}" fill="currentColor"/></svg>')
 
     def __repr__(self) -> str:
         names = ("fx", "fy", "cx", "cy")

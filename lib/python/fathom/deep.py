@@ -10,12 +10,14 @@ import numpy as np
 from . import _core
 from ._arguments import as_count, as_text, as_threads, camera_handle, culls, in_pixels, one_of, scene_handle
 from ._files import Path, make_folder_of, path_of
-from ._render import Cull
+from ._shown import share_of
+from .maps import camera_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     from .camera import Camera
+    from .names import Cull, DeepCompression
     from .scene import Scene
 
 
@@ -41,6 +43,16 @@ class DeepMap:
         self.camera = camera
         self._description = _description
 
+    @classmethod
+    def read(cls, file: Path) -> DeepMap:
+        """Reads a deep EXR that write() or `fathom render --deep` has written: the same numbers, bit for bit. Raises
+        InputError, which names the file."""
+        arrays, description = _core.read_deep(path_of("file", file))
+        camera = camera_of(description)
+        if camera is None:
+            raise _core.InputError(f"{os.fsdecode(file)}: it carries no camera, as deep maps of Fathom do")
+        return cls(arrays, camera, description)
+
     @property
     def counts(self) -> npt.NDArray[np.int64]:
         """H×W: the number of fragments of each pixel."""
@@ -57,7 +69,7 @@ class DeepMap:
         pixel += as_count("x", x, 0, self.camera.width - 1)
         return slice(int(self.offsets[pixel]), int(self.offsets[pixel + 1]))
 
-    def write(self, file: Path, *, compression: str = "zips", threads: int = 0) -> None:
+    def write(self, file: Path, *, compression: DeepCompression = "zips", threads: int = 0) -> None:
         """Writes a deep EXR with channels A, Z, ZBack, area and id, for compositing programs. `compression` is "zips",
         "rle" or "none".
 
@@ -107,7 +119,12 @@ class DeepMap:
             raise ValueError(f"ZBack: fragment {int(np.argmax(inverted))} ends nearer than its Z")
 
     def __repr__(self) -> str:
-        return f"DeepMap({self.camera.width}×{self.camera.height}, {len(self.Z)} fragments)"
+        size = in_pixels(self.camera.size)
+        with _core.standard_arithmetic():  # Python writes decimals by binary64 arithmetic
+            depths = f"; Z: {self.Z.min():.6g} to {self.ZBack.max():.6g}" if len(self.Z) else ""
+            counts = self.counts
+            return (f"DeepMap({size} pixels; {len(self.Z)} fragments, up to {counts.max()} in a pixel{depths}; "
+                    f"surface in {share_of(int((counts > 0).sum()), counts.size)})")
 
 
 def render_deep(scene: Scene, camera: Camera, *, cull: Cull = "none", threads: int = 0) -> DeepMap:

@@ -12,6 +12,8 @@ from ._arguments import as_array, as_number, as_numbers, one_of
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from .names import Mapping, Storage
+
 MAPPINGS: tuple[str, ...] = tuple(_core.mappings)
 STORAGES: tuple[str, ...] = tuple(_core.storages)
 
@@ -34,7 +36,7 @@ class DepthFormat:
     0.00148863
     """
 
-    def __init__(self, mapping: str, storage: str, *, near: float, far: float, c: float = 1) -> None:
+    def __init__(self, mapping: Mapping, storage: Storage, *, near: float, far: float, c: float = 1) -> None:
         self.mapping = one_of("mapping", mapping, MAPPINGS)
         self.storage = one_of("storage", storage, STORAGES)
         self.near = as_number("near", near)

@@ -7,13 +7,15 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from . import _core
 from ._arguments import as_count, as_number, as_threads, camera_handle, culls, one_of, scene_handle
-from ._render import Cull, several_cameras
+from ._render import several_cameras
+from ._shown import repr_without_arrays
 from .camera import Camera
 
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
+    from .names import Cull
     from .scene import Scene
 
 
@@ -60,6 +62,9 @@ class Distances(NamedTuple):
     #: With `keep_points`, the points that count, (seen, 3), and their distances, (seen,); otherwise None.
     positions: npt.NDArray[np.float64] | None
     distances: npt.NDArray[np.float64] | None
+
+    def __repr__(self) -> str:
+        return repr_without_arrays(self)
 
 
 class Evaluation(NamedTuple):

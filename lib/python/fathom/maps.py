@@ -10,8 +10,9 @@ import numpy as np
 
 from . import _core
 from ._core import OutputError
-from ._arguments import as_array, as_count, as_number, as_text, as_threads, camera_handle, culls, one_of, scene_handle
+from ._arguments import as_array, as_count, as_number, as_text, as_threads, camera_handle, culls, in_pixels, one_of, scene_handle
 from ._files import Path, make_folder_of, path_of
+from ._shown import ColorMap, color_maps, html_of, png_of, saved, share_of
 from ._render import rendered
 from .camera import Camera, cameras_from_json
 
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
     from ._arguments import HasScene as Scene
     from ._arguments import Numbers
+    from ._shown import Picture
+    from .names import Compression, Cull, Frame
 
 #: The value of id, face, object, material, group, part and label without a surface.
 NO_SURFACE = _core.no_surface
@@ -34,6 +37,9 @@ parts_of = {name: parts for name, (parts, _) in rendered.items() if parts}
 
 quantities = tuple(_core.quantities)
 point_frames = tuple(_core.point_frames)
+
+#: Larger maps are described without ranges, which would take a second.
+most_numbers_to_describe = 2**27
 
 
 class Map(dict[str, "npt.NDArray[Any]"]):
@@ -51,7 +57,11 @@ class Map(dict[str, "npt.NDArray[Any]"]):
     background  value of depth channels without a surface
 
     Map({"Z": depths}, camera, background=0) makes a map from your own arrays; add scale=1000 for
-    uint16 codes. copy() and pickle keep everything.
+    uint16 codes. copy() and pickle keep everything. Channels are attributes, too: maps.Z is
+    maps["Z"].
+
+    >>> Map({"Z": np.array([[2, 2.5, np.inf]], np.float32)})
+    Map(3×1 pixels; Z: float32, 2 to 2.5; surface in 66.67 %)
     """
 
     def __init__(
@@ -96,7 +106,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
     @classmethod
     def _of(cls, description: _core.Map) -> Map:
         planes = description.take_channels()
-        return cls(_grouped(planes), _camera_of(description), description)
+        return cls(_grouped(planes), camera_of(description), description)
 
     def write(
         self,
@@ -105,7 +115,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         channel: str | None = None,
         scale: float | None = None,
         names: Mapping[str, str] | None = None,
-        compression: str = "zip",
+        compression: Compression = "zip",
         threads: int = 0,
     ) -> None:
         """Writes the map; the suffix of the file selects the format. Creates missing folders.
@@ -284,7 +294,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         factor = None if scale is None else as_number("scale", scale)
         return Map._of(_core.with_storage(self._handle(), as_text("channel", channel), name, factor))
 
-    def points(self, camera: Camera | None = None, *, frame: str = "world") -> Numbers:
+    def points(self, camera: Camera | None = None, *, frame: Frame = "world") -> Numbers:
         """N×3 float64 points in scene units, row by row, one for each pixel with a surface at a
         finite depth. They are computed from Z (or distance) and the camera; in the world from
         channel P, if the map has it, whose values are exact, rounded once."""
@@ -294,7 +304,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         view = self._camera(camera) if needs_camera else Camera(1, 1, 1, 1, 0, 0, pixel_centre=0.5)
         return _core.points(self._handle(), camera_handle(view), frame)
 
-    def write_points(self, file: Path, camera: Camera | None = None, *, frame: str = "world",
+    def write_points(self, file: Path, camera: Camera | None = None, *, frame: Frame = "world",
                      dtype: npt.DTypeLike = "float64") -> None:
         """Writes the points as PLY, with normals and identifiers if the map has them."""
         path = path_of("file", file)
@@ -305,7 +315,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         _core.write_point_cloud(handle, view, path, frame,
                                 name == "float64")
 
-    def add_cryptomatte(self, scene: Scene, camera: Camera | None = None, *, cull: str = "none", threads: int = 0) -> None:
+    def add_cryptomatte(self, scene: Scene, camera: Camera | None = None, *, cull: Cull = "none", threads: int = 0) -> None:
         """Adds Cryptomatte's channels by object, CryptoObject00.R and so on, with exact coverage,
         each rounded once to float32, and the manifest to the metadata. Write the map as EXR for
         compositing programs."""
@@ -317,9 +327,114 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         self.update(matte.take_channels())
         self._description.texts = {**self._description.texts, **matte.texts}
 
+    # Shown
+
+    def preview(
+        self,
+        path: Path | None = None,
+        *,
+        channel: str = "",
+        colormap: ColorMap = "viridis",
+        range: tuple[float, float] | None = None,
+        unit: str = "",
+    ) -> Picture:
+        """Draws a channel with a colour bar, like `fathom preview`: a uint8 array of H×W×3 (sRGB) for people to look at.
+        Writes it as PNG if a path is given.
+
+        channel   default: Z, or else the first channel; N, Nc and Ns are drawn as RGB
+        colormap  "viridis", "magma", "turbo" or "grey"
+        range     (low, high), the ends of the colour bar (default: the least and greatest value)
+        unit      written after the channel's name, such as "m"
+        """
+        low, high = (None, None) if range is None else _ends_of(range)
+        return saved(_core.draw_preview(self._handle(), as_text("channel", channel), one_of("colormap", colormap, color_maps),
+                                        low, high, as_text("unit", unit)), path)
+
+    def _repr_png_(self) -> bytes | None:
+        first = self if self._views is None else self.view(0)
+        return png_of(first.preview)
+
+    def _repr_html_(self) -> str:
+        rows = [("channel", "type", "values"), *((name, *self._in_words(name)) for name in self)]
+        return html_of("; ".join(filter(None, (self._size_in_words(), self._share_in_words()))), rows, self._repr_png_())
+
     def __repr__(self) -> str:
-        channels = ", ".join(f"{name}: {array.dtype} {array.shape}" for name, array in self.items())
-        return f"Map({channels})"
+        channels = [f"{name}: {', '.join(filter(None, self._in_words(name)))}" for name in self]
+        return f"Map({'; '.join(filter(None, (self._size_in_words(), *channels, self._share_in_words())))})"
+
+    def _size_in_words(self) -> str:
+        shapes = [np.shape(array) for array in self.values()]
+        if not shapes:
+            return "without channels"
+        stacked = self._views is not None
+        rows = shapes[0][1 if stacked else 0:]
+        if len(rows) < 2:
+            return f"shape {shapes[0]}"
+        size = f"{in_pixels((rows[1], rows[0]))} pixels"
+        return f"{shapes[0][0]} views of {size}" if stacked else size
+
+    def _in_words(self, name: str) -> tuple[str, str]:
+        """The type of a channel, and the range of its values where the map has a surface."""
+        array = np.asarray(self[name])
+        kind = f"{array.dtype}" + (f"×{array.shape[-1]}" if name in parts_of and array.ndim > 2 else "")
+        if array.dtype.kind not in "fiu" or array.size > most_numbers_to_describe:
+            return kind, ""
+        with _core.standard_arithmetic():  # NumPy compares, and Python writes decimals, by binary64 arithmetic
+            if array.dtype == np.uint32:
+                values = array[array < (NO_SEGMENT if name in segment_channels else NO_SURFACE)]
+            elif name in quantities:
+                values = array[self._shown(array) & np.isfinite(array)]
+            else:
+                values = array[np.isfinite(array)]
+            if not values.size:
+                return kind, "no surface"
+            return kind, f"{values.min():.6g} to {values.max():.6g}"
+
+    def _share_in_words(self) -> str:
+        if sum(np.size(each) for each in self.values()) > most_numbers_to_describe:
+            return ""
+        try:
+            mask = self.mask()
+        except (TypeError, ValueError):
+            return ""
+        return f"surface in {share_of(int(mask.sum()), mask.size)}"
+
+    # Channels as attributes
+
+    if TYPE_CHECKING:
+        Z: npt.NDArray[Any]
+        Zlow: npt.NDArray[np.float32]
+        A: npt.NDArray[np.float32]
+        distance: npt.NDArray[Any]
+        disparity: npt.NDArray[Any]
+        id: npt.NDArray[np.uint32]
+        face: npt.NDArray[np.uint32]
+        object: npt.NDArray[np.uint32]
+        material: npt.NDArray[np.uint32]
+        group: npt.NDArray[np.uint32]
+        part: npt.NDArray[np.uint32]
+        label: npt.NDArray[np.uint32]
+        N: npt.NDArray[np.float32]
+        Nc: npt.NDArray[np.float32]
+        Ns: npt.NDArray[np.float32]
+        P: npt.NDArray[np.float32]
+        bary: npt.NDArray[np.float32]
+    else:
+
+        def __getattr__(self, name):
+            if name in self:
+                return self[name]
+            if name.startswith("_"):
+                raise AttributeError(name)
+            raise AttributeError(f"the map has no channel '{name}', only {', '.join(self)}")
+
+        def __setattr__(self, name, value):
+            if name in rendered or name == "disparity":
+                raise AttributeError(f"{name}: set a channel by map[{name!r}] = …")
+            super().__setattr__(name, value)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *(name for name in self if name.isidentifier())]
 
 
 _State = tuple[dict[str, str], list[str], dict[str, list[str]], Union[float, None]]
@@ -351,6 +466,14 @@ def _map_of_state(
     return Map(channels, camera, _description_of(state), of_views)
 
 
+def _ends_of(range: Any) -> tuple[float, float]:
+    try:
+        low, high = range
+    except (TypeError, ValueError):
+        raise TypeError(f"range: expected (low, high), found {range!r}") from None
+    return as_number("range", low), as_number("range", high)
+
+
 def _positive(name: str, value: object) -> float:
     number = as_number(name, value)
     if not 0 < number < np.inf:
@@ -358,7 +481,8 @@ def _positive(name: str, value: object) -> float:
     return number
 
 
-def _camera_of(description: _core.Map) -> Camera | None:
+def camera_of(description: _core.Map) -> Camera | None:
+    """The camera that a map carries."""
     if description.camera is not None:
         return Camera._of(description.camera)
     text = description.texts.get(_core.camera_text)
@@ -417,54 +541,3 @@ def as_map(name: str, value: object) -> Map:
     if array.ndim != 2:
         raise ValueError(f"{name}: expected an H×W array or a Map, found shape {array.shape}")
     return Map({"Z": array})
-
-
-def compare(
-    truth: Map | npt.ArrayLike,
-    other: Map | npt.ArrayLike,
-    *,
-    channel: str = "",
-    other_channel: str = "",
-    tolerance_ulp: float = 0,
-    tolerance_absolute: float = 0,
-    tolerance_relative: float = 0,
-    metrics: bool | str = False,
-    truth_background: float | None = None,
-    other_background: float | None = None,
-) -> _core.MapComparison:
-    """Compares two maps of the same view, channel by channel: pixels that show a surface in only
-    one map, and the absolute, relative and ulp differences of the other pixels. An array is taken
-    as Z.
-
-    tolerance_ulp, tolerance_absolute, tolerance_relative  two numbers agree if one of the three
-             tolerances allows it
-    metrics  True: depth channels get depth_metrics (abs_rel, sq_rel, rmse, rmse_log, mae, delta_1
-             to delta_3), disparity channels disparity_metrics (epe, rmse, bad_0_5, bad_1, bad_2);
-             "disparity": all channels are disparities
-    truth_background, other_background  value of "no surface" (default: the value that the map
-             records; otherwise it is detected, with a note)
-
-    >>> truth = np.array([[1, 2], [3, np.inf]], np.float32)
-    >>> found = compare(truth, np.array([[1, 2], [3.5, np.inf]], np.float32))
-    >>> found.within_tolerance, found.channels[0].bit_equal, found.channels[0].absolute.max
-    (False, 2, 0.5)
-    """
-
-    def value(name: str, background: float | None) -> float | None:
-        return None if background is None else as_number(name, background)
-
-    if isinstance(metrics, bool):
-        metrics = "channel" if metrics else "none"
-    return _core.compare_maps(
-        as_map("truth", truth)._handle(),
-        as_map("other", other)._handle(),
-        as_text("channel", channel),
-        as_text("other_channel", other_channel),
-        (
-            as_number("tolerance_ulp", tolerance_ulp),
-            as_number("tolerance_absolute", tolerance_absolute),
-            as_number("tolerance_relative", tolerance_relative),
-        ),
-        (value("truth_background", truth_background), value("other_background", other_background)),
-        one_of("metrics", metrics, ("none", "channel", "disparity")),
-    )

@@ -12,6 +12,7 @@ from . import _core
 from ._answers import Answer, answer_of, as_arguments, case_of
 from ._arguments import as_count, as_number, camera_handle, one_of, scene_handle
 from ._core import InputError, UsageError
+from ._shown import png_of, repr_without_arrays
 from ._warnings import warn
 from .camera import Camera
 from .maps import Map
@@ -40,6 +41,12 @@ class Picture(NamedTuple):
     map: Map
     picture: npt.NDArray[np.uint8]
     statistics: dict[str, Any]
+
+    def _repr_png_(self) -> bytes | None:
+        return png_of(lambda: self.picture)
+
+    def __repr__(self) -> str:
+        return repr_without_arrays(self)
 
 
 def render(scene: Scene, camera: Camera, **options: Option) -> Picture:

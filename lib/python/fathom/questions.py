@@ -9,13 +9,14 @@ import numpy as np
 
 from . import _core
 from ._arguments import as_count, as_threads, camera_handle, culls, one_of, scene_handle
-from ._render import Cull, rendered, stored_type
+from ._render import rendered, stored_type
 from .maps import Map
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     from .camera import Camera
+    from .names import Cull
     from .scene import Scene
 
 
@@ -78,6 +79,12 @@ class Areas(NamedTuple):
     unoccluded: npt.NDArray[np.float64]
     #: visible / unoccluded; NaN without unoccluded area.
     ratio: npt.NDArray[np.float64]
+
+    def __repr__(self) -> str:
+        with _core.standard_arithmetic():  # Python writes decimals by binary64 arithmetic
+            shown = int((self.visible > 0).sum())
+            areas = f": {self.visible[self.visible > 0].min():.6g} to {self.visible.max():.6g} pixels" if shown else ""
+            return f"Areas({shown} of {len(self.visible)} visible{areas}, {self.visible.sum():.6g} pixels together)"
 
 
 class VisibleAreas(NamedTuple):

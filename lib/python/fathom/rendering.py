@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from ._arguments import as_array, require_one_matrix, takes_pixel_centre
-from ._render import Background, Cull, Normals
 from .camera import Camera
 from .scene import Scene
 
@@ -17,6 +16,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from .maps import Map
+    from .names import Background, Channels, Cull, Normals
 
 
 @takes_pixel_centre
@@ -28,7 +28,7 @@ def render(
     size: Sequence[int],
     *,
     pixel_centre: float,
-    channels: Sequence[str] = ("Z",),
+    channels: Channels = ("Z",),
     near: float = 0,
     far: float = math.inf,
     cull: Cull = "none",

@@ -18,7 +18,9 @@ from ._arguments import (
     vertices_of,
 )
 from ._files import Path, path_of
-from ._render import Background, Cull, Normals, background_value, render_cameras
+from ._meshes import arrays_of
+from ._render import background_value, render_cameras
+from ._shown import html_of, png_of
 from ._warnings import warn
 from .camera import Camera
 from .maps import Map
@@ -26,6 +28,14 @@ from .maps import Map
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
+
+    from ._meshes import Mesh
+    from ._shown import Picture
+    from .names import Background, Channels, Cull, Engine, Normals
+
+#: Larger scenes are shown in notebooks without a picture, and more objects are counted.
+most_triangles_to_draw = 10_000_000
+most_objects_to_list = 20
 
 
 class Object(NamedTuple):
@@ -85,8 +95,8 @@ class Scene:
 
     def add_mesh(
         self,
-        vertices: npt.ArrayLike,
-        faces: npt.ArrayLike,
+        vertices: npt.ArrayLike | Mesh,
+        faces: npt.ArrayLike | None = None,
         *,
         pose: npt.ArrayLike | None = None,
         name: str = "",
@@ -97,7 +107,9 @@ class Scene:
         add_instance().
 
         vertices   N×3 in the mesh's own frame; float64, float32 or integers, taken as exact numbers
-        faces      M×3 triangles: vertex numbers from 0, integers of any type
+        faces      M×3 triangles: vertex numbers from 0, integers of any type. Without faces,
+                   `vertices` is a mesh of trimesh (Trimesh), Open3D (TriangleMesh) or PyVista
+                   (PolyData), whose vertices and triangles are copied
         pose       4×4 or 3×4, mesh to world (default: the identity)
         name       name of the object (default: "mesh 0", "mesh 1", …)
         labels     an integer for each face, or one for all, for channel `label`. Negative: no label
@@ -109,6 +121,8 @@ class Scene:
         """
         placed = None if pose is None else pose_of("pose", pose)
         called = as_text("name", name)
+        if faces is None:
+            vertices, faces = arrays_of(vertices)
         numbers = vertices_of(vertices)
         corners = faces_of(faces, len(numbers))
         of_labels = None if labels is None else labels_of(labels, len(corners))
@@ -175,12 +189,12 @@ class Scene:
         self,
         camera: Camera | Sequence[Camera],
         *,
-        channels: Sequence[str] = ("Z",),
+        channels: Channels = ("Z",),
         cull: Cull = "none",
         dtype: npt.DTypeLike = "float32",
         scale: float = 1000,
         background: Background = float("inf"),
-        engine: str = "fast",
+        engine: Engine = "fast",
         normals: Normals = "file",
         threads: int = 0,
         out: Mapping[str, npt.NDArray[Any]] | None = None,
@@ -206,9 +220,36 @@ class Scene:
         for mesh in range(self.mesh_count):
             check_elements(self.vertices(mesh), self.faces(mesh))
 
+    def _picture(self) -> Picture:
+        """The depths of a view of the whole scene."""
+        camera = Camera.frame(self, size=(480, 360))
+        arrays, views, _ = render_cameras(self._handle, camera, ("Z",), "none", "float32", 1000, "fast", 0, "file", None)
+        return Map(arrays, *views[0]).preview()
+
+    def _repr_png_(self) -> bytes | None:
+        return png_of(self._picture) if 0 < self.triangle_count <= most_triangles_to_draw else None
+
+    def _repr_html_(self) -> str:
+        rows = [("object", "name", "mesh", "triangles", "file"),
+                *((str(number), each.name, str(each.mesh), str(len(self.faces(each.mesh))), each.source)
+                  for number, each in enumerate(self.objects[:most_objects_to_list]))]
+        more = self._handle.object_count - most_objects_to_list
+        return html_of(self._in_words(), rows, self._repr_png_(), f"<p>and {more} more objects</p>" if more > 0 else "")
+
     def __repr__(self) -> str:
-        return (f"Scene({self._handle.object_count} objects, {self.mesh_count} meshes, "
-                f"{self.triangle_count} triangles)")
+        return f"Scene({self._in_words()})"
+
+    def _in_words(self) -> str:
+        text = (f"{_counted(self._handle.object_count, 'object')}, {_counted(self.mesh_count, 'mesh', 'meshes')}, "
+                f"{_counted(self.triangle_count, 'triangle')}")
+        if self.bounds is None:
+            return text
+        with _core.standard_arithmetic():  # Python writes decimals by binary64 arithmetic
+            return text + "; " + ", ".join(f"{axis} {low:.6g} to {high:.6g}" for axis, low, high in zip("xyz", *self.bounds))
+
+
+def _counted(count: int, one: str, several: str = "") -> str:
+    return f"{count} {one if count == 1 else several or one + 's'}"
 
 
 def _stack(

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from .camera import Camera
+    from .names import Model
     from .scene import Scene
 
 
@@ -32,7 +33,7 @@ def assert_depth(
     map: Map | npt.ArrayLike,
     scene: Scene,
     camera: Camera,
-    model: str = "auto",
+    model: Model = "auto",
     *,
     channel: str = "",
     report: _files.Path | None = None,

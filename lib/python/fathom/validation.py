@@ -14,6 +14,7 @@ from .maps import Map, as_map
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from .names import Model
     from .scene import Scene
 
 #: The names of the classes, indexed by the numbers in arrays of classes.
@@ -79,7 +80,7 @@ def validate(
     map: Map | npt.ArrayLike,
     scene: Scene,
     camera: Camera,
-    model: str = "auto",
+    model: Model = "auto",
     *,
     channel: str = "",
 ) -> Validation:

@@ -1,0 +1,147 @@
+// How two maps differ: figures, and a picture.
+
+#include <pybind11/stl.h>
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "attributes.h"
+#include "bindings.h"
+#include "fathom/image/compare.h"
+#include "objects.h"
+#include "pictures.h"
+#include "running.h"
+
+namespace py = pybind11;
+
+namespace fathom::python {
+namespace {
+
+CompareOptions make_options(const std::string& channel, const std::string& other_channel,
+                            const std::array<double, 3>& tolerances,
+                            const std::array<std::optional<double>, 2>& backgrounds,
+                            const std::string& metrics) {
+  CompareOptions options;
+  options.channel = channel;
+  options.other_channel = other_channel;
+  options.tolerance_ulp = tolerances[0];
+  options.tolerance_absolute = tolerances[1];
+  options.tolerance_relative = tolerances[2];
+  options.truth_background = backgrounds[0];
+  options.other_background = backgrounds[1];
+  options.metrics = metrics == "channel"     ? Metrics::by_channel
+                    : metrics == "disparity" ? Metrics::of_disparity
+                                             : Metrics::none;
+  return options;
+}
+
+DifferenceMeasure measure_named(const std::string& name) {
+  if (name == "ulp") return DifferenceMeasure::ulp;
+  return name == "relative" ? DifferenceMeasure::relative : DifferenceMeasure::absolute;
+}
+
+void bind_metrics(Module& core) {
+  Class<DepthMetrics>(core, "DepthMetrics")
+      .def_readonly("pixels", &DepthMetrics::pixels)
+      .def_readonly("left_out", &DepthMetrics::left_out)
+      .def_readonly("abs_rel", &DepthMetrics::abs_rel)
+      .def_readonly("sq_rel", &DepthMetrics::sq_rel)
+      .def_readonly("rmse", &DepthMetrics::rmse)
+      .def_readonly("rmse_log", &DepthMetrics::rmse_log)
+      .def_readonly("mae", &DepthMetrics::mae)
+      .def_readonly("delta_1", &DepthMetrics::delta_1)
+      .def_readonly("delta_2", &DepthMetrics::delta_2)
+      .def_readonly("delta_3", &DepthMetrics::delta_3)
+      .def("__repr__",
+           Attributes("DepthMetrics", {"pixels", "left_out", "abs_rel", "sq_rel", "rmse",
+                                       "rmse_log", "mae", "delta_1", "delta_2", "delta_3"}));
+  Class<DisparityMetrics>(core, "DisparityMetrics")
+      .def_readonly("pixels", &DisparityMetrics::pixels)
+      .def_readonly("left_out", &DisparityMetrics::left_out)
+      .def_readonly("epe", &DisparityMetrics::epe)
+      .def_readonly("rmse", &DisparityMetrics::rmse)
+      .def_readonly("bad_0_5", &DisparityMetrics::bad_0_5)
+      .def_readonly("bad_1", &DisparityMetrics::bad_1)
+      .def_readonly("bad_2", &DisparityMetrics::bad_2)
+      .def("__repr__", Attributes("DisparityMetrics", {"pixels", "left_out", "epe", "rmse",
+                                                       "bad_0_5", "bad_1", "bad_2"}));
+  Class<DifferenceSummary>(core, "DifferenceSummary")
+      .def_readonly("max", &DifferenceSummary::max)
+      .def_readonly("mean", &DifferenceSummary::mean)
+      .def_readonly("p50", &DifferenceSummary::p50)
+      .def_readonly("p90", &DifferenceSummary::p90)
+      .def_readonly("p99", &DifferenceSummary::p99)
+      .def_readonly("p99_9", &DifferenceSummary::p99_9)
+      .def_property_readonly("worst",
+                             [](const DifferenceSummary& summary) {
+                               return std::pair(summary.worst.x, summary.worst.y);
+                             })
+      .def("__repr__",
+           Attributes("DifferenceSummary", {"max", "mean", "p50", "p90", "p99", "p99_9", "worst"}));
+}
+
+void bind_channel_comparison(Module& core) {
+  Class<ChannelComparison>(core, "ChannelComparison")
+      .def_readonly("truth_channel", &ChannelComparison::truth_channel)
+      .def_readonly("other_channel", &ChannelComparison::other_channel)
+      .def_readonly("pixels", &ChannelComparison::pixels)
+      .def_readonly("both", &ChannelComparison::both)
+      .def_readonly("only_truth", &ChannelComparison::only_truth)
+      .def_readonly("only_other", &ChannelComparison::only_other)
+      .def_readonly("neither", &ChannelComparison::neither)
+      .def_readonly("compared", &ChannelComparison::compared)
+      .def_readonly("bit_equal", &ChannelComparison::bit_equal)
+      .def_readonly("incommensurable", &ChannelComparison::incommensurable)
+      .def_readonly("different_identifiers", &ChannelComparison::different_identifiers)
+      .def_readonly("beyond_tolerance", &ChannelComparison::beyond_tolerance)
+      .def_readonly("absolute", &ChannelComparison::absolute)
+      .def_readonly("relative", &ChannelComparison::relative)
+      .def_readonly("ulp", &ChannelComparison::ulp)
+      .def_readonly("notes", &ChannelComparison::notes)
+      .def_readonly("depth_metrics", &ChannelComparison::depth_metrics)
+      .def_readonly("disparity_metrics", &ChannelComparison::disparity_metrics)
+      .def_property_readonly("within_tolerance", &ChannelComparison::within_tolerance)
+      .def("__repr__", [](const ChannelComparison& channel) {
+        const double share = channel.both == 0 ? 1
+                                               : static_cast<double>(channel.bit_equal) /
+                                                     static_cast<double>(channel.both);
+        py::str text = py::str("ChannelComparison({}: {:.4g} % of {} pixels are bit-equal")
+                           .format(channel.truth_channel, 100 * share, channel.both);
+        if (channel.absolute.max > 0)
+          text = text + py::str("; differences up to {:.6g}, mean {:.6g}")
+                            .format(channel.absolute.max, channel.absolute.mean);
+        if (channel.different_identifiers > 0)
+          text = text + py::str("; {} identifiers differ").format(channel.different_identifiers);
+        text = text + py::str("; a surface only in truth: {}, only in other: {}")
+                          .format(channel.only_truth, channel.only_other);
+        return text + py::str(channel.within_tolerance() ? "; within tolerance)"
+                                                         : "; not within tolerance)");
+      });
+}
+
+}  // namespace
+
+void bind_comparison(Module& core) {
+  bind_metrics(core);
+  bind_channel_comparison(core);
+  Class<MapComparison>(core, "MapComparison")
+      .def_readonly("channels", &MapComparison::channels)
+      .def_readonly("only_in_truth", &MapComparison::only_in_truth)
+      .def_readonly("only_in_other", &MapComparison::only_in_other)
+      .def_readonly("notes", &MapComparison::notes)
+      .def_property_readonly("within_tolerance", &MapComparison::within_tolerance)
+      .def("__repr__", Attributes("MapComparison", {"within_tolerance", "channels"}));
+  Class<CompareOptions>(core, "CompareOptions").def(py::init(&make_options));
+  core.def("compare_maps",
+           [](const SharedMap& truth, const SharedMap& other, const CompareOptions& options) {
+             return run([&](const auto&) { return compare_maps(*truth, *other, options); });
+           });
+  core.def("draw_differences", [](const SharedMap& truth, const SharedMap& other,
+                                  const CompareOptions& options, const std::string& by) {
+    return array_of(run(
+        [&](const auto&) { return draw_differences(*truth, *other, options, measure_named(by)); }));
+  });
+}
+
+}  // namespace fathom::python
