@@ -39,8 +39,8 @@ inline std::vector<SquareTriangle> random_triangles(std::mt19937_64& random, std
 inline oracle::Q exact_area(const std::vector<SquareTriangle>& triangles) {
   oracle::RayCamera camera;
   camera.perspective = false;
-  camera.projection.fx = camera.projection.fy = 1;
-  camera.projection.pixel_centre = oracle::Q(1, 2);
+  camera.fx = camera.fy = 1;
+  camera.pixel_centre = oracle::Q(1, 2);
   for (std::size_t k = 0; k < 3; ++k) camera.world_to_camera[k][k] = 1;
   std::vector<oracle::Triangle> placed;
   for (const SquareTriangle& t : triangles) {
