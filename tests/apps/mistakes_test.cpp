@@ -127,7 +127,7 @@ TEST_F(Mistakes, AChannelOfSeveralPartsInAFormatOfOne) {
       {"render", "square.obj", "--camera", "camera.json", "--channels", "Z,N", "-o", "map.exr"});
   const std::string parts =
       "--channel: this format holds one channel, and N is N.X, N.Y, N.Z; name "
-      "the one to write, or write .npy or .exr\n";
+      "the one to write, or write .exr, .npy or .npz\n";
   EXPECT_EQ(refusal({"convert", "map.exr", "--channel", "N", "-o", "no.pfm"}, 2), parts);
   EXPECT_EQ(refusal({"convert", "map.exr", "--channel", "N", "-o", "no.png"}, 2), parts);
   EXPECT_THAT(refusal({"convert", "map.exr", "--channel", "N.X", "-o", "no.png"}, 4),

@@ -265,7 +265,7 @@ def test_data_sets(tmp_path):
     assert beside.world_to_camera[:3, 3].tolist() == [0.1, 0, 0]
     along = fathom.Camera.from_kitti(calibration, poses=poses, camera=2, size=(1241, 376))["000000"]
     assert np.array_equal(along.world_to_camera, beside.world_to_camera @ np.linalg.inv(turned))
-    with pytest.raises(ValueError, match="of which camera"):
+    with pytest.raises(ValueError, match="the number of a camera"):
         fathom.Camera.from_kitti(calibration, poses=poses, size=(1241, 376))
 
     lens = {"type": "orthographic", "orthographic": dict(xmag=4, ymag=3, znear=0, zfar=9)}

@@ -269,7 +269,7 @@ TEST(PipelineCommand, WritesWhatTheDepthBufferHolds) {
           {"--mapping", "linear", "--polygon-offset", "1,1"});
   refused(2, "near and far have the same window depth",
           {"--depth-format", "unorm24", "--depth-range", "0.5,0.5"});
-  refused(3, "object cube: its 'draw' is for a depth buffer; the painter's algorithm takes",
+  refused(3, "object cube: its 'draw' is for a depth buffer; the painter's algorithm supports",
           {"--hidden-surface", "painter"});
   refused(2, "--blend-depth belongs to --blend", {"--blend-depth", "on"});
   refused(2, "--opacity belongs to --blend", {"--opacity", "0.25"});
@@ -478,7 +478,7 @@ TEST(PipelineCommand, TraceFollowsLinesAndPointsAndListsFragments) {
   };
   EXPECT_THAT(refused({"--primitive", "3"}), HasSubstr("1 triangles, then 2 lines and points"));
   EXPECT_THAT(refused({"--triangle", "1"}), HasSubstr("there is no triangle 1; the scene has 1"));
-  EXPECT_THAT(refused({"--triangle", "0", "--primitive", "0"}), HasSubstr("give one of them"));
+  EXPECT_THAT(refused({"--triangle", "0", "--primitive", "0"}), HasSubstr("exclude each other"));
 }
 
 TEST(PipelineCommand, TraceWarnsOfAStretchedViewport) {

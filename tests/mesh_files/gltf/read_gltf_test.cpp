@@ -189,7 +189,7 @@ TEST(Gltf, BrokenTreesAreRefused) {
   EXPECT_THAT(
       fault({{{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}, {"scale", {1, 1, 1}}}},
             {0}),
-      HasSubstr("beside a matrix"));
+      HasSubstr("together with a matrix"));
   constexpr int deep = 100000 / testing::effort;
   json chain = json::array();
   for (int i = 0; i < deep; ++i) chain.push_back({{"children", {i + 1}}});
