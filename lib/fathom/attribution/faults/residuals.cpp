@@ -81,10 +81,10 @@ struct SamplePoint {
 };
 
 SamplePoint sample_point(const Camera& c, const SamplePosition& sample, std::size_t pixel) {
-  const auto column = static_cast<double>(pixel % c.width),
-             row = static_cast<double>(pixel / c.width);
-  const auto [shown_x, shown_y] =
-      RoundedProjection(c.projection).plane_point_at(column + sample.x, row + sample.y);
+  const std::size_t column = pixel % c.width, row = pixel / c.width;
+  const auto [shown_x, shown_y] = RoundedProjection(c.projection)
+                                      .plane_point_at(static_cast<double>(column) + sample.x,
+                                                      static_cast<double>(row) + sample.y);
   const auto [x, y] = undistorted(shown_x, shown_y, sample.k1, sample.k2);
   return {.x = x, .y = y, .shown_y = shown_y, .shown_x = shown_x};
 }

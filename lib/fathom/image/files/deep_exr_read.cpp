@@ -55,6 +55,7 @@ void read_samples(Imf::DeepScanLineInputPart& part, DeepMap& map, std::uint64_t 
       std::accumulate(map.counts.begin(), map.counts.end(), std::uint64_t{0});
   if (samples > most_samples)
     throw InputError(name + ": corrupt: its rows hold fewer samples than its pixels have");
+  if (samples == 0) return;
   map.samples.resize(samples);
   for (std::size_t c = 0; c < deep_channels.size(); ++c) {
     char* next = reinterpret_cast<char*>(map.samples.data()) + deep_channels[c].offset;
@@ -69,7 +70,9 @@ void read_samples(Imf::DeepScanLineInputPart& part, DeepMap& map, std::uint64_t 
 DeepMap decode(ByteView bytes, const std::string& name, const MapMemory& memory) {
   DeepClaims claims = check_deep_exr_claims(bytes, name);
   ByteInput stream(bytes, name, std::move(claims.defused));
-  Imf::MultiPartInputFile file(stream, reserve_exr_threads(0), false);
+  // Starting threads costs more than a small file does.
+  const int threads = bytes.size() < (std::size_t{1} << 18) ? 0 : reserve_exr_threads(0);
+  Imf::MultiPartInputFile file(stream, threads, false);
   Imf::DeepScanLineInputPart part(file, 0);
   const Imf::Header& header = part.header();
   require_channels(header.channels(), name);
