@@ -23,7 +23,7 @@ struct PreviewArguments {
 
 ColourMap parse_colour_map(const std::string& text) {
   if (const std::optional<ColourMap> colours = colour_map_named(text)) return *colours;
-  refuse_word(text, {"viridis", "magma", "turbo", "grey"});
+  refuse_word(text, names_of(all_colour_maps));
 }
 
 int run_preview(const PreviewArguments& arguments) {

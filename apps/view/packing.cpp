@@ -8,6 +8,8 @@
 #include <new>
 #include <vector>
 
+#include "apps/page_data.h"
+
 namespace fathom::view {
 namespace {
 
@@ -95,7 +97,7 @@ std::string packed_words(std::span<const Word> plane, std::uint32_t width, const
   for (std::size_t byte = 0; byte < sizeof(Word); ++byte) {
     for (const Word word : best) bytes.push_back(static_cast<std::uint8_t>(word >> 8 * byte));
   }
-  return base64(deflated(bytes));
+  return app::base64(deflated(bytes));
 }
 
 }  // namespace
@@ -118,23 +120,6 @@ std::string packed(std::span<const std::uint32_t> plane, std::uint32_t width,
 std::string packed(std::span<const std::uint64_t> plane, std::uint32_t width,
                    const TilePlace& tile) {
   return packed_words(plane, width, tile);
-}
-
-std::string base64(std::span<const std::uint8_t> bytes) {
-  constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t rest = bytes.size() - i;
-    const std::uint32_t word = static_cast<std::uint32_t>(bytes[i]) << 16 |
-                               (rest > 1 ? static_cast<std::uint32_t>(bytes[i + 1]) << 8 : 0U) |
-                               (rest > 2 ? bytes[i + 2] : 0U);
-    text += letters[word >> 18];
-    text += letters[word >> 12 & 63U];
-    text += rest > 1 ? letters[word >> 6 & 63U] : '=';
-    text += rest > 2 ? letters[word & 63U] : '=';
-  }
-  return text;
 }
 
 }  // namespace fathom::view

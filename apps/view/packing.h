@@ -30,13 +30,4 @@ std::string packed(std::span<const std::uint32_t> plane, std::uint32_t width,
 std::string packed(std::span<const std::uint64_t> plane, std::uint32_t width,
                    const TilePlace& tile);
 
-/// The number of the words, the words' values one after another as for a tile of one row.
-inline std::string packed(std::span<const std::uint32_t> words) {
-  const auto count = static_cast<std::uint32_t>(words.size());
-  return packed(words, count, {.columns = count, .rows = 1});
-}
-
-/// RFC 4648, with padding.
-std::string base64(std::span<const std::uint8_t> bytes);
-
 }  // namespace fathom::view

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/validate/report/script_data.h"
+#include "apps/page_data.h"
 #include "apps/view/map_data.h"
 #include "apps/view/web.h"
 #include "fathom/image/preview.h"
@@ -28,9 +28,7 @@ std::string colour_digits(ColourMap colours) {
 
 Json colour_maps() {
   Json maps = Json::object();
-  for (const char* name : {"viridis", "magma", "turbo", "grey"}) {
-    maps[name] = colour_digits(*colour_map_named(name));
-  }
+  for (const ColourMap map : all_colour_maps) maps[std::string(name_of(map))] = colour_digits(map);
   return maps;
 }
 
@@ -48,17 +46,14 @@ void write_module(std::string_view text, const Sink& sink) {
 
 }  // namespace
 
-void write_page(const std::vector<ViewedMap>& maps, bool answers_probes, const Sink& sink) {
+void write_page(const std::vector<ViewedMap>& maps, const Sink& sink) {
   for (const std::string_view part : {web::head, web::style, web::body}) sink(part);
-  Json data{{"maps", Json::array()},
-            {"tile", tile_size},
-            {"colours", colour_maps()},
-            {"probes", answers_probes}};
+  Json data{{"maps", Json::array()}, {"tile", tile_size}, {"colours", colour_maps()}};
   for (std::size_t k = 0; k < maps.size(); ++k) {
     data["maps"].push_back(write_planes(maps[k], "m" + std::to_string(k), sink));
   }
-  sink(validation::script_data(
-      "view", data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
+  sink(app::script_data("view",
+                        data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
   sink("<script type=\"module\">\n");
   for (const std::string_view module :
        {web::numbers, web::planes, web::channels, web::colours, web::statistics, web::difference,

@@ -24,10 +24,9 @@ using Sink = std::function<void(std::string_view part)>;
 
 /// Writes the page of `fathom view`: one HTML file that needs no other and no network. It holds
 /// every channel of every map, bit by bit: in tiles of 512 × 512 pixels (packing.h), of large maps
-/// also every second, every fourth, … pixel. `answers_probes`: a server answers `probe?x=X&y=Y`
-/// beside the page.
+/// also every second, every fourth, … pixel.
 /// Needs    valid maps, at least one.
 /// Fails    std::bad_alloc; as the sink.
-void write_page(const std::vector<ViewedMap>& maps, bool answers_probes, const Sink& sink);
+void write_page(const std::vector<ViewedMap>& maps, const Sink& sink);
 
 }  // namespace fathom::view

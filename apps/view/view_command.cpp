@@ -50,7 +50,7 @@ std::vector<ViewedMap> read_maps(const ViewArguments& arguments) {
 
 void write_page_to(const std::filesystem::path& path, const std::vector<ViewedMap>& maps) {
   std::ofstream file(path, std::ios::binary);
-  view::write_page(maps, false, [&](std::string_view part) { file << part; });
+  view::write_page(maps, [&](std::string_view part) { file << part; });
   file.close();
   if (!file) throw OutputError(path.string() + ": cannot be written");
 }

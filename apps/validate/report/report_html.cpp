@@ -6,9 +6,9 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "apps/page_data.h"
 #include "apps/validate/report/page.h"
 #include "apps/validate/report/report_formats.h"
-#include "apps/validate/report/script_data.h"
 #include "fathom/image/preview.h"
 
 namespace fathom::validation {
@@ -19,20 +19,6 @@ using attribution::Truth;
 using Bytes = std::vector<unsigned char>;
 using Json = nlohmann::ordered_json;
 
-std::string base64(const Bytes& bytes) {
-  constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t rest = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (k < rest ? bytes[i + k] : 0U);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += k <= rest ? letters[word >> (18 - 6 * k) & 63U] : '=';
-  }
-  return text;
-}
-
 /// In zlib's format, which browsers read as "deflate".
 std::string compressed(const Bytes& bytes) {
   uLongf length = ::compressBound(bytes.size());
@@ -41,7 +27,7 @@ std::string compressed(const Bytes& bytes) {
     throw std::bad_alloc();
   }
   result.resize(length);
-  return base64(result);
+  return app::base64(result);
 }
 
 /// 32-bit words, first all their lowest bytes, then the next: neighbours are alike there.
@@ -138,9 +124,10 @@ std::string to_html(const std::vector<ValidationCase>& cases) {
   }
   std::string html;
   for (const std::string_view part : {page::head, page::style, page::body}) html += part;
-  html += script_data("report", to_json(cases));
-  html += script_data("depth-colours", depth_colours().dump());
-  html += script_data("maps", data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  html += app::script_data("report", to_json(cases));
+  html += app::script_data("depth-colours", depth_colours().dump());
+  html +=
+      app::script_data("maps", data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   html += "<script>\n";
   for (const std::string_view part :
        {page::elements, page::words, page::overview, page::data, page::maps, page::colours,
@@ -156,7 +143,7 @@ std::string to_html(const Comparison& comparison) {
   for (const ResultChange& change : comparison.changes) data["changes"].push_back(json_of(change));
   std::string html;
   for (const std::string_view part : {page::head, page::style, page::comparison_body}) html += part;
-  html += script_data("comparison", data.dump(-1, ' ', false, Json::error_handler_t::replace));
+  html += app::script_data("comparison", data.dump(-1, ' ', false, Json::error_handler_t::replace));
   html += "<script>\n";
   for (const std::string_view part :
        {page::elements, page::words, page::overview, page::comparison})

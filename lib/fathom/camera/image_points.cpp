@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "fathom/camera/rounded_poses.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/double_word.h"
@@ -45,7 +46,7 @@ ImageOfPoint project(const Camera& camera, const std::array<double, 3>& world) {
 // Over the common denominator fx·fy that is
 //   p = (fy, 0, 0)·(u − cx)·w + (−skew, fx, 0)·(v − cy)·w + (0, 0, fx·fy)·d,
 // and the world's X = R⁻¹·(p − t), with R⁻¹ = adj R / det R.
-ImageRays::ImageRays(const Camera& camera, Frame frame)
+ImageRays::ImageRays(const Camera& camera, PointFrame frame)
     : cx_(camera.projection.cx),
       cy_(camera.projection.cy),
       perspective_(is_perspective(camera.projection)) {
@@ -53,24 +54,15 @@ ImageRays::ImageRays(const Camera& camera, Frame frame)
   const Projection& projection = camera.projection;
   const Dyadic fx = projection.fx, fy = projection.fy, skew = projection.skew, zero = 0.0;
   const ExactVector3 u{fy, zero, zero}, v{-skew, fx, zero}, d{zero, zero, fx * fy};
-  std::array<ExactVector3, 3> adjugate{{{1.0, zero, zero}, {zero, 1.0, zero}, {zero, zero, 1.0}}};
-  ExactVector3 t{zero, zero, zero};
-  denominator_ = fx * fy;
-  if (frame == Frame::world) {
-    const auto column = [&](std::size_t k) {
-      const auto& pose = camera.world_to_camera;
-      return ExactVector3{pose[0][k], pose[1][k], pose[2][k]};
-    };
-    const ExactVector3 a = column(0), b = column(1), c = column(2);
-    adjugate = {cross(b, c), cross(c, a), cross(a, b)};
-    t = column(3);
-    denominator_ = denominator_ * determinant(a, b, c);
-  }
+  // In the camera frame, the pose is the identity.
+  const auto [rows, det, t] = camera::adjugate(
+      frame == PointFrame::world ? camera.world_to_camera : Camera().world_to_camera);
+  denominator_ = fx * fy * det;
   for (std::size_t k = 0; k < 3; ++k) {
-    U_[k] = dot(adjugate[k], u);
-    V_[k] = dot(adjugate[k], v);
-    D_[k] = dot(adjugate[k], d);
-    O_[k] = -dot(adjugate[k], t) * (fx * fy);
+    U_[k] = dot(rows[k], u);
+    V_[k] = dot(rows[k], v);
+    D_[k] = dot(rows[k], d);
+    O_[k] = -dot(rows[k], t) * (fx * fy);
   }
   first_x_ = Dyadic(projection.pixel_centre) - Dyadic(cx_);
   first_y_ = Dyadic(projection.pixel_centre) - Dyadic(cy_);

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "fathom/camera/camera.h"
+#include "fathom/camera/point_frame.h"
 #include "fathom/numeric/double_word.h"
 
 /// Between the world and the image, point by point. Each number that is returned is the exact one,
@@ -29,11 +30,8 @@ ImageOfPoint project(const Camera& camera, const std::array<double, 3>& world);
 /// once.
 class ImageRays {
  public:
-  enum class Frame { world, camera };
-
-  /// `frame` is where points and directions are.
   /// Needs    a valid camera.
-  ImageRays(const Camera& camera, Frame frame);
+  ImageRays(const Camera& camera, PointFrame frame);
 
   /// The point at (u, v) with this planar depth, in scene units.
   /// Needs    finite numbers.

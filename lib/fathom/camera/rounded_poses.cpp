@@ -65,20 +65,22 @@ Pose pose_that_takes(const Matrix3& R, const ExactVector3& X, const ExactVector3
   return pose;
 }
 
-// A⁻¹ = adj A / det A; the rows of the adjugate are the cross products of the columns of A.
-std::optional<std::array<std::array<Ratio, 4>, 3>> exact_inverse(const Pose& pose) {
+// The rows of the adjugate are the cross products of the columns of A.
+Adjugate adjugate(const Pose& pose) {
   const auto column = [&](std::size_t k) {
     return ExactVector3{pose[0][k], pose[1][k], pose[2][k]};
   };
-  const ExactVector3 a0 = column(0), a1 = column(1), a2 = column(2), b = column(3);
-  const Dyadic det = determinant(a0, a1, a2);
+  const ExactVector3 a0 = column(0), a1 = column(1), a2 = column(2);
+  return {{cross(a1, a2), cross(a2, a0), cross(a0, a1)}, determinant(a0, a1, a2), column(3)};
+}
+
+std::optional<std::array<std::array<Ratio, 4>, 3>> exact_inverse(const Pose& pose) {
+  const auto [rows, det, b] = adjugate(pose);
   if (det.is_zero()) return std::nullopt;
-  const std::array<ExactVector3, 3> adjugate{cross(a1, a2), cross(a2, a0), cross(a0, a1)};
-  const auto over_det = [&](const Dyadic& x) { return Ratio(x, det); };
   std::array<std::array<Ratio, 4>, 3> inverse;
   for (std::size_t i = 0; i < 3; ++i)
-    inverse[i] = {over_det(adjugate[i][0]), over_det(adjugate[i][1]), over_det(adjugate[i][2]),
-                  over_det(-dot(adjugate[i], b))};
+    inverse[i] = {Ratio(rows[i][0], det), Ratio(rows[i][1], det), Ratio(rows[i][2], det),
+                  Ratio(-dot(rows[i], b), det)};
   return inverse;
 }
 

@@ -30,6 +30,14 @@ ExactVector3 rotate(const Matrix3& R, const ExactVector3& X);
 /// translation is the exact one rounded once.
 Pose pose_that_takes(const Matrix3& R, const ExactVector3& X, const ExactVector3& target);
 
+/// Of a pose [A | b]: the rows of adj A, which are those of A⁻¹ times det A; det A; and b, exactly.
+struct Adjugate {
+  std::array<ExactVector3, 3> rows;
+  Dyadic determinant;
+  ExactVector3 translation;
+};
+Adjugate adjugate(const Pose& pose);
+
 /// [A⁻¹ | −A⁻¹·b] of a pose [A | b], exactly; nothing where A is singular.
 std::optional<std::array<std::array<Ratio, 4>, 3>> exact_inverse(const Pose& pose);
 /// The same, each entry rounded once.

@@ -2,19 +2,12 @@
 
 #include <array>
 #include <filesystem>
-#include <string_view>
 #include <vector>
 
+#include "fathom/camera/point_frame.h"
 #include "fathom/image/convert.h"
 
 namespace fathom {
-
-enum class PointFrame { world, camera };
-inline constexpr std::array all_point_frames{PointFrame::world, PointFrame::camera};
-/// "world" or "camera".
-constexpr std::string_view name_of(PointFrame frame) {
-  return frame == PointFrame::world ? "world" : "camera";
-}
 
 /// One point for each pixel that shows a surface at a finite depth, row by row. In the world frame,
 /// the map's own P channels are used as they are if it has them, since they are exact numbers

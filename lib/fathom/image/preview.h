@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "fathom/image/depth_map.h"
 #include "fathom/image/rgb_image.h"
@@ -10,8 +12,11 @@
 namespace fathom {
 
 enum class ColourMap { viridis, magma, turbo, grey };
+inline constexpr std::array all_colour_maps{ColourMap::viridis, ColourMap::magma, ColourMap::turbo,
+                                            ColourMap::grey};
+std::string_view name_of(ColourMap map);
 
-/// "viridis", "magma", "turbo", "grey" (also "gray"); nullopt for other names.
+/// The colour map of that name; also "gray"; nullopt for other names.
 std::optional<ColourMap> colour_map_named(const std::string& name);
 
 /// The colour at t, which is clamped to [0, 1].

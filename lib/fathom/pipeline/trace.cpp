@@ -171,6 +171,7 @@ class Tracer {
 
   void draw(const std::vector<ClipVertex<Real>>& polygon, std::uint32_t number) {
     std::vector<WindowVertex<Real>> window;
+    window.reserve(polygon.size());
     for (const ClipVertex<Real>& corner : polygon) window.push_back(to_window(corner));
     trace_.in_ndc = facing_in_ndc<Real>(
         {divide(polygon[0]), divide(polygon[1]), divide(polygon[2])}, options_.front_face);

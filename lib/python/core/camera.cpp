@@ -15,6 +15,7 @@
 #include "fathom/scene/framing.h"
 #include "fathom/threads/threads.h"
 #include "objects.h"
+#include "options.h"
 #include "running.h"
 #include "values.h"
 
@@ -130,7 +131,7 @@ py::array rows_of(std::size_t count, std::size_t columns, const Work& work) {
 }
 
 ImageRays rays_of(const Camera& camera, const std::string& frame) {
-  return {camera, frame == "camera" ? ImageRays::Frame::camera : ImageRays::Frame::world};
+  return {camera, named_value("frame", all_point_frames, frame)};
 }
 
 /// Python has made sure of the shapes, N×3, N×2 and N, and that the numbers are finite.

@@ -10,8 +10,10 @@
 #include <string>
 
 #include "bindings.h"
+#include "fathom/failures/unknown_name.h"
 #include "fathom/image/preview.h"
 #include "objects.h"
+#include "options.h"
 #include "running.h"
 #include "values.h"
 
@@ -34,7 +36,7 @@ py::array draw(const SharedMap& map, const std::string& channel, const std::stri
                std::optional<double> low, std::optional<double> high, const std::string& unit) {
   PreviewOptions options;
   options.channel = channel;
-  options.colours = colour_map_named(colours).value_or(ColourMap::viridis);
+  options.colours = named_value("colormap", all_colour_maps, colours);
   options.low = low;
   options.high = high;
   options.unit = unit;
@@ -52,6 +54,7 @@ py::array array_of(const RgbImage& picture) {
 }
 
 void bind_pictures(Module& core) {
+  core.attr("color_maps") = names_of(all_colour_maps);
   core.def("draw_preview", &draw);
   core.def("write_png", [](const Picture& picture, const std::filesystem::path& path) {
     const RgbImage image = image_of(picture);

@@ -17,6 +17,7 @@ background_text: str
 camera_text: str
 normals_text: str
 compressions: list[str]
+color_maps: list[str]
 point_frames: list[str]
 quantities: list[str]
 culls: list[str]

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     Picture = npt.NDArray[np.uint8]
 
 ColorMap = Literal["viridis", "magma", "turbo", "grey"]
-color_maps = ("viridis", "magma", "turbo", "grey")
+color_maps = tuple(_core.color_maps)
 
 
 def saved(picture: Picture, path: Path | None) -> Picture:

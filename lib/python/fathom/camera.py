@@ -24,6 +24,7 @@ from ._arguments import (
     in_pixels,
     in_words,
     one_of,
+    point_frames,
     pose_of,
     scene_handle,
     takes_pixel_centre,
@@ -44,7 +45,6 @@ if TYPE_CHECKING:
 
     Arguments = ParamSpec("Arguments")
 
-frames = ("world", "camera")
 Up = Union[Literal["x", "y", "z", "-x", "-y", "-z"], "npt.ArrayLike"]
 
 
@@ -432,7 +432,8 @@ class Camera:
             raise ValueError(f"depths: expected shape {in_words(shape)} or a number, found {in_words(lengths.shape)}")
         known = np.isfinite(lengths)
         flat = np.broadcast_to(np.where(known, lengths, 1.0), shape).ravel()
-        points = _core.unproject(self._handle, places.reshape(-1, 2), flat, one_of("frame", frame, frames)).reshape(*shape, 3)
+        rows = _core.unproject(self._handle, places.reshape(-1, 2), flat, one_of("frame", frame, point_frames))
+        points = rows.reshape(*shape, 3)
         points[~np.broadcast_to(known, shape)] = np.nan
         return points
 
@@ -454,7 +455,7 @@ class Camera:
         shape = (self.height, self.width, 3)
         if self.width * self.height > 2**31:
             raise ValueError(f"size: rays of {in_pixels(self.size)} pixels do not fit into memory: take unproject()")
-        varying = _core.rays_of_pixels(self._handle, one_of("frame", frame, frames)).reshape(shape)
+        varying = _core.rays_of_pixels(self._handle, one_of("frame", frame, point_frames)).reshape(shape)
         pose = self.camera_to_world if frame == "world" else np.eye(4)
         if self.projection == "orthographic":
             return varying, np.broadcast_to(pose[:3, 2], shape)

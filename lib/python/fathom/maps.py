@@ -10,7 +10,19 @@ import numpy as np
 
 from . import _core
 from ._core import OutputError
-from ._arguments import as_array, as_count, as_number, as_text, as_threads, camera_handle, culls, in_pixels, one_of, scene_handle
+from ._arguments import (
+    as_array,
+    as_count,
+    as_number,
+    as_text,
+    as_threads,
+    camera_handle,
+    culls,
+    in_pixels,
+    one_of,
+    point_frames,
+    scene_handle,
+)
 from ._files import Path, make_folder_of, path_of
 from ._shown import ColorMap, color_maps, html_of, png_of, saved, share_of
 from ._render import rendered
@@ -36,7 +48,6 @@ segment_channels = tuple(_core.segment_channels)
 parts_of = {name: parts for name, (parts, _) in rendered.items() if parts}
 
 quantities = tuple(_core.quantities)
-point_frames = tuple(_core.point_frames)
 
 #: Larger maps are described without ranges, which would take a second.
 most_numbers_to_describe = 2**27

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "fathom/failures/unknown_name.h"
 #include "fathom/image/preview.h"
 
 namespace fathom {
@@ -52,12 +53,22 @@ Rgb evaluate(const std::array<Colour, count>& coefficients, double t) {
 
 }  // namespace
 
+std::string_view name_of(ColourMap map) {
+  switch (map) {
+    case ColourMap::viridis:
+      return "viridis";
+    case ColourMap::magma:
+      return "magma";
+    case ColourMap::turbo:
+      return "turbo";
+    case ColourMap::grey:
+      break;
+  }
+  return "grey";
+}
+
 std::optional<ColourMap> colour_map_named(const std::string& name) {
-  if (name == "viridis") return ColourMap::viridis;
-  if (name == "magma") return ColourMap::magma;
-  if (name == "turbo") return ColourMap::turbo;
-  if (name == "grey" || name == "gray") return ColourMap::grey;
-  return std::nullopt;
+  return value_named(all_colour_maps, name == "gray" ? "grey" : name);
 }
 
 Rgb colour_at(ColourMap map, double t) {
