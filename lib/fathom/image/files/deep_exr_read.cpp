@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "fathom/failures/errors.h"
+#include "fathom/files/byte_order.h"
 #include "fathom/files/input_file.h"
 #include "fathom/image/deep_files.h"
 #include "fathom/image/files/deep_channels.h"
@@ -67,6 +68,11 @@ void read_samples(Imf::DeepScanLineInputPart& part, DeepMap& map, std::uint64_t 
   part.readPixels(window.min.y, window.max.y);
 }
 
+bool is_exr(ByteView bytes) {
+  constexpr std::uint32_t magic = 20000630;
+  return bytes.size() >= 4 && load<std::uint32_t>(bytes.data(), std::endian::little) == magic;
+}
+
 DeepMap decode(ByteView bytes, const std::string& name, const MapMemory& memory) {
   DeepClaims claims = check_deep_exr_claims(bytes, name);
   ByteInput stream(bytes, name, std::move(claims.defused));
@@ -94,14 +100,23 @@ DeepMap decode(ByteView bytes, const std::string& name, const MapMemory& memory)
 
 }  // namespace
 
+bool is_deep_map(ByteView bytes) {
+  constexpr std::uint32_t flag_deep = 0x800;
+  return is_exr(bytes) && bytes.size() >= 8 &&
+         (load<std::uint32_t>(&bytes[4], std::endian::little) & flag_deep) != 0;
+}
+
 DeepMap read_deep_map(const std::filesystem::path& path, const MapMemory& memory) {
   const StandardArithmetic standard;
   const InputFile input(path);
-  const std::string name = path.string();
-  if (!input.text().starts_with("\x76\x2f\x31\x01"))
-    throw InputError(name + ": expected a deep map (EXR)");
+  return read_deep_map(input.bytes(), path.string(), memory);
+}
+
+DeepMap read_deep_map(ByteView bytes, const std::string& name, const MapMemory& memory) {
+  const StandardArithmetic standard;
+  if (!is_exr(bytes)) throw InputError(name + ": expected a deep map (EXR)");
   try {
-    return decode(input.bytes(), name, memory);
+    return decode(bytes, name, memory);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
