@@ -8,6 +8,7 @@
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/channel_names.h"
+#include "fathom/image/deep_files.h"
 #include "fathom/image/map_files.h"
 
 namespace fathom::app {
@@ -63,6 +64,11 @@ DepthMap read_map_argument(const std::string& file) {
 DepthMap read_map_argument(std::span<const std::byte> bytes, const std::string& file) {
   note_input(file);
   return read_map(bytes, file, allowed_memory());
+}
+
+DeepMap read_deep_map_argument(std::span<const std::byte> bytes, const std::string& file) {
+  note_input(file);
+  return read_deep_map(bytes, file, allowed_memory());
 }
 
 }  // namespace fathom::app

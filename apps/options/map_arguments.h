@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fathom/image/channel_table.h"
+#include "fathom/image/deep_map.h"
 #include "fathom/image/depth_map.h"
 
 namespace fathom::app {
@@ -24,5 +25,7 @@ std::size_t count_parts(const std::vector<Channel>& channels);
 DepthMap read_map_argument(const std::string& file);
 /// The same of a file that has been read already.
 DepthMap read_map_argument(std::span<const std::byte> bytes, const std::string& file);
+/// A deep map that has been read already, likewise.
+DeepMap read_deep_map_argument(std::span<const std::byte> bytes, const std::string& file);
 
 }  // namespace fathom::app

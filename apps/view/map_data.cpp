@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
+#include "apps/view/deep_data.h"
 #include "apps/view/packing.h"
 #include "fathom/camera/pose.h"
 #include "fathom/image/channel_table.h"
@@ -43,6 +44,11 @@ std::uint32_t tiles_in(std::uint32_t pixels) {
   return (pixels + tile_size - 1) / tile_size;
 }
 
+std::size_t tiles_at(const ImageSize& size, unsigned level) {
+  const ImageSize here = size.at_level(level);
+  return std::size_t{tiles_in(here.width)} * tiles_in(here.height);
+}
+
 TilePlace tile_of(const ImageSize& size, unsigned level, std::size_t number) {
   const ImageSize here = size.at_level(level);
   const std::uint32_t across = tiles_in(here.width);
@@ -54,16 +60,15 @@ TilePlace tile_of(const ImageSize& size, unsigned level, std::size_t number) {
 
 template <class Word>
 void write_plane(std::span<const Word> plane, const ImageSize& size, const std::string& id,
-                 const Sink& sink) {
+                 const Sink& sink, Progress* progress = nullptr) {
   for (unsigned level = 0; level < size.levels(); ++level) {
-    const ImageSize here = size.at_level(level);
-    std::vector<std::string> tiles(std::size_t{tiles_in(here.width)} * tiles_in(here.height));
+    std::vector<std::string> tiles(tiles_at(size, level));
     parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t k) {
       tiles[k] = packed(plane, size.width, tile_of(size, level, k));
+      if (progress != nullptr) progress->part_done();
     });
     for (std::size_t k = 0; k < tiles.size(); ++k) {
-      sink("<script type=\"text/plain\" id=\"" + id + "-" + std::to_string(level) + "-" +
-           std::to_string(k) + "\">" + tiles[k] + "</script>\n");
+      sink(script_text(id + "-" + std::to_string(level) + "-" + std::to_string(k), tiles[k]));
     }
   }
 }
@@ -165,7 +170,15 @@ Json describe_camera(const Camera& camera) {
 
 }  // namespace
 
-Json write_planes(const ViewedMap& viewed, const std::string& prefix, const Sink& sink) {
+std::uint64_t tiles_of_channels(const DepthMap& map) {
+  const ImageSize size{map.width, map.height};
+  std::uint64_t tiles = 0;
+  for (unsigned level = 0; level < size.levels(); ++level) tiles += tiles_at(size, level);
+  return tiles * map.channels.size();
+}
+
+Json write_planes(const ViewedMap& viewed, const std::string& prefix, const Sink& sink,
+                  Progress& progress) {
   const DepthMap& map = viewed.map;
   const ImageSize size{map.width, map.height};
   Json told{{"name", viewed.name},
@@ -180,12 +193,20 @@ Json write_planes(const ViewedMap& viewed, const std::string& prefix, const Sink
     const ImageChannel& channel = map.channels[k];
     told["channels"].push_back(describe_channel(map, channel, masks));
     const std::string id = prefix + "-c" + std::to_string(k);
-    std::visit([&](const auto& values) { write_plane(words_of(values), size, id, sink); },
-               channel.values);
+    std::visit(
+        [&](const auto& values) { write_plane(words_of(values), size, id, sink, &progress); },
+        channel.values);
   }
   for (std::size_t k = 0; k < masks.all().size(); ++k) {
     const Mask& mask = masks.all()[k];
     write_plane(std::span(mask), size, prefix + "-k" + std::to_string(k), sink);
+  }
+  if (viewed.deep) {
+    told["deep"] = true;
+    for (std::size_t k = 0; k < tiles_at(size, 0); ++k) {
+      write_samples(*viewed.deep, tile_of(size, 0, k), prefix + "-d", "-0-" + std::to_string(k),
+                    sink);
+    }
   }
   return told;
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/view/page.h"
+#include "fathom/threads/threads.h"
 
 namespace fathom::view {
 
@@ -14,6 +15,12 @@ inline constexpr std::uint32_t tile_size = 512;
 /// levels, camera, and of each channel its name, type, kind, names and which plane shows where it
 /// has values. Level n has every 2ⁿ-th pixel. A tile is the element `PREFIX-PLANE-LEVEL-NUMBER`;
 /// planes are `c0`, `c1`, … of channels and `k0`, … of masks.
-nlohmann::json write_planes(const ViewedMap& viewed, const std::string& prefix, const Sink& sink);
+/// The samples of a deep map are the planes `d0` to `d4`, in the order of pixels within each tile of
+/// level 0: Z, ZBack, area, A and id.
+nlohmann::json write_planes(const ViewedMap& viewed, const std::string& prefix, const Sink& sink,
+                            Progress& progress);
+
+/// How many tiles the channels of a map have, of all levels: so many parts write_planes() reports.
+std::uint64_t tiles_of_channels(const DepthMap& map);
 
 }  // namespace fathom::view

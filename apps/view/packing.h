@@ -30,4 +30,15 @@ std::string packed(std::span<const std::uint32_t> plane, std::uint32_t width,
 std::string packed(std::span<const std::uint64_t> plane, std::uint32_t width,
                    const TilePlace& tile);
 
+/// Words one after another, as a tile of one row.
+inline std::string packed(std::span<const std::uint32_t> words) {
+  const auto count = static_cast<std::uint32_t>(words.size());
+  return packed(words, count, {.columns = count, .rows = 1});
+}
+
+/// A script element of this id that holds such a text.
+inline std::string script_text(const std::string& id, const std::string& text) {
+  return "<script type=\"text/plain\" id=\"" + id + "\">" + text + "</script>\n";
+}
+
 }  // namespace fathom::view

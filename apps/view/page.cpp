@@ -6,6 +6,7 @@
 #include "apps/view/map_data.h"
 #include "apps/view/web.h"
 #include "fathom/image/preview.h"
+#include "fathom/threads/threads.h"
 
 namespace fathom::view {
 namespace {
@@ -46,19 +47,26 @@ void write_module(std::string_view text, const Sink& sink) {
 
 }  // namespace
 
-void write_page(const std::vector<ViewedMap>& maps, const Sink& sink) {
+void write_page(const std::vector<ViewedMap>& maps, Questions questions, const Sink& sink,
+                const std::function<void(double)>& progress) {
   for (const std::string_view part : {web::head, web::style, web::body}) sink(part);
-  Json data{{"maps", Json::array()}, {"tile", tile_size}, {"colours", colour_maps()}};
+  Json data{{"maps", Json::array()},
+            {"tile", tile_size},
+            {"colours", colour_maps()},
+            {"probes", questions == Questions::probes}};
+  std::uint64_t tiles = 0;
+  for (const ViewedMap& viewed : maps) tiles += tiles_of_channels(viewed.map);
+  Progress tiles_done(progress, tiles);
   for (std::size_t k = 0; k < maps.size(); ++k) {
-    data["maps"].push_back(write_planes(maps[k], "m" + std::to_string(k), sink));
+    data["maps"].push_back(write_planes(maps[k], "m" + std::to_string(k), sink, tiles_done));
   }
   sink(app::script_data("view",
                         data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
   sink("<script type=\"module\">\n");
   for (const std::string_view module :
        {web::numbers, web::planes, web::channels, web::colours, web::statistics, web::difference,
-        web::state, web::painting, web::picture, web::reading, web::histogram, web::profile,
-        web::comparison, web::controls, web::start}) {
+        web::state, web::painting, web::picture, web::reading, web::deep, web::histogram,
+        web::profile, web::comparison, web::controls, web::start}) {
     write_module(module, sink);
   }
   sink("</script>\n</body></html>\n");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
+#include "fathom/image/deep_map.h"
 #include "fathom/image/depth_map.h"
 
 namespace fathom::view {
@@ -17,16 +18,27 @@ struct ViewedMap {
   DepthMap map;
   /// With what the map was rendered; nullopt: nothing says where its points are.
   std::optional<Camera> camera;
+  /// The samples of a deep map, of which `map` is flat_map(); nullopt: it is none.
+  std::optional<DeepMap> deep;
 };
+
+/// What can be drawn of a deep map, with its names and texts: `samples`, the number of samples at
+/// each pixel; `Z`, `ZBack` and `id` of the first, the nearest; and `A`, the sum of their areas.
+/// Background as of rendered maps.
+DepthMap flat_map(const DeepMap& deep);
+
+/// Whether a server answers `probe?map=M&x=X&y=Y` beside the page.
+enum class Questions { none, probes };
 
 /// Takes the parts of a page, one after another.
 using Sink = std::function<void(std::string_view part)>;
 
 /// Writes the page of `fathom view`: one HTML file that needs no other and no network. It holds
 /// every channel of every map, bit by bit: in tiles of 512 × 512 pixels (packing.h), of large maps
-/// also every second, every fourth, … pixel.
+/// also every second, every fourth, … pixel. `progress` is called with the share that is done.
 /// Needs    valid maps, at least one.
 /// Fails    std::bad_alloc; as the sink.
-void write_page(const std::vector<ViewedMap>& maps, const Sink& sink);
+void write_page(const std::vector<ViewedMap>& maps, Questions questions, const Sink& sink,
+                const std::function<void(double)>& progress = {});
 
 }  // namespace fathom::view

@@ -11,6 +11,7 @@ import tempfile
 import unittest
 
 import numpy
+import OpenImageIO
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
@@ -53,6 +54,15 @@ READY = "return document.documentElement.dataset.ready"
 def fathom(*arguments):
     subprocess.run([pathlib.Path(PROGRAM).parent / "fathom", "--quiet", *map(str, arguments)], check=True,
                    stdout=subprocess.DEVNULL)
+
+
+def deep_samples(file, x, y):
+    """Z, ZBack, area, A and id of the samples of a pixel, as OpenImageIO reads them."""
+    image = OpenImageIO.ImageInput.open(str(file))
+    names, deep = image.spec().channelnames, image.read_native_deep_image(0, 0)
+    pixel = y * image.spec().width + x
+    return [[numpy.float32(deep.deep_value(pixel, names.index(name), k)) for name in ("Z", "ZBack", "area", "A")] +
+            [deep.deep_value_uint(pixel, names.index("id"), k)] for k in range(deep.samples(pixel))]
 
 
 class ViewPage(PageCase):
@@ -291,6 +301,50 @@ class ViewPage(PageCase):
         self.assertTrue(self.pair["Z"].min() < low < high)
         self.one("#reset").click()
         self.wait_for(lambda: not self.one("#low").get_attribute("value"), "all values")
+
+    def test_the_heading_is_short(self):
+        self.open()
+        self.assertEqual(self.text("#title"), "pair.exr, turned.npz")
+        self.open(page=self.viewed(*["pair.exr"] * 4))
+        self.assertEqual(self.text("#title"), "pair.exr and 3 more maps")
+
+    def test_a_report_shows_its_maps(self):
+        depth = numpy.full((48, 64), numpy.inf, "f4")
+        fathom("camera", "look-at", "--eye", "2,1,3", "--size", "64x48", "-o", self.folder / "camera.json")
+        fathom("render", DATA / "meshes/spot.obj", "--camera", self.folder / "camera.json", "--channels", "Z,id",
+               "-o", self.folder / "exact.npz")
+        exact = numpy.load(self.folder / "exact.npz")
+        depth[:, :-1] = exact["Z"][:, 1:]
+        numpy.save(self.folder / "shifted.npy", depth)
+        validate = pathlib.Path(PROGRAM).parent / "fathom-validate"
+        subprocess.run([validate, DATA / "meshes/spot.obj", "--camera", self.folder / "camera.json", "--map",
+                        self.folder / "shifted.npy", "--model", "float32-ray", "-o", self.folder / "report"],
+                       check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        page = self.folder / "report-maps.html"
+        subprocess.run([PROGRAM, self.folder / "report/report.html", "-o", page], check=True)
+        self.open(page=page.as_uri())
+        self.expect_bits(0, "Z", exact["Z"])
+        self.expect_bits(0, "id", exact["id"])
+        self.expect_bits(1, "Z", depth)
+        x, y = (int(k[0]) for k in numpy.nonzero(numpy.isfinite(depth))[::-1])
+        self.open(f"#map=1&channel=class&pixel={x},{y}", page=page.as_uri())
+        self.assertRegex(self.reading()["class"], "^[0-7]  [a-z -]+$")
+
+    def test_a_deep_map_lists_its_samples(self):
+        fathom("render", DATA / "scenes/pair.json", "--size", "160x120", "--deep", "-o", self.folder / "deep.exr")
+        self.open(page=self.viewed("deep.exr"))
+        samples, seen = self.values(0, "samples", "f4")
+        nearest, _ = self.values(0, "Z", "f4")
+        numpy.testing.assert_array_equal(samples > 0, numpy.isfinite(nearest))
+        rows, columns = numpy.nonzero(samples == samples.max())
+        x, y = int(columns[0]), int(rows[0])
+        self.open(f"#pixel={x},{y}", page=(self.folder / "deep.html").as_uri())
+        self.wait_for(lambda: self.table("#samples"), "the samples")
+        head, *lines = self.table("#samples")
+        self.assertEqual(head, ["Z", "ZBack", "area", "A", "id"])
+        read = deep_samples(self.folder / "deep.exr", x, y)
+        self.assertEqual(len(lines), samples.max())
+        self.assertEqual([[numpy.float32(cell) for cell in line[:4]] + [int(line[4])] for line in lines], read)
 
     def test_a_full_hd_map_is_small_and_needs_no_other_file(self):
         fathom("render", DATA / "meshes/spot.obj", "--size", "1920x1080", "--channels", "Z,A", "-o", self.folder / "hd.exr")

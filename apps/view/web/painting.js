@@ -4,7 +4,7 @@ import { isLight, css } from "./colours.js";
 import { textWithin } from "./numbers.js";
 
 const numbersFrom = 34, gridFrom = 20; // CSS pixels per pixel of the map
-const mostCanvases = 400;
+const mostCanvases = 256;
 
 /// A tile as a picture of its own, remembered by the shading that coloured it.
 function canvasOf(shading, level, number, tile) {

@@ -2,6 +2,7 @@
 import { maps } from "./channels.js";
 import { Flicker, shownBy } from "./comparison.js";
 import { fillControls, fillRange, listen, mended, shortNames } from "./controls.js";
+import { Probe, showSamples } from "./deep.js";
 import { Histogram } from "./histogram.js";
 import { Picture } from "./picture.js";
 import { Profile } from "./profile.js";
@@ -17,6 +18,7 @@ const picture = new Picture(byId("picture"), {
     hovered = null;
     picture.draw();
     remember();
+    probe.show(maps[state.map], pixel);
     read().then((text) => { if (by === "key" && text) byId("said").textContent = text; });
   },
   line(line, isDone) {
@@ -30,6 +32,7 @@ const picture = new Picture(byId("picture"), {
   },
   split(share) { change({ split: share }); },
   moved() { lookedAt(); } });
+const probe = new Probe();
 const profile = new Profile(byId("profile"));
 const histogram = new Histogram(byId("histogram"), (low, high) => change({ low, high }));
 const flicker = new Flicker((showsOther) => {
@@ -37,7 +40,12 @@ const flicker = new Flicker((showsOther) => {
   showLayers(showsOther);
 });
 
-const read = () => shown ? showReading(maps[state.map], hovered ?? state.pixel, shown.sources) : Promise.resolve("");
+function read() {
+  if (!shown) return Promise.resolve("");
+  const map = maps[state.map], pixel = hovered ?? state.pixel;
+  showSamples(map, pixel);
+  return showReading(map, pixel, shown.sources);
+}
 
 /// The link to what is seen, a moment after the last change: browsers count how often it changes.
 let linking = null;
@@ -142,11 +150,15 @@ function place() {
   else picture.centre = null;
 }
 
+/// The names of a few maps; a report has dozens.
+const heading = (names) => names.length > 3 ? `${names[0]} and ${names.length - 1} more maps` : names.join(", ");
+
 const [{ width, height }] = maps;
-document.title = `${shortNames().join(", ")} – Fathom`;
-byId("title").textContent = shortNames().join(", ");
+byId("title").textContent = heading(shortNames());
+document.title = `${byId("title").textContent} – Fathom`;
 byId("size").textContent = maps.every((map) => map.width === width && map.height === height) ? `${width} × ${height}` : "";
 globalThis.fathom = { maps, state: () => state }; // for the console and for tests
 listen(change);
 place();
 showAll();
+probe.show(maps[state.map], state.pixel);

@@ -1,0 +1,215 @@
+#include "apps/surfaces/probe_answer.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/shell/standard_streams.h"
+#include "fathom/numeric/rounding.h"
+#include "fathom/rendering/deciders.h"
+#include "fathom/rendering/segment_channels.h"
+#include "fathom/scene/scene_segments.h"
+#include "fathom/text/printable.h"
+
+namespace fathom::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The file that a triangle comes from.
+std::string file_of(const Scene& scene, const CoveringTriangle& triangle) {
+  return scene.sources[scene.objects[triangle.origin.object].source].path;
+}
+
+/// Why a triangle that covers the sample does not count (specification, section 5).
+std::string why_not_counted(const Probe& probe, const CoveringTriangle& triangle) {
+  if (triangle.depth.sign() != Sign::positive) return "behind the camera or in its plane (D <= 0)";
+  if (triangle.depth < Ratio(Dyadic(probe.camera.near))) return "nearer than near";
+  if (std::isfinite(probe.camera.far) && Ratio(Dyadic(probe.camera.far)) < triangle.depth) {
+    return "beyond far";
+  }
+  return triangle.front_facing ? "culled: it is front-facing" : "culled: it is back-facing";
+}
+
+/// The rule that decided about triangle `i` of the list.
+std::string rule(const Probe& probe, std::size_t i) {
+  const CoveringTriangle& triangle = probe.triangles[i];
+  if (!triangle.counts) return "does not count: " + why_not_counted(probe, triangle);
+  if (i > 0) {
+    const CoveringTriangle& visible = probe.triangles[0];
+    return visible.depth == triangle.depth
+               ? fmt::format("hidden: exactly as deep as triangle {}, whose number is lower",
+                             visible.number)
+               : fmt::format("hidden: deeper than triangle {}", visible.number);
+  }
+  if (probe.triangles.size() == 1 || !probe.triangles[1].counts) {
+    return "visible: no other triangle counts here";
+  }
+  return probe.triangles[1].depth == triangle.depth
+             ? "visible: the lowest number among equal depths"
+             : "visible: the least depth";
+}
+
+char sign_letter(Sign sign) {
+  return sign == Sign::zero ? '0' : sign == Sign::positive ? '+' : '-';
+}
+
+std::string edge_text(const CoveringTriangle& triangle) {
+  std::string text;
+  for (int i = 0; i < 3; ++i) {
+    text +=
+        fmt::format("{}e_{} {}", i == 0 ? "" : ", ", "ABC"[i], sign_letter(triangle.edge_signs[i]));
+    if (triangle.edge_signs[i] == Sign::zero) {
+      text += triangle.left_or_top[i] ? " (on a left or top edge: covered)"
+                                      : " (on an edge that is neither left nor top)";
+    }
+  }
+  return text;
+}
+
+/// Which arithmetic settles the signs: "Δ by CGAL::determinant over CGAL::Interval_nt; e_A, e_B,
+/// e_C by …".
+std::string deciders_text(const CoveringTriangle& triangle) {
+  std::string text = fmt::format("Δ by {}", triangle.facing_decided_by());
+  for (const std::string_view decider : {cgal_form, dyadic_numbers}) {
+    std::string edges;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (triangle.edge_decided_by(i) != decider) continue;
+      edges += fmt::format("{}e_{}", edges.empty() ? "" : ", ", "ABC"[i]);
+    }
+    if (!edges.empty()) text += fmt::format("; {} by {}", edges, decider);
+  }
+  return text;
+}
+
+Json deciders_json(const CoveringTriangle& triangle) {
+  Json json{{"facing", triangle.facing_decided_by()}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    json[fmt::format("e_{}", "ABC"[i])] = triangle.edge_decided_by(i);
+  }
+  json["depth"] = dyadic_numbers;
+  return json;
+}
+
+std::array<MeshPoint, 3> corners_of(const Scene& scene, const CoveringTriangle& triangle) {
+  const Mesh& mesh = scene.meshes[scene.objects[triangle.origin.object].mesh];
+  const CornerIndices& corners = mesh.triangles[triangle.origin.triangle];
+  return {mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]};
+}
+
+/// The segments of a scene, and the words for them.
+class NamedSegments {
+ public:
+  explicit NamedSegments(const Scene& scene)
+      : segments_(scene, {all_segmentations.begin(), all_segmentations.end()}) {}
+
+  static std::string_view kind(Segmentation by) { return description_of(channel_of(by)).name; }
+  /// Its name or, of a label, its number; null where the triangle has none.
+  [[nodiscard]] Json value(Segmentation by, const TriangleOrigin& origin) const {
+    const std::uint32_t number = segments_.number(by, origin);
+    if (number == unsegmented) return nullptr;
+    return by == Segmentation::label ? Json(number) : Json(segments_.names(by)[number]);
+  }
+  /// "steel", or "7" of a label.
+  [[nodiscard]] std::string text(Segmentation by, const TriangleOrigin& origin) const {
+    const std::uint32_t number = segments_.number(by, origin);
+    if (by == Segmentation::label) return std::to_string(number);
+    return text::printable(segments_.names(by)[number]);
+  }
+
+ private:
+  SceneSegments segments_;
+};
+
+Json to_json(const Probe& probe, const NamedSegments& segments, std::size_t i) {
+  const CoveringTriangle& triangle = probe.triangles[i];
+  Json corners = Json::array();
+  for (const MeshPoint& p : corners_of(probe.scene, triangle)) corners.push_back({p.x, p.y, p.z});
+  Json edges = Json::object();
+  for (int edge = 0; edge < 3; ++edge) {
+    edges[fmt::format("e_{}", "ABC"[edge])] = {
+        {"sign", static_cast<int>(triangle.edge_signs[edge])},
+        {"left_or_top", triangle.left_or_top[edge]}};
+  }
+  const float stored = round_to_binary32(triangle.depth);
+  Json answer{{"number", triangle.number},
+              {"file", file_of(probe.scene, triangle)},
+              {"object", triangle.origin.object},
+              {"object_name", probe.scene.objects[triangle.origin.object].name},
+              {"face", triangle.origin.face}};
+  for (const Segmentation by : all_segmentations)
+    answer[std::string(NamedSegments::kind(by))] = segments.value(by, triangle.origin);
+  answer.update(Json{{"corners", corners},
+                     {"front_facing", triangle.front_facing},
+                     {"edges", edges},
+                     {"decided_by", deciders_json(triangle)},
+                     {"depth",
+                      {{"exact", to_fraction(triangle.depth)},
+                       {"decimal", to_decimal(triangle.depth, 40)},
+                       {"binary32", stored},
+                       {"binary32_hex", fmt::format("{:a}", stored)}}},
+                     {"counts", triangle.counts},
+                     {"visible", i == 0 && triangle.counts},
+                     {"rule", rule(probe, i)}});
+  return answer;
+}
+
+/// A line for what the triangle is called, if anything.
+std::string segments_text(const NamedSegments& segments, const TriangleOrigin& origin) {
+  std::string text;
+  for (const Segmentation by : all_segmentations) {
+    if (segments.value(by, origin).is_null()) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "  " : ", ", NamedSegments::kind(by),
+                        segments.text(by, origin));
+  }
+  return text.empty() ? text : text + "\n";
+}
+
+}  // namespace
+
+std::string as_text(const Probe& probe) {
+  std::string text = fmt::format(
+      "pixel ({}, {}) of {}x{}: the sample is ({}.5, {}.5)\n{} covers it{}\n", probe.x, probe.y,
+      probe.camera.width, probe.camera.height, probe.x, probe.y,
+      probe.triangles.empty()       ? "no triangle"
+      : probe.triangles.size() == 1 ? "one triangle"
+                                    : fmt::format("each of {} triangles", probe.triangles.size()),
+      probe.triangles.size() > 1 ? ", nearest first" : "");
+  const NamedSegments segments(probe.scene);
+  for (std::size_t i = 0; i < probe.triangles.size(); ++i) {
+    const CoveringTriangle& triangle = probe.triangles[i];
+    text += fmt::format("\ntriangle {}: face {} of {}, {}-facing\n", triangle.number,
+                        triangle.origin.face, text::printable(file_of(probe.scene, triangle)),
+                        triangle.front_facing ? "front" : "back");
+    text += segments_text(segments, triangle.origin);
+    const auto corners = corners_of(probe.scene, triangle);
+    for (int corner = 0; corner < 3; ++corner) {
+      text += fmt::format("  {}       ({}, {}, {})\n", "ABC"[corner], corners[corner].x,
+                          corners[corner].y, corners[corner].z);
+    }
+    const float stored = round_to_binary32(triangle.depth);
+    text += fmt::format("  edges   {}\n", edge_text(triangle));
+    text += fmt::format("  decided {}\n", deciders_text(triangle));
+    text += fmt::format("  depth   {}\n", to_decimal(triangle.depth, 40));
+    text += fmt::format("  exactly {}\n", to_fraction(triangle.depth));
+    text += fmt::format("  stored  {} = {:a} (binary32, rounded once)\n", stored, stored);
+    text += fmt::format("  {}\n", rule(probe, i));
+  }
+  return text;
+}
+
+std::string as_json(const Probe& probe) {
+  Json triangles = Json::array();
+  const NamedSegments segments(probe.scene);
+  for (std::size_t i = 0; i < probe.triangles.size(); ++i)
+    triangles.push_back(to_json(probe, segments, i));
+  const Json answer{{"pixel", {probe.x, probe.y}},
+                    {"sample", {probe.x + 0.5, probe.y + 0.5}},
+                    {"width", probe.camera.width},
+                    {"height", probe.camera.height},
+                    {"triangles", triangles}};
+  return json_answer(answer);
+}
+
+}  // namespace fathom::app

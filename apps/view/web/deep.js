@@ -1,0 +1,62 @@
+/// The samples of a deep map.
+import { channelOf, page } from "./channels.js";
+import { textOf } from "./numbers.js";
+import { remembered, unpacked } from "./planes.js";
+import { byId, element } from "./reading.js";
+
+const parts = [["Z", "f32"], ["ZBack", "f32"], ["area", "f32"], ["A", "f32"], ["id", "u32"]];
+
+/// All samples of a tile, and where those of each pixel begin.
+async function samplesOf(map, number) {
+  const { values: counts } = await channelOf(map, "samples").tile(0, number), begins = new Uint32Array(counts.length + 1);
+  for (let k = 0; k < counts.length; ++k) begins[k + 1] = begins[k] + counts[k];
+  const all = await Promise.all(parts.map(([, type], k) => unpacked(`m${map.number}-d${k}-0-${number}`, type, begins.at(-1))));
+  return { begins, all, bytes: 20 * begins.at(-1) + 4 * begins.length };
+}
+
+/// The samples of a pixel, the nearest first: { Z, ZBack, area, A, id }.
+export async function samplesAt(map, [x, y]) {
+  const { number, place } = channelOf(map, "samples").placeOf(x, y);
+  const { begins, all } = await remembered(`m${map.number}-deep-${number}`, () => samplesOf(map, number));
+  return Array.from({ length: begins[place + 1] - begins[place] }, (_, k) =>
+    Object.fromEntries(parts.map(([name], part) => [name, all[part][begins[place] + k]])));
+}
+
+let listing = 0;
+
+/// Lists the samples of a pixel, where the map is deep.
+export async function showSamples(map, pixel) {
+  const mine = ++listing, section = byId("deep-section");
+  section.hidden = !map.deep || !pixel;
+  if (section.hidden) return;
+  const samples = await samplesAt(map, pixel), table = byId("samples");
+  if (mine !== listing) return;
+  const head = element("tr");
+  head.append(...parts.map(([name]) => element("th", name, { scope: "col" })));
+  table.replaceChildren(...samples.length ? [head] : [], ...samples.map((sample) => {
+    const row = element("tr");
+    row.append(...parts.map(([name, type]) => element("td", textOf(sample[name], type === "f32"))));
+    return row;
+  }));
+  byId("deep-said").textContent = samples.length ? "nearest first" : "no sample";
+}
+
+/// The answer of `fathom probe` to a pixel, from the server of this page.
+export class Probe {
+  constructor() { this.turn = 0; }
+  async show(map, pixel) {
+    const mine = ++this.turn, answer = byId("probe");
+    byId("probe-section").hidden = !page.probes;
+    if (!page.probes) return;
+    answer.textContent = pixel ? "probing …" : "Click on a pixel to ask why it has its value.";
+    if (!pixel) return;
+    let text = "";
+    try {
+      const reply = await fetch(`probe?map=${map.number}&x=${pixel[0]}&y=${pixel[1]}`);
+      text = reply.ok ? await reply.text() : "The server does not know this pixel.";
+    } catch {
+      text = "The server has ended: start 'fathom view … --serve' again.";
+    }
+    if (mine === this.turn) answer.textContent = text;
+  }
+}
