@@ -1,10 +1,14 @@
 #include "apps/view/page.h"
 
+#include <fmt/core.h>
+
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/page_data.h"
 #include "apps/view/map_data.h"
 #include "apps/view/web.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/preview.h"
 #include "fathom/threads/threads.h"
 
@@ -45,10 +49,25 @@ void write_module(std::string_view text, const Sink& sink) {
   }
 }
 
+/// The sink, up to so many bytes.
+Sink limited(const Sink& sink, std::uint64_t most_bytes) {
+  return [&sink, most_bytes, bytes = std::uint64_t{0}](std::string_view part) mutable {
+    bytes += part.size();
+    if (bytes > most_bytes) {
+      throw OutputError(fmt::format(
+          "the maps need a page of more than {:.1f} GiB, too large for a browser: show fewer maps, "
+          "or one channel of a map ('fathom convert --channel')",
+          std::ldexp(static_cast<double>(most_bytes), -30)));
+    }
+    sink(part);
+  };
+}
+
 }  // namespace
 
-void write_page(const std::vector<ViewedMap>& maps, Questions questions, const Sink& sink,
-                const std::function<void(double)>& progress) {
+void write_page(const std::vector<ViewedMap>& maps, Questions questions, const Sink& whole_sink,
+                const std::function<void(double)>& progress, std::uint64_t most_bytes) {
+  const Sink sink = limited(whole_sink, most_bytes);
   for (const std::string_view part : {web::head, web::style, web::body}) sink(part);
   Json data{{"maps", Json::array()},
             {"tile", tile_size},

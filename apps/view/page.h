@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -33,12 +34,17 @@ enum class Questions { none, probes };
 /// Takes the parts of a page, one after another.
 using Sink = std::function<void(std::string_view part)>;
 
+/// Chromium opens 1.4 GB in half a minute.
+inline constexpr std::uint64_t most_page_bytes = std::uint64_t{2} << 30;
+
 /// Writes the page of `fathom view`: one HTML file that needs no other and no network. It holds
 /// every channel of every map, bit by bit: in tiles of 512 × 512 pixels (packing.h), of large maps
 /// also every second, every fourth, … pixel. `progress` is called with the share that is done.
 /// Needs    valid maps, at least one.
-/// Fails    std::bad_alloc; as the sink.
+/// Fails    OutputError where the page would be larger than `most_bytes`; std::bad_alloc; as the
+///          sink.
 void write_page(const std::vector<ViewedMap>& maps, Questions questions, const Sink& sink,
-                const std::function<void(double)>& progress = {});
+                const std::function<void(double)>& progress = {},
+                std::uint64_t most_bytes = most_page_bytes);
 
 }  // namespace fathom::view

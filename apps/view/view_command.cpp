@@ -98,7 +98,9 @@ int write_and_open(const ViewArguments& arguments, const std::vector<ViewedMap>&
   const std::filesystem::path page =
       is_temporary ? new_page_path() : std::filesystem::path(arguments.output);
   OutputFile output(page);
-  output.write([&](const auto& path) { write_page_to(path, maps, console); });
+  output.write([&](const auto& path) {
+    with_threads(arguments.reading.threads, [&] { write_page_to(path, maps, console); });
+  });
   output.commit();
   if (is_temporary) print(page.string() + "\n");
   if (is_temporary || arguments.open) open_in_browser(std::filesystem::absolute(page).string());
@@ -111,7 +113,9 @@ int serve(const ViewArguments& arguments, std::vector<ViewedMap> maps, const Con
   options.files = {arguments.scene};
   const Scene scene = options.read(console, {.segments = true});
   std::string page;
-  view::write_page(maps, view::Questions::probes, [&](std::string_view part) { page += part; });
+  with_threads(options.threads, [&] {
+    view::write_page(maps, view::Questions::probes, [&](std::string_view part) { page += part; });
+  });
   std::vector<Camera> cameras;
   for (const ViewedMap& viewed : maps) cameras.push_back(*viewed.camera);
   maps.clear();

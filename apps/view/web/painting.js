@@ -5,11 +5,14 @@ import { textWithin } from "./numbers.js";
 
 const numbersFrom = 34, gridFrom = 20; // CSS pixels per pixel of the map
 const mostCanvases = 256;
+const paintTime = 6; // milliseconds of a frame for colouring tiles: the rest of them takes the next frames
+const mostLoads = 3; // tiles that are unpacked at once: those that leave the sight meanwhile are not asked for
 
-/// A tile as a picture of its own, remembered by the shading that coloured it.
-function canvasOf(shading, level, number, tile) {
+/// A tile as a picture of its own, remembered by the shading that coloured it; null where it is to be coloured and time is up.
+function canvasOf(shading, level, number, tile, isTimeUp) {
   const key = `${level}-${number}`, canvases = shading.canvases ??= new Map();
   if (!canvases.has(key)) {
+    if (isTimeUp()) return null;
     const canvas = new OffscreenCanvas(tile.columns, tile.rows), colours = shading.paint(tile);
     const bytes = new Uint8ClampedArray(colours.buffer);
     canvas.getContext("2d").putImageData(new ImageData(bytes, tile.columns, tile.rows), 0, 0);
@@ -32,19 +35,25 @@ function forTiles(view, source, level, visit) {
 /// The level whose pixels are nearest to those of the screen, and not larger.
 const levelFor = (view, source) => Math.min(source.levels - 1, Math.max(0, Math.floor(-Math.log2(view.zoom * view.ratio))));
 
-/// Draws the tiles that are there, and calls `missing(promise)` for those that are not. Until these come, tiles of the
+/// Draws the tiles that are there, and calls `missing(promise)` for some that are not. Until these come, tiles of the
 /// coarsest level stand in for them.
 export function paintTiles(context, view, { source, shading }, missing) {
-  const level = levelFor(view, source);
+  const level = levelFor(view, source), end = performance.now() + paintTime, isTimeUp = () => performance.now() > end;
+  let loads = 0;
   context.imageSmoothingEnabled = view.zoom * view.ratio < 1;
   for (const each of level === source.levels - 1 ? [level] : [source.levels - 1, level]) {
     forTiles(view, source, each, (number, left, top) => {
       const tile = source.readyTile(each, number);
-      if (!tile) { missing(source.tile(each, number)); return; }
+      if (!tile) {
+        if (++loads <= mostLoads) missing(source.tile(each, number));
+        return;
+      }
+      const canvas = canvasOf(shading, each, number, tile, isTimeUp);
+      if (!canvas) { missing(Promise.resolve()); return; }
       const x = view.toX(left), y = view.toY(top);
       const right = view.toX(Math.min(source.width, left + tile.columns * 2 ** each));
       const bottom = view.toY(Math.min(source.height, top + tile.rows * 2 ** each));
-      context.drawImage(canvasOf(shading, each, number, tile), x, y, right - x, bottom - y);
+      context.drawImage(canvas, x, y, right - x, bottom - y);
     });
   }
 }
