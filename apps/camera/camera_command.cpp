@@ -43,6 +43,7 @@ void add_look_at(Command& camera) {
                  "Point that the camera looks at, X,Y,Z (default 0,0,0)");
   add_up_option(command, arguments->up);
   add_lens_options(command, arguments->lens);
+  add_range_options(command, arguments->lens);
   add_output_option(command, "FILE", arguments->output,
                     "Write the camera file here (default: standard output)");
   command.runs([arguments](const Console&) { return run_look_at(*arguments); });
@@ -97,6 +98,7 @@ void add_orbit(Command& camera) {
   command.option("--distance", "D", into(arguments->distance, parse_number),
                  "Distance of the eye from the centre");
   add_lens_options(command, arguments->lens);
+  add_range_options(command, arguments->lens);
   add_output_option(command, "FILE", arguments->output,
                     "Write the camera file here (default: standard output)");
   command.runs([arguments](const Console& console) { return run_orbit(*arguments, console); });

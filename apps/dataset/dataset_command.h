@@ -12,6 +12,7 @@ namespace fathom::app {
 /// for the maps, those count that the layout declares.
 struct DatasetArguments {
   RenderArguments render;
+  CameraChanges camera_changes;
   std::string input, folder;
   Shard shard;
   bool overwrites = false;

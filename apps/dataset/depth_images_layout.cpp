@@ -157,7 +157,7 @@ int run_depth_images(const DepthImages& layout, const ImportSource& source,
                      DepthImagesArguments& arguments, const Console& console) {
   arguments.cameras.input = arguments.input;
   Views views;
-  views.cameras = read_cameras(source, arguments, console);
+  views.cameras = arguments.camera_changes.applied(read_cameras(source, arguments, console));
   views.noun = "depth image";
   views.inputs = fmt::format("none {}\n", layout.none);
   const std::vector<std::string> names =
@@ -182,6 +182,8 @@ void add_depth_images(Command& family, const DepthImages& layout, const ImportSo
   arguments->add_to(command, source.input);
   arguments->add_scene_to(command);
   source.declare(command, arguments->cameras);
+  // The list of NeRF has the intrinsics of its input.
+  if (layout.make_list != nerf_list) arguments->camera_changes.add_to(command);
   arguments->render.storage.add_beyond_to(command);
   add_distortion_option(command, arguments->cameras.choice);
   command.runs([arguments, &layout, source](const Console& console) {

@@ -33,7 +33,7 @@ files::Bytes encoded_sidecar(const DepthMap& map, const MapPlan&, const std::str
 
 int run_maps(MapsArguments& arguments, const Console& console) {
   Views views;
-  views.cameras = read_camera_file(arguments.input, console);
+  views.cameras = arguments.camera_changes.applied(read_camera_file(arguments.input, console));
   views.noun = "map";
   arguments.render.output =
       arguments.pattern.empty() ? default_pattern(views.cameras) : arguments.pattern;
@@ -67,6 +67,7 @@ void add_maps_layout(Command& family) {
       "    --png-scale 1000 -o room");
   arguments->add_to(command, "Camera file (JSON), e.g. from 'fathom camera import'");
   arguments->add_scene_to(command);
+  arguments->camera_changes.add_to(command);
   command.option("--name", "PATTERN", arguments->pattern,
                  "Pattern of the file names below DIR; the suffix selects the format. {index:04} "
                  "is the camera's number, {name} its name, {stem} its name without folders and "

@@ -5,10 +5,12 @@
 #include <algorithm>
 
 #include "apps/options/map_arguments.h"
+#include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/values.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_import.h"
+#include "fathom/camera/image_points.h"
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
 #include "fathom/image/map_files.h"
@@ -98,11 +100,43 @@ std::vector<Option> add_lens_options(Command& command, LensChoice& lens) {
       "Parallel projection; height of the image in scene units");
   angle.excludes(length).excludes(parallel);
   length.excludes(parallel);
-  const Option near = command.option("--near", "D", into(lens.near, parse_number),
-                                     "Nearest depth that is rendered (default 0)");
-  const Option far = command.option("--far", "D", into(lens.far, parse_number_or_infinity),
-                                    "Farthest depth that is rendered (default inf)");
-  return {size, angle, length, parallel, near, far};
+  return {size, angle, length, parallel};
+}
+
+void add_range_options(Command& command, LensChoice& lens) {
+  command.option("--near", "D", into(lens.near, parse_number),
+                 "Nearest depth that is rendered (default 0)");
+  command.option("--far", "D", into(lens.far, parse_number_or_infinity),
+                 "Farthest depth that is rendered (default inf)");
+}
+
+void CameraChanges::add_to(Command& command) {
+  command.option("--near", "D", into(near_, parse_number),
+                 "Nearest depth that is rendered (default: as in the camera file, or 0)");
+  command.option("--far", "D", into(far_, parse_number_or_infinity),
+                 "Farthest depth that is rendered (default: as in the camera file, or inf)");
+  command.option("--scale", "FACTOR", into(scale_, parse_scale),
+                 "Scale the image, e.g. 0.5 for half its width and height: the same view, with "
+                 "fx, fy, cx, cy and skew scaled exactly");
+}
+
+std::vector<Camera> CameraChanges::applied(std::vector<Camera> cameras) const {
+  for (Camera& camera : cameras) {
+    camera.near = near_.value_or(camera.near);
+    camera.far = far_.value_or(camera.far);
+    if (const auto fault = near_ || far_ ? find_fault(camera) : std::nullopt) {
+      throw UsageError(
+          fmt::format("--near and --far: {}: from {} to {}", *fault, camera.near, camera.far));
+    }
+    if (scale_) camera = about_option("--scale", [&] { return scaled(camera, *scale_); });
+  }
+  return cameras;
+}
+
+LensChoice CameraChanges::applied(LensChoice lens) const {
+  lens.near = near_.value_or(lens.near);
+  lens.far = far_.value_or(lens.far);
+  return lens;
 }
 
 void CameraOptions::add_to(Command& command) {
@@ -111,11 +145,12 @@ void CameraOptions::add_to(Command& command) {
                                        "(default: a camera that frames the scene)");
   for (Option& framing : add_view_options(command, view_)) framing.excludes(camera);
   for (Option& part : add_lens_options(command, lens_)) part.excludes(camera);
+  changes_.add_to(command);
 }
 
 std::vector<Camera> CameraOptions::get(const Scene& scene, const Console& console) const {
-  if (from_file()) return read_camera_file(file_, console);
-  return {framing_camera(scene, view_, lens_)};
+  if (from_file()) return changes_.applied(read_camera_file(file_, console));
+  return changes_.applied({framing_camera(scene, view_, changes_.applied(lens_))});
 }
 
 Camera CameraOptions::get_one(const Scene& scene, const char* command,

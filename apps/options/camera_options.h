@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,28 @@ std::array<Option, 2> add_view_options(Command& command, View& view);
 /// `--up`: a word for an axis of the world, or a vector.
 Option add_up_option(Command& command, Vector3& up);
 
-/// `--size --fov --focal --orthographic --near --far`: the lens of a camera that is made;
-/// `--fov` is the vertical angle.
+/// `--size --fov --focal --orthographic`: the lens of a camera that is made; `--fov` is the
+/// vertical angle.
 std::vector<Option> add_lens_options(Command& command, LensChoice& lens);
 
+/// `--near --far`: the depth range of a camera that is made.
+void add_range_options(Command& command, LensChoice& lens);
+
+/// `--near --far --scale`: changes of cameras from a file.
+class CameraChanges {
+ public:
+  void add_to(Command& command);
+  /// Fails    UsageError where a camera would have no depth range; as scaled().
+  [[nodiscard]] std::vector<Camera> applied(std::vector<Camera> cameras) const;
+  /// The lens of a camera that is made, with this depth range.
+  [[nodiscard]] LensChoice applied(LensChoice lens) const;
+
+ private:
+  std::optional<double> near_, far_, scale_;
+};
+
 /// `--camera FILE`, or the camera that frames the scene with
-/// `--view --up --size --fov --focal --orthographic --near --far`.
+/// `--view --up --size --fov --focal --orthographic`; both with `--near --far --scale`.
 class CameraOptions {
  public:
   void add_to(Command& command);
@@ -40,6 +57,7 @@ class CameraOptions {
   std::string file_;
   View view_;
   LensChoice lens_;
+  CameraChanges changes_;
 };
 
 /// The cameras of a camera file, or the camera that a map carries, each without fault; warnings go

@@ -110,6 +110,38 @@ TEST_F(CameraCommands, FramingTakesTheWholeLens) {
   EXPECT_EQ(nlohmann::json::parse(folder_.read("long.json"))["fx"], 77);
 }
 
+TEST_F(CameraCommands, CamerasOfAFileAreScaledAndGetADepthRange) {
+  folder_.write("square.obj", square_obj);
+  folder_.write("opencv.json", R"([{"width": 641, "height": 480, "fx": 600, "fy": 500, "cx": 319.5,
+    "cy": 239.5, "skew": 3, "pixel_centre": 0, "near": 1, "far": 9,
+    "world_to_camera": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 4]]}])");
+  fathom({"render", "square.obj", "--camera", "opencv.json", "--scale", "0.5", "--far", "inf",
+          "--save-camera", "half.json", "-o", "half.exr"});
+  const auto half = nlohmann::json::parse(folder_.read("half.json"));
+  // 320.5 is a tie: 320 is even.
+  EXPECT_EQ(half["width"], 320);
+  EXPECT_EQ(half["height"], 240);
+  EXPECT_EQ(half["fx"].get<double>(), 600 * 320 / 641.0);
+  EXPECT_EQ(half["skew"].get<double>(), 3 * 320 / 641.0);
+  EXPECT_EQ(half["fy"], 250);
+  EXPECT_NEAR(half["cx"].get<double>(), (319.5 + 0.5) * 320 / 641 - 0.5, 1e-13);
+  EXPECT_EQ(half["cy"], 119.5);
+  EXPECT_EQ(half["near"], 1);
+  EXPECT_FALSE(half.contains("far") && half["far"].is_number());
+  // The map has the changed camera, and a command that takes its camera from the map keeps it.
+  fathom({"render", "square.obj", "--camera", "half.exr", "--near", "2", "--save-camera",
+          "again.json", "-o", "again.exr"});
+  auto again = nlohmann::json::parse(folder_.read("again.json"));
+  EXPECT_EQ(again["near"], 2);
+  again["near"] = 1;
+  EXPECT_EQ(again, half);
+  const Outcome empty = run_fathom(
+      {"render", "square.obj", "--camera", "opencv.json", "--near", "9", "-o", "map.exr"},
+      {.folder = folder_.path()});
+  EXPECT_EQ(empty.status, 2);
+  EXPECT_THAT(empty.err, HasSubstr("--near and --far: far is not greater than near: from 9 to 9"));
+}
+
 TEST_F(CameraCommands, LookAtWithParallelProjectionGoesToStandardOutput) {
   const Outcome outcome = run_fathom(
       {"camera", "look-at", "--eye", "0,0,5", "--orthographic", "2", "--size", "300x200"});

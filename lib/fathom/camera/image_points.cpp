@@ -1,10 +1,12 @@
 #include "fathom/camera/image_points.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include "fathom/camera/rounded_poses.h"
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/double_word.h"
@@ -133,6 +135,22 @@ Camera resized(const Camera& camera, std::uint32_t width, std::uint32_t height) 
   to.cy = position(from.cy, height, camera.height);
   require_valid(result);
   return result;
+}
+
+Camera scaled(const Camera& camera, double factor) {
+  const StandardArithmetic standard;
+  if (!(factor > 0) || !std::isfinite(factor)) {
+    throw UsageError(Setting{"factor"}, "expected a positive number");
+  }
+  const auto length = [&](std::uint32_t pixels) {
+    const double whole = std::max(1.0, std::nearbyint(factor * pixels));
+    if (whole > std::numeric_limits<std::uint32_t>::max()) {
+      throw UsageError(Setting{"factor"},
+                       "the image would have more than 4294967295 pixels a side");
+    }
+    return static_cast<std::uint32_t>(whole);
+  };
+  return resized(camera, length(camera.width), length(camera.height));
 }
 
 }  // namespace fathom

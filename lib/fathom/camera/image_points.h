@@ -68,4 +68,10 @@ class ImageRays {
 /// Fails    InputError for a size of 0.
 Camera resized(const Camera& camera, std::uint32_t width, std::uint32_t height);
 
+/// resized() to factor·width and factor·height, products of binary64, each rounded to a whole
+/// number, ties to even, at least 1.
+/// Fails    UsageError unless the factor is a positive number and the sides have at most 2³² − 1
+///          pixels.
+Camera scaled(const Camera& camera, double factor);
+
 }  // namespace fathom

@@ -164,6 +164,7 @@ void bind_image_points(Module& core) {
     });
   });
   core.def("resized", &resized);
+  core.def("scaled", &scaled);
 }
 
 void bind_importing(Module& core) {

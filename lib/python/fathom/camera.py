@@ -464,7 +464,8 @@ class Camera:
     def scaled(self, factor: float | None = None, *, size: Size | None = None) -> Camera:
         """The camera of the same image at another resolution: it shows the same view up to the edges.
 
-        factor  the new width and height are factor·width and factor·height, rounded to whole pixels
+        factor  the new width and height are factor·width and factor·height, rounded to whole pixels,
+                ties to even, at least 1
         size    instead, the new (width, height)
 
         fx, fy, skew and the principal point are scaled by new / old width and height, about the top
@@ -481,9 +482,7 @@ class Camera:
         number = as_number("factor", factor)
         if not 0 < number < math.inf:
             raise ValueError(f"factor: expected a positive number, found {number!r}")
-        with _core.standard_arithmetic():
-            width, height = (max(1, round(number * length)) for length in self.size)
-        return Camera._of(_core.resized(self._handle, *as_size((width, height))))
+        return Camera._of(_core.scaled(self._handle, number))
 
     def with_size(self, width: int, height: int) -> Camera:
         """The same camera with another image size and the same principal point in pixels."""
