@@ -17,6 +17,11 @@ if TYPE_CHECKING:
     #: height×width×3, sRGB
     Picture = npt.NDArray[np.uint8]
 
+# A wheel brings the font of pictures along.
+_font = os.path.join(os.path.dirname(__file__), "DejaVuSans.ttf")
+if os.path.exists(_font):
+    os.environ.setdefault("FATHOM_FONT", _font)
+
 ColorMap = Literal["viridis", "magma", "turbo", "grey"]
 color_maps = tuple(_core.color_maps)
 

@@ -5,6 +5,7 @@
 #include FT_MODULE_H
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <new>
 
@@ -85,6 +86,12 @@ struct FontMemory {
   }
 };
 
+/// The environment variable FATHOM_FONT replaces the font that was found when Fathom was built.
+std::string font_file() {
+  const char* const replacement = std::getenv("FATHOM_FONT");
+  return replacement == nullptr ? FATHOM_FONT : replacement;
+}
+
 }  // namespace
 
 struct Lettering::Font {
@@ -98,13 +105,14 @@ struct Lettering::Font {
       FT_Add_Default_Modules(library);
       FT_Set_Default_Properties(library);
     }
-    const bool has_face = starts && !is_failure(FT_New_Face(library, FATHOM_FONT, 0, &face));
+    const std::string font = font_file();
+    const bool has_face = starts && !is_failure(FT_New_Face(library, font.c_str(), 0, &face));
     if (has_face && !memory.exhausted) return;
     close();
     if (memory.exhausted) throw std::bad_alloc();
-    throw OutputError(starts ? FATHOM_FONT
-                          ": the font of pictures cannot be read: expected the package "
-                          "fonts-dejavu-core to be installed"
+    throw OutputError(starts ? font +
+                                   ": the font of pictures cannot be read: expected the package "
+                                   "fonts-dejavu-core to be installed"
                              : "FreeType cannot be started");
   }
   Font(const Font&) = delete;
