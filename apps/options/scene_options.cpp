@@ -146,6 +146,7 @@ Scene SceneOptions::read(const Console& console, const Extras& extras) const {
   options.attributes = extras.attributes;
   options.primitives = extras.primitives;
   options.segments = extras.segments;
+  options.clouds = extras.clouds;
   Warnings warnings;
   Scene scene = read_scene({files.begin(), files.end()}, options, warnings);
   console.warn(warnings);

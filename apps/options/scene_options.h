@@ -49,6 +49,7 @@ struct SceneOptions {
     bool attributes = false;  ///< colours, normals and texture coordinates
     bool primitives = false;  ///< lines and points
     bool segments = false;    ///< materials, groups, parts and labels
+    bool clouds = false;      ///< vertices without faces: no warning of them
   };
   /// Reads the scene and passes on the reader's warnings.
   [[nodiscard]] Scene read(const Console& console, const Extras& extras) const;

@@ -60,10 +60,26 @@ std::string shares_text(const std::vector<double>& shares) {
   return text;
 }
 
+/// What a side is if it is a point cloud, and what thinning has left.
+std::string note_on(const char* side, const SurfaceDistances& d, std::optional<double> density) {
+  if (d.cloud_points == 0) return "";
+  std::string text =
+      fmt::format("The {} is a cloud of {}", side, text::counted(d.cloud_points, "point"));
+  if (density) text += fmt::format("; {} left at density {:.6g}", d.points, *density);
+  return text + "\n";
+}
+
+std::string outliers_text(const SurfaceComparison& surfaces, double max_distance) {
+  return fmt::format(
+      "Outliers, {:.6g} or farther away: {} for accuracy, {} for completeness; only the shares "
+      "count them\n",
+      max_distance, surfaces.accuracy.outliers, surfaces.completeness.outliers);
+}
+
 std::string to_text(const char* name, const SurfaceDistances& d) {
   std::string line = fmt::format("{:<13} {:>9} {:>9}", name, d.points, d.seen);
   for (const double figure : {d.mean, d.rms, d.median, d.p90, d.p99, d.max})
-    line += d.seen == 0 ? fmt::format(" {:>11}", "-") : fmt::format(" {:>11.6g}", figure);
+    line += !d.has_figures() ? fmt::format(" {:>11}", "-") : fmt::format(" {:>11.6g}", figure);
   return line + (d.seen == 0 ? "" : shares_text(d.shares)) + "\n";
 }
 
@@ -88,15 +104,21 @@ Json to_json(const DepthAgreement& d) {
             {"views_with_truth", d.views_of_truth}}}};
 }
 
-Json to_json(const SurfaceDistances& d, const std::vector<double>& within) {
-  Json json{{"points", d.points}, {"seen", d.seen}};
+Json to_json(const SurfaceDistances& d, const SurfaceComparisonOptions& options) {
+  const std::vector<double>& within = options.within;
+  Json json;
+  if (d.cloud_points != 0) json["cloud_points"] = d.cloud_points;
+  json.update(Json{{"points", d.points}, {"seen", d.seen}});
+  if (options.max_distance) json["outliers"] = d.outliers;
   if (d.seen == 0) return json;
-  json.update(Json{{"mean", d.mean},
-                   {"rms", d.rms},
-                   {"median", d.median},
-                   {"p90", d.p90},
-                   {"p99", d.p99},
-                   {"max", d.max}});
+  if (d.has_figures()) {
+    json.update(Json{{"mean", d.mean},
+                     {"rms", d.rms},
+                     {"median", d.median},
+                     {"p90", d.p90},
+                     {"p99", d.p99},
+                     {"max", d.max}});
+  }
   Json shares = Json::array();
   for (std::size_t i = 0; i < within.size(); ++i)
     shares.push_back({{"within", within[i]}, {"share", d.shares[i]}});
@@ -104,26 +126,32 @@ Json to_json(const SurfaceDistances& d, const std::vector<double>& within) {
   return json;
 }
 
-/// `within` are the thresholds.
-std::string as_text(const Evaluation& evaluation, const std::vector<double>& within) {
+std::string as_text(const Evaluation& evaluation, const SurfaceComparisonOptions& options) {
   const SurfaceComparison& surfaces = evaluation.surfaces;
   std::string text = evaluation.depth ? to_text(*evaluation.depth) : "";
-  text += heading(within);
+  text += note_on("reconstruction", surfaces.accuracy, options.density);
+  text += note_on("truth", surfaces.completeness, options.truth_density);
+  text += heading(options.within);
   text += to_text("accuracy", surfaces.accuracy);
   text += to_text("completeness", surfaces.completeness);
-  if (!within.empty())
+  if (const auto& mean = surfaces.overall)
+    text += fmt::format("{:<33} {:>11.6g}\n", "overall", *mean);
+  if (!options.within.empty())
     text += fmt::format("{:<105}", "F-score") + shares_text(surfaces.f_scores) + "\n";
+  if (options.max_distance) text += outliers_text(surfaces, *options.max_distance);
   return text;
 }
 
-std::string as_json(const Evaluation& evaluation, const std::vector<double>& within) {
+std::string as_json(const Evaluation& evaluation, const SurfaceComparisonOptions& options) {
   const SurfaceComparison& surfaces = evaluation.surfaces;
   Json scores = Json::array();
-  for (std::size_t i = 0; i < within.size(); ++i)
-    scores.push_back({{"within", within[i]}, {"f_score", surfaces.f_scores[i]}});
+  for (std::size_t i = 0; i < options.within.size(); ++i)
+    scores.push_back({{"within", options.within[i]}, {"f_score", surfaces.f_scores[i]}});
+  const std::optional<double>& overall = surfaces.overall;
   const Json answer{{"depth", evaluation.depth ? to_json(*evaluation.depth) : Json(nullptr)},
-                    {"accuracy", to_json(surfaces.accuracy, within)},
-                    {"completeness", to_json(surfaces.completeness, within)},
+                    {"accuracy", to_json(surfaces.accuracy, options)},
+                    {"completeness", to_json(surfaces.completeness, options)},
+                    {"overall", overall ? Json(*overall) : Json(nullptr)},
                     {"f_scores", scores}};
   return json_answer(answer);
 }
@@ -146,14 +174,14 @@ std::vector<double> parse_thresholds(const std::string& text) {
 Scene read_truth(const EvaluateArguments& arguments, const Console& console) {
   SceneOptions options = arguments.scene;
   options.files = {arguments.truth};
-  return options.read(console);
+  return options.read(console, {.clouds = true});
 }
 
-/// A point cloud that was asked for.
-class Cloud {
+/// The file of the measured points, if one was asked for.
+class PointsFile {
  public:
   /// "" for none.
-  explicit Cloud(const std::string& name) {
+  explicit PointsFile(const std::string& name) {
     if (!name.empty()) file_.emplace(name);
   }
   void write(const SurfaceDistances& distances) {
@@ -168,12 +196,12 @@ class Cloud {
 };
 
 int run_evaluate(const EvaluateArguments& arguments, const Console& console) {
-  const Scene reconstruction = arguments.scene.read(console);
+  const Scene reconstruction = arguments.scene.read(console, {.clouds = true});
   const Scene truth = read_truth(arguments, console);
   std::vector<Camera> cameras;
   if (!arguments.camera.empty()) cameras = read_camera_file(arguments.camera, console);
   TextOutput output(arguments.output);
-  Cloud accuracy(arguments.accuracy_points), completeness(arguments.completeness_points);
+  PointsFile accuracy(arguments.accuracy_points), completeness(arguments.completeness_points);
   SurfaceComparisonOptions options = arguments.comparison;
   options.keep_points =
       !arguments.accuracy_points.empty() || !arguments.completeness_points.empty();
@@ -183,8 +211,7 @@ int run_evaluate(const EvaluateArguments& arguments, const Console& console) {
     Progress progress(console, "evaluating");
     evaluation = evaluate(reconstruction, truth, cameras, options, progress.reporter());
   }
-  output.write(arguments.json ? as_json(evaluation, options.within)
-                              : as_text(evaluation, options.within));
+  output.write(arguments.json ? as_json(evaluation, options) : as_text(evaluation, options));
   accuracy.write(evaluation.surfaces.accuracy);
   completeness.write(evaluation.surfaces.completeness);
   std::vector<OutputFile*> outputs;
@@ -202,11 +229,15 @@ void add_evaluate(Command& program) {
   const auto arguments = std::make_shared<EvaluateArguments>();
   Command& command = program.command(
       "evaluate",
-      "Measure a reconstructed mesh against the true one: Depth L1, accuracy, completeness",
+      "Measure a reconstructed mesh or point cloud against the true one: Depth L1, accuracy, "
+      "completeness",
       "  fathom evaluate mesh.ply --truth room.ply --camera cameras.json --within 0.05\n"
-      "  fathom evaluate mesh.ply --truth scan.ply --within 0.01,0.02,0.05 --json");
+      "  fathom evaluate mesh.ply --truth scan.ply --within 0.01,0.02,0.05 --json\n"
+      "  fathom evaluate fused.ply --truth scan.ply --density 0.2 --max-distance 20");
   arguments->scene.add_to(command);
-  command.option("--truth", "SCENE", arguments->truth, "True mesh, in the same world and unit")
+  command
+      .option("--truth", "SCENE", arguments->truth,
+              "True mesh or point cloud, in the same world and unit")
       .required();
   command.option("--camera", "FILE", arguments->camera,
                  "Camera file with the views; only surfaces that these cameras see are measured "
@@ -214,7 +245,16 @@ void add_evaluate(Command& program) {
   command.option("--within", "D,…", into(arguments->comparison.within, parse_thresholds),
                  "Report the share of points nearer than each of these distances");
   command.option("--points", "N", into(arguments->comparison.points, parse_positive),
-                 "Number of points on each surface (default 200000)");
+                 "Number of points on each surface (default 200000); every point of a point cloud "
+                 "is measured");
+  command.option("--density", "D", into(arguments->comparison.density, parse_scale),
+                 "Thin the point cloud SCENE first: in file order, drop each point that is nearer "
+                 "than D to a point already kept");
+  command.option("--truth-density", "D", into(arguments->comparison.truth_density, parse_scale),
+                 "Thin the point cloud --truth in the same way");
+  command.option("--max-distance", "D", into(arguments->comparison.max_distance, parse_scale),
+                 "Treat points at distance D or more as outliers: leave them out of means and "
+                 "percentiles, and report their number");
   add_cull_option(command, arguments->comparison.cull);
   command.option("--accuracy-points", "PLY", arguments->accuracy_points,
                  "Write the measured points of the reconstruction to this PLY, with their "

@@ -47,9 +47,10 @@ Evaluation evaluate(const Scene& reconstruction, const Scene& truth,
                     const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   require_meaningful(options);
-  const double depths_end = cameras.empty() ? 0 : 0.5;
+  const bool has_depths = !cameras.empty() && !is_cloud(reconstruction) && !is_cloud(truth);
+  const double depths_end = has_depths ? 0.5 : 0;
   Evaluation evaluation;
-  if (!cameras.empty())
+  if (has_depths)
     evaluation.depth =
         compare_depths(reconstruction, truth, cameras, options, progress, depths_end);
   evaluation.surfaces =

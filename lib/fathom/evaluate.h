@@ -12,13 +12,13 @@ namespace fathom {
 
 /// How a reconstruction compares with the truth.
 struct Evaluation {
-  /// Of the exact depth maps of all cameras; nothing without cameras.
+  /// Of the exact depth maps of all cameras; nothing without cameras, and of point clouds.
   std::optional<DepthAgreement> depth;
   SurfaceComparison surfaces;
 };
 
 /// Renders both scenes as each camera sees them and compares the depths, and compares the surfaces
-/// (compare_surfaces). Culling and threads count for both.
+/// or point clouds (compare_surfaces). Culling and threads count for both.
 /// Fails    as render() and compare_surfaces()
 Evaluation evaluate(const Scene& reconstruction, const Scene& truth,
                     const std::vector<Camera>& cameras,

@@ -121,6 +121,85 @@ for name, z in (("a.ply", 2.25), ("c.ply", 2)):
   EXPECT_EQ(read.status, 0) << read.err;
 }
 
+/// An ASCII PLY of points with colours, as COLMAP's fused.ply has them. Its header claims `count`.
+std::string fused(const std::vector<std::string>& points, std::size_t count) {
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
+      "\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\n"
+      "property float ny\nproperty float nz\nproperty uchar red\nproperty uchar green\n"
+      "property uchar blue\nend_header\n";
+  for (const std::string& point : points) text += point + " 0 0 1 200 100 50\n";
+  return text;
+}
+
+class EvaluateCloud : public Evaluate {
+ protected:
+  void write_cloud(const std::vector<std::string>& points) const {
+    folder_.write("fused.ply", fused(points, points.size()));
+  }
+  Outcome evaluate_cloud(std::vector<std::string> more) const {
+    more.insert(more.begin(), {"evaluate", "fused.ply", "--points", "1000"});
+    return run_fathom(more, {.folder = folder_.path()});
+  }
+};
+
+TEST_F(EvaluateCloud, MeasuresPointsAgainstASurface) {
+  write_cloud({"0 0 2.5", "0 0 2.75", "1 1 4.75", "0 0 25"});
+  const Outcome outcome =
+      evaluate_cloud({"--truth", "truth.obj", "--density", "0.3", "--max-distance", "20",
+                      "--within", "0.3,0.5", "--json", "--accuracy-points", "a.ply"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const Json found = Json::parse(outcome.out);
+  EXPECT_EQ(found["depth"], nullptr);
+  const Json& accuracy = found["accuracy"];
+  EXPECT_EQ(accuracy["cloud_points"], 4);
+  EXPECT_EQ(accuracy["points"], 3);
+  EXPECT_EQ(accuracy["seen"], 3);
+  EXPECT_EQ(accuracy["outliers"], 1);
+  EXPECT_EQ(accuracy["mean"], 0.375);
+  EXPECT_EQ(accuracy["shares"][0]["share"], 1 / 3.0);
+  EXPECT_EQ(found["completeness"]["points"], 1000);
+  EXPECT_FALSE(found["completeness"].contains("cloud_points"));
+  EXPECT_EQ(found["overall"], (0.375 + found["completeness"]["mean"].get<double>()) / 2);
+  EXPECT_THAT(folder_.read("a.ply"), HasSubstr("element vertex 3\n"));
+}
+
+TEST_F(EvaluateCloud, IsATableToo) {
+  write_cloud({"0 0 2.5", "0 0 2.75"});
+  folder_.write("laser.ply", fused({"0 0 2", "0 0 2.125"}, 2));
+  const Outcome outcome = evaluate_cloud({"--truth", "laser.ply", "--density", "0.3",
+                                          "--truth-density", "0.1", "--max-distance", "0.4"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out,
+              StartsWith("The reconstruction is a cloud of 2 points; 1 left at density "
+                         "0.3\nThe truth is a cloud of 2 points; 2 left at density 0.1\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("\naccuracy              1         1       0.375 "));
+  EXPECT_THAT(outcome.out, HasSubstr("\noverall                                 0.375\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("Outliers, 0.4 or farther away: 0 for accuracy, 1 for "
+                                     "completeness; only the shares count them\n"));
+}
+
+TEST_F(EvaluateCloud, NeedsSoundPoints) {
+  const auto refused = [&](const std::string& file, const std::vector<std::string>& more,
+                           int status, const char* message) {
+    folder_.write("fused.ply", file);
+    std::vector<std::string> arguments{"--truth", "truth.obj"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = evaluate_cloud(arguments);
+    EXPECT_EQ(outcome.status, status);
+    EXPECT_THAT(outcome.err, HasSubstr(message));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  };
+  refused(fused({}, 0), {}, 3, "the reconstruction: has neither faces nor points");
+  refused(fused({"0 nan 0"}, 1), {}, 3, "fused.ply: line 14: coordinate y is not finite");
+  refused(fused({"0 0 0"}, 2), {}, 3, "fused.ply: ");
+  refused(fused({"0 0 0"}, 1), {"--density", "0"}, 2, "--density: '0' is not positive");
+  refused(fused({"0 0 0"}, 1), {"--truth-density", "1"}, 2,
+          "--truth-density: thins a point cloud; the truth has faces");
+}
+
 TEST_F(Evaluate, RefusesWhatMakesNoSense) {
   const auto refused = [&](const std::vector<std::string>& more, int status, const char* message) {
     const Outcome outcome = evaluate(more);

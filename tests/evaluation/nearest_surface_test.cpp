@@ -62,7 +62,7 @@ void expect_as_by_cgal(const Scene& from, const Scene& to, std::uint32_t points)
   const TriangleSource from_source(from), to_source(to);
   const long power = std::max(power_of_unit(from_source), power_of_unit(to_source));
   const PlacedTriangles from_placed(from_source, power), to_placed(to_source, power);
-  const TriangleTree tree(to_placed);
+  const BoxTree tree(to_placed);
   const NearestSurface nearest(to_source, to_placed, tree);
   for (const SurfacePoint& point : surface_points(from_placed, points)) {
     const double expected = test::squared_distance(from, point, to);

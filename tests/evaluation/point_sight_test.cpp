@@ -45,7 +45,7 @@ class Checked {
  private:
   TriangleSource source_;
   PlacedTriangles placed_;
-  TriangleTree tree_;
+  BoxTree tree_;
 };
 
 SurfacePoint some_point(std::mt19937& random, std::uint32_t triangles) {

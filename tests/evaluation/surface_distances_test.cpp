@@ -126,7 +126,7 @@ TEST(SurfaceDistances, NeedSurfacesAndPoints) {
     }
   };
   EXPECT_EQ(message(Scene(), plate(1), few_points()),
-            "the reconstruction: the surface has no area");
+            "the reconstruction: has neither faces nor points");
   const Scene line = testing::scene_of({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {{0, 1, 2}});
   EXPECT_EQ(message(plate(1), line, few_points()), "the truth: the surface has no area");
   EXPECT_NE(message(plate(1), plate(1), few_points({0})), "");

@@ -77,5 +77,5 @@ def test_arguments_are_checked(camera):
         fathom.evaluate(scene, scene, {"a": camera})
     with pytest.raises(TypeError, match="camera: expected a Camera"):
         fathom.evaluate(scene, scene, [3])
-    with pytest.raises(fathom.InputError, match="the truth: the surface has no area"):
+    with pytest.raises(fathom.InputError, match="the truth: has neither faces nor points"):
         fathom.evaluate(scene, fathom.Scene())

@@ -90,6 +90,13 @@ bool is_inside(const WorldPoint& from, const WorldPoint& to, const WorldPoint& p
   return dot(cross(between(from, to), between(from, p)), normal).sign() != Sign::negative;
 }
 
+/// Of a point and a point of a cloud within bounds::point_error and bounds::corner_error of the
+/// exact ones: a box without extent (validation/proofs, evaluation_gap).
+DistanceBounds distance_bounds(const Vector& p, const Vector& q) {
+  const double distance = length(minus(p, q));
+  return {distance - distance_error, distance + distance_error};
+}
+
 Ratio squared_distance_of_segment(const WorldPoint& p, const WorldPoint& a, const WorldPoint& b) {
   const ExactVector3 ab = between(a, b), ap = between(a, p);
   const Dyadic along = dot(ap, ab), length = square(ab);
@@ -117,6 +124,10 @@ Ratio squared_distance(const WorldPoint& p, const std::array<WorldPoint, 3>& tri
   return least;
 }
 
+Dyadic squared_distance(const WorldPoint& p, const WorldPoint& q) {
+  return square(between(p, q));
+}
+
 namespace {
 
 /// Not more than the distance of the exact point from the exact triangles in the box: each gap errs
@@ -133,7 +144,7 @@ struct Candidate {
   double lower;
 };
 
-/// Triangles that may be the nearest.
+/// Triangles or points that may be the nearest.
 struct Candidates {
   std::vector<Candidate> list;
   /// The surface is not farther away.
@@ -152,20 +163,21 @@ struct Waiting {
   double lower;
 };
 
-Candidates candidates_for(const Vector& p, const PlacedTriangles& triangles,
-                          const TriangleTree& tree) {
-  const std::vector<TriangleTree::Node>& nodes = tree.nodes();
+/// `bounds_of` an element of the tree: of its distance from p.
+template <class BoundsOf>
+Candidates candidates_for(const Vector& p, const BoxTree& tree, const BoundsOf& bounds_of) {
+  const std::vector<BoxTree::Node>& nodes = tree.nodes();
   Candidates candidates;
   std::vector<Waiting> waiting{{0, 0}};
   while (!waiting.empty()) {
     const auto [number, lower] = waiting.back();
     waiting.pop_back();
     if (lower > candidates.upper) continue;
-    const TriangleTree::Node& node = nodes[number];
+    const BoxTree::Node& node = nodes[number];
     if (node.count != 0) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        const std::uint32_t triangle = tree.order()[i];
-        candidates.add(triangle, distance_bounds(triangles[triangle], p));
+        const std::uint32_t element = tree.order()[i];
+        candidates.add(element, bounds_of(element));
       }
       continue;
     }
@@ -178,19 +190,37 @@ Candidates candidates_for(const Vector& p, const PlacedTriangles& triangles,
   return candidates;
 }
 
-}  // namespace
-
-Ratio NearestSurface::squared_distance(const PlacedPoint& p) const {
-  const Candidates candidates = candidates_for(p.near, triangles_, tree_);
-  Ratio least;
+/// The least of the exact ones among the candidates, which are not empty.
+template <class SquaredDistanceOf>
+auto least_of(const Candidates& candidates, const SquaredDistanceOf& squared_distance_of) {
+  decltype(squared_distance_of(0)) least;
   bool found = false;
   for (const Candidate& candidate : candidates.list) {
     if (candidate.lower > candidates.upper) continue;
-    Ratio squared = evaluation::squared_distance(p.exact, source_.world_corners(candidate.number));
+    auto squared = squared_distance_of(candidate.number);
     if (!found || squared < least) least = std::move(squared);
     found = true;
   }
   return least;
+}
+
+}  // namespace
+
+Ratio NearestSurface::squared_distance(const PlacedPoint& p) const {
+  const Candidates candidates = candidates_for(p.near, tree_, [&](std::uint32_t triangle) {
+    return distance_bounds(triangles_[triangle], p.near);
+  });
+  return least_of(candidates, [&](std::uint32_t triangle) {
+    return evaluation::squared_distance(p.exact, source_.world_corners(triangle));
+  });
+}
+
+Ratio NearestPoint::squared_distance(const PlacedPoint& p) const {
+  const Candidates candidates = candidates_for(
+      p.near, tree_, [&](std::uint32_t point) { return distance_bounds(p.near, cloud_[point]); });
+  return least_of(candidates, [&](std::uint32_t point) {
+    return evaluation::squared_distance(p.exact, cloud_.world(point));
+  });
 }
 
 }  // namespace fathom::evaluation

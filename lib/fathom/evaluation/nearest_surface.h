@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "fathom/evaluation/placed_cloud.h"
 #include "fathom/evaluation/placed_triangles.h"
 #include "fathom/evaluation/surface_points.h"
 #include "fathom/geometry/frames.h"
@@ -32,13 +33,14 @@ DistanceBounds distance_bounds(const PlacedTriangles::Corners& corners, const Ve
 /// The square of the distance of a point from the nearest point of a triangle, which may be without
 /// area; scene units.
 Ratio squared_distance(const WorldPoint& p, const std::array<WorldPoint, 3>& triangle);
+Dyadic squared_distance(const WorldPoint& p, const WorldPoint& q);
 
 /// How far points are from a surface. Binary64 with bounds finds the triangles that may be the
 /// nearest; exact numbers decide between them. The scene and its parts must outlive it.
 class NearestSurface {
  public:
   NearestSurface(const TriangleSource& source, const PlacedTriangles& triangles,
-                 const TriangleTree& tree)
+                 const BoxTree& tree)
       : source_(source), triangles_(triangles), tree_(tree) {}
 
   /// The square of the distance from the nearest point of the surface, exactly; scene units. `p` is
@@ -48,7 +50,21 @@ class NearestSurface {
  private:
   const TriangleSource& source_;
   const PlacedTriangles& triangles_;
-  const TriangleTree& tree_;
+  const BoxTree& tree_;
+};
+
+/// How far points are from the nearest point of a cloud, by the same means.
+class NearestPoint {
+ public:
+  NearestPoint(const PlacedCloud& cloud, const BoxTree& tree) : cloud_(cloud), tree_(tree) {}
+
+  /// The square of the distance, exactly; scene units. `p` is in the same unit as the cloud, which
+  /// has one point at least.
+  [[nodiscard]] Ratio squared_distance(const PlacedPoint& p) const;
+
+ private:
+  const PlacedCloud& cloud_;
+  const BoxTree& tree_;
 };
 
 }  // namespace fathom::evaluation

@@ -75,7 +75,7 @@ struct PointSight::Line {
 };
 
 PointSight::PointSight(const TriangleSource& source, const PlacedTriangles& triangles,
-                       const TriangleTree& tree, const Camera& camera, Cull cull)
+                       const BoxTree& tree, const Camera& camera, Cull cull)
     : source_(source), triangles_(triangles), tree_(tree), camera_(camera), cull_(cull) {
   const long power = -triangles.power();
   for (std::size_t i = 0; i < 3; ++i) {
@@ -237,12 +237,12 @@ bool PointSight::hides(std::uint32_t number, const PlacedPoint& p, const View& v
 
 bool PointSight::is_hidden(std::uint32_t triangle, const PlacedPoint& p, const View& view) const {
   const Line line = line_to(p);
-  const std::vector<TriangleTree::Node>& nodes = tree_.nodes();
+  const std::vector<BoxTree::Node>& nodes = tree_.nodes();
   std::vector<std::uint32_t> waiting{0};
   while (!waiting.empty()) {
     const std::uint32_t number = waiting.back();
     waiting.pop_back();
-    const TriangleTree::Node& node = nodes[number];
+    const BoxTree::Node& node = nodes[number];
     if (!line.may_meet(node.box)) continue;
     if (node.count == 0) {
       waiting.push_back(node.first);

@@ -23,8 +23,8 @@ namespace fathom::evaluation {
 ///          settle it.
 class PointSight {
  public:
-  PointSight(const TriangleSource& source, const PlacedTriangles& triangles,
-             const TriangleTree& tree, const Camera& camera, Cull cull);
+  PointSight(const TriangleSource& source, const PlacedTriangles& triangles, const BoxTree& tree,
+             const Camera& camera, Cull cull);
 
   /// `p` is the point of the triangle.
   [[nodiscard]] bool sees(std::uint32_t triangle, const PlacedPoint& p) const;
@@ -56,7 +56,7 @@ class PointSight {
 
   const TriangleSource& source_;
   const PlacedTriangles& triangles_;
-  const TriangleTree& tree_;
+  const BoxTree& tree_;
   const Camera& camera_;
   Cull cull_;
   /// [R | t] and near in the unit of the triangles.

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
-#include "fathom/evaluation/nearest_surface.h"
-#include "fathom/evaluation/point_sight.h"
+#include "fathom/evaluation/placed_cloud.h"
+#include "fathom/evaluation/placed_triangles.h"
+#include "fathom/evaluation/shape.h"
 #include "fathom/failures/errors.h"
-#include "fathom/files/byte_order.h"
-#include "fathom/files/file_bytes.h"
 #include "fathom/image/error_metrics.h"
 #include "fathom/memory/available_memory.h"
 #include "fathom/numeric/rounding.h"
@@ -23,24 +23,21 @@ namespace {
 
 using namespace evaluation;
 
-/// A surface, and what is needed to measure to it and to see points of it.
-struct Surface {
-  Surface(const TriangleSource& the_source, long power)
-      : source(the_source), triangles(source, power), tree(triangles) {}
-  Surface(const Surface&) = delete;
-  Surface& operator=(const Surface&) = delete;
+/// What is known of a point: how far it is from the other shape.
+struct Distance {
+  /// Rounded; negative where no camera sees the point.
+  double length = -1;
+  /// How many of the thresholds, from the largest on, are greater.
+  std::uint32_t thresholds = 0;
+  bool is_outlier = false;
 
-  const TriangleSource& source;
-  PlacedTriangles triangles;
-  TriangleTree tree;
+  [[nodiscard]] bool is_seen() const { return length >= 0; }
 };
 
-/// What is known of a point that counts.
-struct Distance {
-  /// Where it is, if points are kept.
-  MeasuredPoint point;
-  /// How many of the thresholds, from the largest on, are greater.
-  std::size_t thresholds = 0;
+/// The distances of a shape's points, and where they are, if points are kept.
+struct Distances {
+  std::vector<Distance> list;
+  std::vector<std::array<double, 3>> places;
 };
 
 std::array<double, 3> rounded(const WorldPoint& p) {
@@ -48,154 +45,193 @@ std::array<double, 3> rounded(const WorldPoint& p) {
           round_to_binary64(Ratio(p.z))};
 }
 
-/// Distances of one surface's points from another surface.
-class Measurement {
+/// Compares a distance exactly.
+class Limits {
  public:
-  Measurement(const Surface& from, const Surface& to, const std::vector<Camera>& cameras,
-              const SurfaceComparisonOptions& options)
-      : from_(from), nearest_(to.source, to.triangles, to.tree), keep_points_(options.keep_points) {
-    for (const Camera& camera : cameras)
-      sights_.emplace_back(from.source, from.triangles, from.tree, camera, options.cull);
-    for (const double within : options.within)
-      squared_thresholds_.push_back(Dyadic(within) * Dyadic(within));
-    std::sort(squared_thresholds_.begin(), squared_thresholds_.end());
+  explicit Limits(const SurfaceComparisonOptions& options) {
+    for (const double within : options.within) squared_.emplace_back(square(within));
+    std::sort(squared_.begin(), squared_.end());
+    if (options.max_distance) squared_greatest_ = Ratio(square(*options.max_distance));
   }
 
-  [[nodiscard]] std::optional<Distance> of(const SurfacePoint& point,
-                                           std::size_t& last_sight) const {
-    const PlacedPoint p = placed(point, from_.source, from_.triangles);
-    if (!is_seen(point.triangle, p, last_sight)) return std::nullopt;
-    const Ratio squared = nearest_.squared_distance(p);
-    Distance distance{{{}, round_sqrt_to_binary64(squared)}};
-    if (keep_points_) distance.point.at = rounded(p.exact);
-    for (const Dyadic& threshold : squared_thresholds_)
-      distance.thresholds += squared < Ratio(threshold);
+  [[nodiscard]] Distance of(const Ratio& squared) const {
+    Distance distance;
+    distance.length = round_sqrt_to_binary64(squared);
+    for (const Ratio& limit : squared_) distance.thresholds += squared < limit;
+    distance.is_outlier = squared_greatest_ && !(squared < *squared_greatest_);
     return distance;
   }
 
  private:
-  /// Neighbours are mostly seen by the same camera, so the one that saw the last point is asked
-  /// first.
-  [[nodiscard]] bool is_seen(std::uint32_t triangle, const PlacedPoint& p,
-                             std::size_t& last_sight) const {
-    if (sights_.empty()) return true;
-    for (std::size_t i = 0; i < sights_.size(); ++i) {
-      const std::size_t sight = (last_sight + i) % sights_.size();
-      if (!sights_[sight].sees(triangle, p)) continue;
-      last_sight = sight;
-      return true;
-    }
-    return false;
-  }
+  static Dyadic square(double x) { return Dyadic(x) * Dyadic(x); }
 
-  const Surface& from_;
-  NearestSurface nearest_;
-  bool keep_points_;
-  std::vector<PointSight> sights_;
-  std::vector<Dyadic> squared_thresholds_;
+  std::vector<Ratio> squared_;
+  std::optional<Ratio> squared_greatest_;
 };
 
-constexpr std::size_t points_at_once = 256;
+constexpr std::uint32_t points_at_once = 256;
 
-std::size_t parts_of(std::size_t points) {
-  return (points + points_at_once - 1) / points_at_once;
+std::uint32_t parts_of(const Shape& shape) {
+  return shape.points() / points_at_once + (shape.points() % points_at_once != 0);
 }
 
-std::vector<std::optional<Distance>> distances_of(const std::vector<SurfacePoint>& points,
-                                                  const Measurement& measurement,
-                                                  Progress& progress) {
-  std::vector<std::optional<Distance>> distances(points.size());
-  parallel_for(std::size_t{0}, parts_of(points.size()), [&](std::size_t part) {
-    const std::size_t end = std::min(points.size(), (part + 1) * points_at_once);
-    std::size_t last_sight = 0;
-    for (std::size_t i = part * points_at_once; i < end; ++i)
-      distances[i] = measurement.of(points[i], last_sight);
+Distances distances_of(const Shape& from, const Shape& to, const SurfaceComparisonOptions& options,
+                       Progress& progress) {
+  const Limits limits(options);
+  Distances distances;
+  distances.list.resize(from.points());
+  if (options.keep_points) distances.places.resize(from.points());
+  parallel_for(std::uint32_t{0}, parts_of(from), [&](std::uint32_t part) {
+    const std::uint32_t first = part * points_at_once;
+    const std::uint32_t end = first + std::min(from.points() - first, points_at_once);
+    std::size_t last_camera = 0;
+    for (std::uint32_t place = first; place < end; ++place) {
+      const std::uint32_t i = from.number_at(place);
+      const PlacedPoint p = from.point(i);
+      if (!from.is_seen(i, p, last_camera)) continue;
+      distances.list[i] = limits.of(to.squared_distance(p));
+      if (options.keep_points) distances.places[i] = rounded(p.exact);
+    }
     progress.part_done();
   });
   return distances;
 }
 
-SurfaceDistances summary_of(const std::vector<std::optional<Distance>>& distances,
-                            const SurfaceComparisonOptions& options) {
-  const std::vector<double>& within = options.within;
-  SurfaceDistances summary;
-  summary.points = distances.size();
-  std::vector<double> values;
-  // How many points have exactly so many thresholds above them.
-  std::vector<std::uint64_t> counts(within.size() + 1);
-  double sum = 0, squares = 0;
-  for (const auto& distance : distances) {
-    if (!distance) continue;
-    values.push_back(distance->point.distance);
-    sum += distance->point.distance;
-    squares += distance->point.distance * distance->point.distance;
-    ++counts[distance->thresholds];
-    if (options.keep_points) summary.measured.push_back(distance->point);
+std::vector<MeasuredPoint> measured(const Distances& distances) {
+  std::vector<MeasuredPoint> points;
+  for (std::size_t i = 0; i < distances.places.size(); ++i) {
+    if (distances.list[i].is_seen())
+      points.push_back({distances.places[i], distances.list[i].length});
   }
-  summary.seen = values.size();
-  summary.shares.assign(within.size(), 0);
-  if (values.empty()) return summary;
-  const auto n = static_cast<double>(values.size());
-  summary.mean = sum / n;
-  summary.rms = std::sqrt(squares / n);
-  std::sort(values.begin(), values.end());
-  summary.median = image::nearest_rank(values, 500);
-  summary.p90 = image::nearest_rank(values, 900);
-  summary.p99 = image::nearest_rank(values, 990);
-  summary.max = values.back();
-  for (std::size_t i = 0; i < within.size(); ++i) {
+  return points;
+}
+
+/// The shares of distances below thresholds. `counts`: how many of all have exactly so many
+/// thresholds above them.
+std::vector<double> shares_of(const std::vector<std::uint64_t>& counts,
+                              const std::vector<double>& within, std::uint64_t all) {
+  std::vector<double> shares;
+  for (const double threshold : within) {
     const auto greater = static_cast<std::size_t>(
-        std::count_if(within.begin(), within.end(), [&](double w) { return w >= within[i]; }));
+        std::ranges::count_if(within, [&](double other) { return other >= threshold; }));
     std::uint64_t below = 0;
     for (std::size_t k = greater; k < counts.size(); ++k) below += counts[k];
-    summary.shares[i] = static_cast<double>(below) / n;
+    shares.push_back(all == 0 ? 0 : static_cast<double>(below) / static_cast<double>(all));
   }
+  return shares;
+}
+
+/// The figures of the lengths, in the order of the points.
+void summarize(std::vector<double> lengths, SurfaceDistances& summary) {
+  if (lengths.empty()) return;
+  double sum = 0, squares = 0;
+  for (const double length : lengths) {
+    sum += length;
+    squares += length * length;
+  }
+  const auto n = static_cast<double>(lengths.size());
+  summary.mean = sum / n;
+  summary.rms = std::sqrt(squares / n);
+  std::sort(lengths.begin(), lengths.end());
+  summary.median = image::nearest_rank(lengths, 500);
+  summary.p90 = image::nearest_rank(lengths, 900);
+  summary.p99 = image::nearest_rank(lengths, 990);
+  summary.max = lengths.back();
+}
+
+SurfaceDistances summary_of(const Distances& distances, const SurfaceComparisonOptions& options) {
+  SurfaceDistances summary;
+  summary.points = distances.list.size();
+  std::vector<double> lengths;
+  lengths.reserve(distances.list.size());
+  std::vector<std::uint64_t> counts(options.within.size() + 1);
+  for (const Distance& distance : distances.list) {
+    if (!distance.is_seen()) continue;
+    ++summary.seen;
+    ++counts[distance.thresholds];
+    if (distance.is_outlier) {
+      ++summary.outliers;
+    } else {
+      lengths.push_back(distance.length);
+    }
+  }
+  summary.shares = shares_of(counts, options.within, summary.seen);
+  summarize(std::move(lengths), summary);
+  summary.measured = measured(distances);
   return summary;
 }
 
-std::vector<SurfacePoint> points_on(const Surface& surface, const char* name, std::uint32_t count) {
-  try {
-    return surface_points(surface.triangles, count);
-  } catch (const InputError& error) {
-    throw InputError(std::string(name) + ": " + error.what());
-  }
+/// Of a point: its distance, and that again to be sorted.
+constexpr double bytes_of_point = sizeof(Distance) + sizeof(double);
+/// Of a point that is kept, of each shape, while its list grows.
+constexpr double bytes_of_kept_point =
+    sizeof(std::array<double, 3>) + 2 * 2 * sizeof(MeasuredPoint);
+
+/// The points that are measured on a shape, at most.
+double points_of(const Scene& scene, const SurfaceComparisonOptions& options) {
+  return is_cloud(scene) ? static_cast<double>(point_count(scene)) : options.points;
 }
 
-/// Of a triangle: its corners, its place in the tree's order, at most one node for each, its share
-/// of the area.
-constexpr double bytes_of_triangle = sizeof(PlacedTriangles::Corners) + sizeof(std::uint32_t) +
-                                     sizeof(TriangleTree::Node) + sizeof(double);
-/// Of a point: its place on each surface, its distance from one of them, and that once more to be
-/// sorted.
-constexpr double bytes_of_point =
-    2 * sizeof(SurfacePoint) + sizeof(std::optional<Distance>) + sizeof(double);
-/// Of a point that is kept, of each surface, while its list grows.
-constexpr double bytes_of_kept_point = 2 * 2 * sizeof(MeasuredPoint);
-
-void require_room(const TriangleSource& reconstruction, const TriangleSource& truth,
+void require_room(const Scene& reconstruction, const Scene& truth,
                   const SurfaceComparisonOptions& options) {
-  const std::uint32_t points = options.points;
-  const double bytes = bytes_of_point + (options.keep_points ? bytes_of_kept_point : 0);
-  const auto triangles = static_cast<double>(reconstruction.count() + truth.count());
-  require_memory("comparing " + text::counted(points, "point") + " of each surface",
-                 triangles * bytes_of_triangle + points * bytes, available_memory());
+  const double of_made = points_of(reconstruction, options), of_real = points_of(truth, options);
+  const double points = std::max(of_made, of_real);
+  const double kept = options.keep_points ? (of_made + of_real) * bytes_of_kept_point : 0;
+  require_memory("comparing " + text::counted(static_cast<std::uint64_t>(points), "point") +
+                     " of each surface",
+                 bytes_of_shape(reconstruction, options.density, options) +
+                     bytes_of_shape(truth, options.truth_density, options) +
+                     points * bytes_of_point + kept,
+                 available_memory());
 }
 
-SurfaceComparison compare_in_arena(const TriangleSource& reconstruction,
-                                   const TriangleSource& truth, const std::vector<Camera>& cameras,
+/// Refuses a scene that is neither a surface nor a cloud.
+void require_shape(const Scene& scene, const char* name) {
+  const bool has_faces = triangle_count(scene) != 0;
+  if (!has_faces && point_count(scene) == 0)
+    throw InputError(std::string(name) + ": has neither faces nor points");
+  const auto is_of_points = [&](const Object& object) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    return mesh.triangles.empty() && !mesh.vertices.empty();
+  };
+  if (has_faces && std::ranges::any_of(scene.objects, is_of_points))
+    throw InputError(std::string(name) +
+                     ": has meshes and point clouds, expected one or the other");
+}
+
+/// Refuses options that are about a shape that is not there.
+void require_applicable(const Scene& reconstruction, const Scene& truth,
+                        const std::vector<Camera>& cameras,
+                        const SurfaceComparisonOptions& options) {
+  const bool made = is_cloud(reconstruction), real = is_cloud(truth);
+  if (options.density && !made)
+    throw UsageError(Setting{"density"}, "thins a point cloud; the reconstruction has faces");
+  if (options.truth_density && !real)
+    throw UsageError(Setting{"truth_density"}, "thins a point cloud; the truth has faces");
+  if (!cameras.empty() && made && real)
+    throw UsageError(Setting{"camera"}, "sees surfaces; both sides are point clouds");
+}
+
+SurfaceComparison compare_in_arena(const Scene& reconstruction, const Scene& truth,
+                                   const std::vector<Camera>& cameras,
                                    const SurfaceComparisonOptions& options,
                                    const std::function<void(double)>& progress) {
   require_room(reconstruction, truth, options);
   const long power = std::max(power_of_unit(reconstruction), power_of_unit(truth));
-  const Surface made(reconstruction, power), real(truth, power);
-  const std::vector<SurfacePoint> on_made = points_on(made, "the reconstruction", options.points);
-  const std::vector<SurfacePoint> on_real = points_on(real, "the truth", options.points);
-  Progress done(progress, 2 * parts_of(options.points));
-  const auto measure = [&](const Surface& from, const Surface& to,
-                           const std::vector<SurfacePoint>& points) {
-    return summary_of(distances_of(points, Measurement(from, to, cameras, options), done), options);
+  const auto made =
+      shape_of(reconstruction, "the reconstruction", power, cameras, options.density, options);
+  const auto real = shape_of(truth, "the truth", power, cameras, options.truth_density, options);
+  Progress done(progress, std::uint64_t{parts_of(*made)} + parts_of(*real));
+  const auto measure = [&](const Shape& from, const Shape& to) {
+    SurfaceDistances summary = summary_of(distances_of(from, to, options, done), options);
+    summary.cloud_points = from.cloud_points();
+    return summary;
   };
-  SurfaceComparison comparison{measure(made, real, on_made), measure(real, made, on_real), {}};
+  SurfaceComparison comparison;
+  comparison.accuracy = measure(*made, *real);
+  comparison.completeness = measure(*real, *made);
+  if (comparison.accuracy.has_figures() && comparison.completeness.has_figures())
+    comparison.overall = (comparison.accuracy.mean + comparison.completeness.mean) / 2;
   for (std::size_t i = 0; i < options.within.size(); ++i) {
     const double precision = comparison.accuracy.shares[i];
     const double recall = comparison.completeness.shares[i];
@@ -207,13 +243,21 @@ SurfaceComparison compare_in_arena(const TriangleSource& reconstruction,
 
 }  // namespace
 
+bool is_cloud(const Scene& scene) {
+  return triangle_count(scene) == 0 && point_count(scene) != 0;
+}
+
 void require_meaningful(const SurfaceComparisonOptions& options) {
   const StandardArithmetic standard;
   if (options.points == 0) throw UsageError(Setting{"points"}, "expected at least 1");
-  for (const double within : options.within) {
-    if (!(within > 0) || std::isinf(within))
-      throw UsageError(Setting{"within"}, "expected a positive number");
-  }
+  const auto require_positive = [](double number, const char* setting) {
+    if (!(number > 0) || std::isinf(number))
+      throw UsageError(Setting{setting}, "expected a positive number");
+  };
+  for (const double within : options.within) require_positive(within, "within");
+  if (options.density) require_positive(*options.density, "density");
+  if (options.truth_density) require_positive(*options.truth_density, "truth_density");
+  if (options.max_distance) require_positive(*options.max_distance, "max_distance");
   require_thread_count(options.threads);
 }
 
@@ -227,30 +271,11 @@ SurfaceComparison compare_surfaces(const Scene& reconstruction, const Scene& tru
     require_valid(reconstruction);
     require_valid(truth);
     for (const Camera& camera : cameras) require_valid(camera);
+    require_shape(reconstruction, "the reconstruction");
+    require_shape(truth, "the truth");
+    require_applicable(reconstruction, truth, cameras, options);
     return compare_in_arena(reconstruction, truth, cameras, options, progress);
   });
-}
-
-using namespace files;
-
-std::vector<std::byte> ply_of(const std::vector<MeasuredPoint>& points) {
-  const StandardArithmetic standard;
-  std::string header = "ply\nformat binary_little_endian 1.0\ncomment distances by Fathom\n";
-  header += "element vertex " + std::to_string(points.size()) + "\n";
-  for (const char* name : {"x", "y", "z", "quality"})
-    header += std::string("property double ") + name + "\n";
-  header += "end_header\n";
-  Bytes file;
-  append(file, header);
-  std::size_t at = file.size();
-  file.resize(at + points.size() * 4 * sizeof(double));
-  for (const auto& [place, distance] : points) {
-    for (const double number : {place[0], place[1], place[2], distance}) {
-      store(&file[at], number, std::endian::little);
-      at += sizeof(double);
-    }
-  }
-  return file;
 }
 
 }  // namespace fathom

@@ -23,6 +23,8 @@ struct ReadOptions {
   bool attributes = false;
   /// Keep lines and points: OBJ's l and p, PLY's edges, glTF's modes 0 to 3.
   bool primitives = false;
+  /// Vertices without faces are a cloud of points: no warning that a file has no faces.
+  bool clouds = false;
   /// Keep what triangles are called: OBJ's usemtl, g and o; the materials, meshes and nodes of
   /// glTF; a PLY's labels. At most 4 bytes for each triangle and segmentation, beside the names.
   bool segments = false;

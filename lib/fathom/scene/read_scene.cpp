@@ -123,7 +123,7 @@ class SceneReader {
       if (input.bytes().empty()) throw InputError(file + ": is empty, expected a mesh");
       Mesh mesh = read_mesh(format, input, file, options_, warnings_);
       leave_out_odd_attributes(mesh, file, warnings_);
-      if (mesh.is_empty()) warnings_.push_back(file + ": has no faces");
+      if (mesh.is_empty() && !options_.clouds) warnings_.push_back(file + ": has no faces");
       Object object;
       object.mesh = scene_.meshes.size();
       object.name = file == "-" ? file : path.stem().string();

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace fathom::evaluation {
+
+using Vector = std::array<double, 3>;
+
+/// A box along the axes.
+struct Box {
+  Vector lower, upper;
+};
+
+/// The smallest box around points.
+Box box_of(std::span<const Vector> points);
+
+class PlacedCloud;
+class PlacedTriangles;
+
+/// A tree of boxes around triangles or points, which must outlive it: each box contains the corners
+/// as PlacedTriangles or PlacedCloud has them. The same whatever the number of threads.
+class BoxTree {
+ public:
+  explicit BoxTree(const PlacedTriangles& triangles);
+  /// Of points that are the same exactly, a leaf may have one only.
+  explicit BoxTree(const PlacedCloud& points);
+
+  struct Node {
+    Box box;
+    /// A leaf has `count` elements from `first` on of order(); a node without any has the children
+    /// that are next in nodes(), and at `first`.
+    std::uint32_t first = 0, count = 0;
+  };
+  /// The root comes first; empty for a tree around nothing.
+  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+  /// Numbers of triangles or points.
+  [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
+
+ private:
+  template <class Elements>
+  void build(const Elements& elements, std::uint32_t begin, std::uint32_t end, std::uint32_t node);
+  template <class Elements>
+  void build(const Elements& elements);
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> order_;
+};
+
+}  // namespace fathom::evaluation
