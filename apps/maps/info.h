@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
+#include "fathom/image/deep_map.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/scene/scene.h"
 
@@ -27,6 +28,9 @@ enum class AnswerForm { text, json };
 /// Size, and per channel its type, how many pixels show a surface and the range of its finite
 /// values there; object names; the texts of the header.
 std::string info_of_map(const DepthMap& map, const std::string& file, AnswerForm form);
+
+/// The same of a deep map: of all its samples, with how many there are, and at how many pixels.
+std::string info_of_deep_map(const DeepMap& deep, const std::string& file, AnswerForm form);
 
 /// Vertices, faces, triangles, bounds, the objects and the sources of a mesh or a scene file. A
 /// mesh file with only vertices is a point cloud; its bounds contain all vertices.

@@ -11,6 +11,7 @@
 #include "apps/shell/standard_streams.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/files/input_file.h"
+#include "fathom/image/deep_files.h"
 #include "fathom/scene/read_scene.h"
 
 namespace fathom::app {
@@ -49,6 +50,10 @@ int run_info(const InfoArguments& arguments, const Console& console) {
     print(info_of_cameras(cameras, file, form));
     return done;
   }
+  if (kind == FileKind::map && is_deep_map(input.bytes())) {
+    print(info_of_deep_map(read_deep_map_argument(input.bytes(), file), file, form));
+    return done;
+  }
   print(kind == FileKind::map ? info_of_map(read_map_argument(input.bytes(), file), file, form)
                               : info_of_meshes(arguments, input, kind, form, console));
   return done;
@@ -61,7 +66,9 @@ void add_info(Command& program) {
   Command& command = program.command("info", "Print the contents of a mesh, scene, camera or map",
                                      "  fathom info spot.obj\n"
                                      "  fathom info spot.exr --json");
-  command.argument("FILE", arguments->file, "Mesh, scene, camera or map; - is standard input")
+  command
+      .argument("FILE", arguments->file,
+                "Mesh, scene, camera, map or deep EXR; - is standard input")
       .required();
   command.option("--mesh-format", "NAME", into(arguments->scene.mesh_format, parse_mesh_format),
                  "Read FILE as a mesh of this format: obj, ply, stl, off, gltf or glb");

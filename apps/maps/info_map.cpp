@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "apps/maps/info.h"
 #include "apps/shell/standard_streams.h"
@@ -113,24 +115,18 @@ std::string indented(const std::string& value) {
   return text;
 }
 
-Json describe(const DepthMap& map, const std::string& file) {
-  Json channels = Json::object();
-  for (const ImageChannel& channel : map.channels) {
-    const ChannelSummary summary = summarise(map, channel);
-    Json entry{{"type", summary.type},
-               {"surface_pixels", summary.surface},
-               {"min", summary.finite > 0 ? Json(summary.least) : Json(nullptr)},
-               {"max", summary.finite > 0 ? Json(summary.greatest) : Json(nullptr)},
-               {"infinite", summary.infinite},
-               {"nan", summary.nan}};
-    if (summary.without) entry["none"] = *summary.without;
-    text::append_member(channels, channel.name, std::move(entry));
-  }
-  Json answer{{"file", file},
-              {"kind", "map"},
-              {"width", map.width},
-              {"height", map.height},
-              {"channels", std::move(channels)}};
+/// How many values there are is called differently of maps and of deep maps.
+Json describe_values(const ChannelSummary& summary, const char* count) {
+  return {{"type", summary.type},
+          {count, summary.surface},
+          {"min", summary.finite > 0 ? Json(summary.least) : Json(nullptr)},
+          {"max", summary.finite > 0 ? Json(summary.greatest) : Json(nullptr)},
+          {"infinite", summary.infinite},
+          {"nan", summary.nan}};
+}
+
+/// Scale, names and texts.
+void describe_rest(const DepthMap& map, Json& answer) {
   if (map.png_scale) answer["png_scale"] = *map.png_scale;
   if (!map.object_names.empty()) answer["objects"] = map.object_names;
   for (const auto& [channel, names] : map.tables) answer[channel + "s"] = names;
@@ -139,23 +135,43 @@ Json describe(const DepthMap& map, const std::string& file) {
     text::append_member(attributes, name, as_json(value));
   }
   if (!attributes.empty()) answer["attributes"] = std::move(attributes);
+}
+
+Json describe(const DepthMap& map, const std::string& file) {
+  Json channels = Json::object();
+  for (const ImageChannel& channel : map.channels) {
+    const ChannelSummary summary = summarise(map, channel);
+    Json entry = describe_values(summary, "surface_pixels");
+    if (summary.without) entry["none"] = *summary.without;
+    text::append_member(channels, channel.name, std::move(entry));
+  }
+  Json answer{{"file", file},
+              {"kind", "map"},
+              {"width", map.width},
+              {"height", map.height},
+              {"channels", std::move(channels)}};
+  describe_rest(map, answer);
   return answer;
 }
 
-std::string describe_as_text(const DepthMap& map, const std::string& file) {
+std::string heading_of_table(const char* count) {
+  return fmt::format("  {:<10} {:<8} {:>14} {:>24} {:>24}\n", "channel", "type", count, "least",
+                     "greatest");
+}
+
+std::string row_of_table(const std::string& name, const ChannelSummary& s) {
   std::string text =
-      fmt::format("{}: a map of {}x{} pixels\n", text::printable(file), map.width, map.height);
-  text += fmt::format("  {:<10} {:<8} {:>14} {:>24} {:>24}\n", "channel", "type", "surface pixels",
-                      "least", "greatest");
-  for (const ImageChannel& channel : map.channels) {
-    const ChannelSummary s = summarise(map, channel);
-    text += fmt::format("  {:<10} {:<8} {:>14} ", text::printable(channel.name), s.type, s.surface);
-    text += fmt::format("{:>24} {:>24}", figure(s, s.least), figure(s, s.greatest));
-    if (s.infinite > 0) text += fmt::format("  {} infinite", s.infinite);
-    if (s.nan > 0) text += fmt::format("  {} NaN", s.nan);
-    if (s.without.value_or(0) > 0) text += fmt::format("  {} without one", *s.without);
-    text += "\n";
-  }
+      fmt::format("  {:<10} {:<8} {:>14} ", text::printable(name), s.type, s.surface);
+  text += fmt::format("{:>24} {:>24}", figure(s, s.least), figure(s, s.greatest));
+  if (s.infinite > 0) text += fmt::format("  {} infinite", s.infinite);
+  if (s.nan > 0) text += fmt::format("  {} NaN", s.nan);
+  if (s.without.value_or(0) > 0) text += fmt::format("  {} without one", *s.without);
+  return text + "\n";
+}
+
+/// Scale, names and texts.
+std::string rest_as_text(const DepthMap& map) {
+  std::string text;
   if (map.png_scale)
     text += fmt::format("  scale      {} {} per unit\n", *map.png_scale,
                         *map.png_scale == 1 ? "code" : "codes");
@@ -167,11 +183,87 @@ std::string describe_as_text(const DepthMap& map, const std::string& file) {
   return text;
 }
 
+std::string describe_as_text(const DepthMap& map, const std::string& file) {
+  std::string text =
+      fmt::format("{}: a map of {}x{} pixels\n", text::printable(file), map.width, map.height);
+  text += heading_of_table("surface pixels");
+  for (const ImageChannel& channel : map.channels) {
+    text += row_of_table(channel.name, summarise(map, channel));
+  }
+  return text + rest_as_text(map);
+}
+
+template <class T>
+ChannelSummary summarise(const DeepMap& deep, T DeepSample::*channel) {
+  ChannelSummary summary;
+  summary.type = type_name(T{});
+  summary.surface = deep.samples.size();
+  for (const DeepSample& sample : deep.samples) summary.add(static_cast<double>(sample.*channel));
+  return summary;
+}
+
+std::vector<std::pair<const char*, ChannelSummary>> summaries(const DeepMap& deep) {
+  return {{"Z", summarise(deep, &DeepSample::Z)},
+          {"ZBack", summarise(deep, &DeepSample::ZBack)},
+          {"area", summarise(deep, &DeepSample::area)},
+          {"A", summarise(deep, &DeepSample::A)},
+          {"id", summarise(deep, &DeepSample::id)}};
+}
+
+struct SampleCounts {
+  std::size_t pixels = 0;
+  std::uint32_t most = 0;
+};
+
+SampleCounts count_samples(const DeepMap& deep) {
+  SampleCounts found;
+  for (const std::uint32_t count : deep.counts) {
+    if (count > 0) ++found.pixels;
+    found.most = std::max(found.most, count);
+  }
+  return found;
+}
+
+Json describe(const DeepMap& deep, const std::string& file) {
+  const SampleCounts found = count_samples(deep);
+  Json channels = Json::object();
+  for (const auto& [name, summary] : summaries(deep)) {
+    channels[name] = describe_values(summary, "samples");
+  }
+  Json answer{{"file", file},
+              {"kind", "deep map"},
+              {"width", deep.description.width},
+              {"height", deep.description.height},
+              {"samples", deep.samples.size()},
+              {"pixels_with_samples", found.pixels},
+              {"most_samples", found.most},
+              {"channels", std::move(channels)}};
+  describe_rest(deep.description, answer);
+  return answer;
+}
+
+std::string describe_as_text(const DeepMap& deep, const std::string& file) {
+  const SampleCounts found = count_samples(deep);
+  std::string text = fmt::format("{}: a deep map of {}x{} pixels\n", text::printable(file),
+                                 deep.description.width, deep.description.height);
+  text += fmt::format("  {} {} at {} {}, at most {} at a pixel\n", deep.samples.size(),
+                      deep.samples.size() == 1 ? "sample" : "samples", found.pixels,
+                      found.pixels == 1 ? "pixel" : "pixels", found.most);
+  text += heading_of_table("samples");
+  for (const auto& [name, summary] : summaries(deep)) text += row_of_table(name, summary);
+  return text + rest_as_text(deep.description);
+}
+
 }  // namespace
 
 std::string info_of_map(const DepthMap& map, const std::string& file, AnswerForm form) {
   if (form == AnswerForm::text) return describe_as_text(map, file);
   return json_answer(describe(map, file));
+}
+
+std::string info_of_deep_map(const DeepMap& deep, const std::string& file, AnswerForm form) {
+  if (form == AnswerForm::text) return describe_as_text(deep, file);
+  return json_answer(describe(deep, file));
 }
 
 }  // namespace fathom::app

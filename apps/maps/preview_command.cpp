@@ -27,7 +27,7 @@ ColourMap parse_colour_map(const std::string& text) {
 }
 
 int run_preview(const PreviewArguments& arguments) {
-  const DepthMap map = read_map_argument(arguments.map);
+  const DepthMap map = read_map_or_flat_map(arguments.map);
   const RgbImage picture = draw_preview(map, arguments.options);
   OutputFile output(arguments.output);
   output.write([&](const auto& path) { write_png(picture, path); });
@@ -44,13 +44,17 @@ void add_preview(Command& program) {
       "preview", "Draw a channel of a map with a colour bar",
       "  fathom preview spot.exr -o spot.png\n"
       "  fathom preview spot.exr --channel id -o triangles.png\n"
+      "  fathom preview deep.exr --channel samples -o samples.png\n"
       "  fathom preview spot.exr --colormap magma --range 2,5 --unit m -o spot.png");
-  command.argument("MAP", arguments->map, "Map to draw (" + names_of_readable_maps() + ")")
+  command
+      .argument("MAP", arguments->map,
+                "Map to draw (" + names_of_readable_maps() + ", also deep EXR)")
       .required();
   add_output_option(command, "FILE", into(arguments->output, parse_png_name),
                     "Write the picture here (PNG, 8 bit)")
       .required();
-  command.option("--channel", "NAME", options.channel, "Channel to draw (default Z)");
+  command.option("--channel", "NAME", options.channel,
+                 "Channel to draw (default Z); of a deep EXR Z, ZBack, id, A or samples");
   command.option("--colormap", "NAME", into(options.colours, parse_colour_map),
                  "Colours: viridis (default), magma, turbo or grey");
   command.option(

@@ -7,8 +7,10 @@
 #include "apps/shell/max_memory.h"
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/image/channel_names.h"
 #include "fathom/image/deep_files.h"
+#include "fathom/image/flat_deep_map.h"
 #include "fathom/image/map_files.h"
 
 namespace fathom::app {
@@ -69,6 +71,14 @@ DepthMap read_map_argument(std::span<const std::byte> bytes, const std::string& 
 DeepMap read_deep_map_argument(std::span<const std::byte> bytes, const std::string& file) {
   note_input(file);
   return read_deep_map(bytes, file, allowed_memory());
+}
+
+DepthMap read_map_or_flat_map(const std::string& file) {
+  const files::InputFile input(file, files::InputFile::Reading::mapped_where_large);
+  DepthMap map = is_deep_map(input.bytes()) ? flat_map(read_deep_map_argument(input.bytes(), file))
+                                            : read_map_argument(input.bytes(), file);
+  input.expect_unchanged();
+  return map;
 }
 
 }  // namespace fathom::app

@@ -27,5 +27,7 @@ DepthMap read_map_argument(const std::string& file);
 DepthMap read_map_argument(std::span<const std::byte> bytes, const std::string& file);
 /// A deep map that has been read already, likewise.
 DeepMap read_deep_map_argument(std::span<const std::byte> bytes, const std::string& file);
+/// A map to be drawn: of a deep map, what flat_map() shows.
+DepthMap read_map_or_flat_map(const std::string& file);
 
 }  // namespace fathom::app

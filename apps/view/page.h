@@ -23,11 +23,6 @@ struct ViewedMap {
   std::optional<DeepMap> deep;
 };
 
-/// What can be drawn of a deep map, with its names and texts: `samples`, the number of samples at
-/// each pixel; `Z`, `ZBack` and `id` of the first, the nearest; and `A`, the sum of their areas.
-/// Background as of rendered maps.
-DepthMap flat_map(const DeepMap& deep);
-
 /// Whether a server answers `probe?map=M&x=X&y=Y` beside the page.
 enum class Questions { none, probes };
 

@@ -26,6 +26,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
 #include "fathom/image/deep_files.h"
+#include "fathom/image/flat_deep_map.h"
 #include "fathom/image/map_formats.h"
 #include "fathom/reference/probe.h"
 #include "fathom/threads/threads.h"
@@ -61,7 +62,7 @@ std::vector<ViewedMap> read_viewed(const std::string& file) {
     viewed.name = file;
     if (is_deep_map(input.bytes())) {
       viewed.deep = read_deep_map_argument(input.bytes(), file);
-      viewed.map = view::flat_map(*viewed.deep);
+      viewed.map = flat_map(*viewed.deep);
     } else {
       viewed.map = read_map_argument(input.bytes(), file);
     }

@@ -260,7 +260,8 @@ TEST(OtherExr, DeepIsRefused) {
     file.writePixels(1);
   }
   EXPECT_EQ(refusal_of(stream.take()),
-            "map: deep images are not read as maps: expected scan lines or tiles");
+            "map: deep images are not read as maps, but by DeepMap.read in Python and by "
+            "read_deep_map in C++: expected scan lines or tiles");
 }
 
 TEST(OtherExr, CroppedAndSubsampledAreRefused) {

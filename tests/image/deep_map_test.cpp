@@ -12,9 +12,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <limits>
 
 #include "fathom/failures/errors.h"
 #include "fathom/image/deep_files.h"
+#include "fathom/image/flat_deep_map.h"
 
 namespace fathom {
 namespace {
@@ -30,6 +32,28 @@ DeepMap three_pixels() {
     map.samples.push_back({1 + x, 1.5F + x, 0xFFFFFF00 + k, 0.125F * (x + 1), 0.25F / (x + 1)});
   }
   return map;
+}
+
+TEST(FlatMap, HasTheNearestSampleAndSumsOfAreas) {
+  constexpr float none = std::numeric_limits<float>::infinity();
+  const DepthMap map = flat_map(three_pixels());
+  EXPECT_EQ(map.width, 3U);
+  EXPECT_EQ(map.height, 2U);
+  EXPECT_EQ(map.texts.at("fathom.camera"), "a camera");
+  const auto expect = [&map](const char* channel, const std::vector<float>& values) {
+    const auto* found = map.values<float>(channel);
+    ASSERT_NE(found, nullptr) << channel;
+    EXPECT_EQ(std::vector<float>(found->begin(), found->end()), values) << channel;
+  };
+  expect("samples", {0, 2, 1, 0, 0, 3});
+  expect("Z", {none, 1, 3, none, none, 4});
+  expect("ZBack", {none, 1.5F, 3.5F, none, none, 4.5F});
+  expect("A", {0, 0.375F, 0.375F, 0, 0, 0.5F + 0.625F + 0.75F});
+  const auto* ids = map.values<std::uint32_t>("id");
+  ASSERT_NE(ids, nullptr);
+  EXPECT_EQ(std::vector<std::uint32_t>(ids->begin(), ids->end()),
+            (std::vector<std::uint32_t>{no_surface, 0xFFFFFF00, 0xFFFFFF02, no_surface, no_surface,
+                                        0xFFFFFF03}));
 }
 
 class DeepMaps : public ::testing::TestWithParam<Compression> {

@@ -85,6 +85,12 @@ def test_deep_maps_are_read_back_bit_for_bit(spot, camera, tmp_path, compression
     assert (tmp_path / "again.exr").read_bytes() == (tmp_path / "deep.exr").read_bytes()
 
 
+def test_reading_a_deep_map_as_a_map_names_its_reader(spot, camera, tmp_path):
+    fathom.render_deep(spot, camera).write(tmp_path / "deep.exr")
+    with pytest.raises(fathom.InputError, match=r"DeepMap\.read in Python"):
+        fathom.read_map(tmp_path / "deep.exr")
+
+
 def test_files_that_are_no_deep_maps_are_refused(spot, camera, tmp_path):
     spot.render(camera).write(tmp_path / "flat.exr")
     (tmp_path / "text.exr").write_text("no")

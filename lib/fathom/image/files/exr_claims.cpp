@@ -87,7 +87,9 @@ class Claims {
     const std::uint32_t version = read_version();
     Attributes part = read_attributes();
     if ((version & flag_deep && !(version & flag_multipart)) || is_deep(part))
-      fail("deep images are not read as maps: expected scan lines or tiles");
+      fail(
+          "deep images are not read as maps, but by DeepMap.read in Python and by read_deep_map in "
+          "C++: expected scan lines or tiles");
     for (bool first = true; !part.empty(); first = false) {
       check_part(part, first ? bytes_of_a_pixel(attribute(part, "channels", 1)) : 0);
       if (!(version & flag_multipart)) break;
