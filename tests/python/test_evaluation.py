@@ -1,5 +1,7 @@
 """evaluate: plates whose distances are plain, and the figures of its maps by NumPy."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -24,8 +26,9 @@ def camera():
 def test_plates_are_as_far_apart_as_they_stand():
     found = fathom.evaluate(plates(2.25), plates(2), within=[0.25, 0.5], points=500)
     assert found.depth is None
-    assert found.accuracy == (500, 500, 0.25, 0.25, 0.25, 0.25, 0.25, 0.25, (0, 1), None, None)
+    assert found.accuracy == (500, 500, 0.25, 0.25, 0.25, 0.25, 0.25, 0.25, (0, 1), None, None, 0, 0)
     assert found.completeness == found.accuracy and found.f_scores == (0, 1)
+    assert found.overall == 0.25
 
 
 def test_only_what_is_seen_counts(camera):
@@ -63,6 +66,28 @@ def test_depths_agree_as_numpy_says(spot):
     assert depth.l1_of_truth_pixels == pytest.approx(np.mean(truth_pixels), rel=1e-12)
 
 
+def test_points_are_measured_from_arrays_and_files(tmp_path):
+    points = np.array([(0, 0, 2.5), (0, 0, 2.75), (1, 1, 4)], np.float32)
+    found = fathom.evaluate(points, plates(2), within=[0.6], max_distance=2, density=0.3, keep_points=True)
+    accuracy = found.accuracy
+    assert (accuracy.cloud_points, accuracy.points, accuracy.outliers) == (3, 2, 1)
+    assert accuracy.mean == 0.5 and accuracy.shares == (0.5,) and list(accuracy.distances) == [0.5, 2]
+    assert found.completeness.cloud_points == 0 and found.depth is None
+    assert found.overall == (0.5 + found.completeness.mean) / 2
+    file = tmp_path / "cloud.obj"
+    file.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in points))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        scene = fathom.Scene.read(file, clouds=True)
+    of_file = fathom.evaluate(scene, plates(2), within=[0.6], max_distance=2, density=0.3)
+    assert of_file.overall == found.overall and of_file.f_scores == found.f_scores
+    assert of_file.accuracy[:9] == accuracy[:9]
+    far = fathom.evaluate(points, points + 10, truth_density=5, max_distance=1)
+    assert far.completeness.points == 1 and far.overall is None
+    with pytest.warns(UserWarning, match="has no faces"):
+        fathom.Scene.read(file)
+
+
 def test_arguments_are_checked(camera):
     scene = plates(2)
     for wrong in (0, -1, float("inf"), float("nan")):
@@ -71,6 +96,19 @@ def test_arguments_are_checked(camera):
     for wrong in (0.5, "0.5"):
         with pytest.raises(TypeError, match="within: expected numbers"):
             fathom.evaluate(scene, scene, within=wrong)
+    for name in ("density", "truth_density", "max_distance"):
+        with pytest.raises(ValueError, match=f"{name}: expected a positive number"):
+            fathom.evaluate(scene, scene, **{name: 0})
+        with pytest.raises(TypeError, match=f"{name}: expected a number"):
+            fathom.evaluate(scene, scene, **{name: "1"})
+    with pytest.raises(fathom.UsageError, match="density: thins a point cloud; the reconstruction has faces"):
+        fathom.evaluate(scene, scene, density=1)
+    with pytest.raises(TypeError, match="truth: expected a Scene or an N×3 array, found 'scan.ply'; Scene.read"):
+        fathom.evaluate(scene, "scan.ply")
+    with pytest.raises(ValueError, match="reconstruction: expected shape N×3, found 4"):
+        fathom.evaluate(np.zeros(4), scene)
+    with pytest.raises(fathom.InputError, match="the reconstruction: has neither faces nor points"):
+        fathom.evaluate(np.zeros((0, 3)), scene)
     with pytest.raises(ValueError, match="points: expected 1 to"):
         fathom.evaluate(scene, scene, points=0)
     with pytest.raises(TypeError, match="cameras: expected a Camera or a sequence"):

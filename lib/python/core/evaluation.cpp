@@ -42,17 +42,22 @@ py::tuple tuple_of(const SurfaceDistances& d, bool keep_points) {
   const py::tuple arrays =
       keep_points ? arrays_of(d.measured) : py::make_tuple(py::none(), py::none());
   return py::make_tuple(d.points, d.seen, d.mean, d.rms, d.median, d.p90, d.p99, d.max,
-                        py::tuple(py::cast(d.shares)), arrays[0], arrays[1]);
+                        py::tuple(py::cast(d.shares)), arrays[0], arrays[1], d.cloud_points,
+                        d.outliers);
 }
 
 py::tuple evaluate_scenes(const SharedScene& made, const SharedScene& real,
                           const std::vector<Camera>& cameras, const std::vector<double>& within,
-                          std::uint32_t points, bool keep_points, const std::string& cull,
-                          int threads) {
+                          std::uint32_t points, std::optional<double> density,
+                          std::optional<double> truth_density, std::optional<double> max_distance,
+                          bool keep_points, const std::string& cull, int threads) {
   const std::shared_ptr<const Scene> reconstruction = made.scene, truth = real.scene;
   SurfaceComparisonOptions options;
   options.points = points;
   options.within = within;
+  options.density = density;
+  options.truth_density = truth_density;
+  options.max_distance = max_distance;
   options.keep_points = keep_points;
   options.cull = named_value("cull", all_culls, cull);
   options.threads = threads;
@@ -61,7 +66,7 @@ py::tuple evaluate_scenes(const SharedScene& made, const SharedScene& real,
   });
   return py::make_tuple(tuple_of(found.depth), tuple_of(found.surfaces.accuracy, keep_points),
                         tuple_of(found.surfaces.completeness, keep_points),
-                        py::tuple(py::cast(found.surfaces.f_scores)));
+                        py::tuple(py::cast(found.surfaces.f_scores)), found.surfaces.overall);
 }
 
 }  // namespace

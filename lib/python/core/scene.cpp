@@ -112,8 +112,10 @@ void add_object(SharedScene& shared, std::size_t mesh, const std::optional<Rows>
 }
 
 std::pair<SharedScene, Warnings> read(const std::vector<std::filesystem::path>& files,
-                                      const std::string& formats_program, int threads) {
+                                      const std::string& formats_program, int threads,
+                                      bool clouds) {
   ReadOptions options;
+  options.clouds = clouds;
   options.threads = threads;
   options.segments = true;
   options.attributes = true;  // normals, for channel Ns

@@ -179,14 +179,14 @@ def in_words(shape: tuple[int, ...]) -> str:
     return "×".join(map(str, shape)) if shape else "a single number"
 
 
-def vertices_of(value: object) -> Numbers:
+def vertices_of(value: object, name: str = "vertices") -> Numbers:
     """N×3 float64 numbers in C order, without a copy if possible. Values are not checked here: the engines check them."""
-    array = as_array("vertices", value)
+    array = as_array(name, value)
     if array.ndim != 2 or array.shape[1] != 3:
-        raise ValueError(f"vertices: expected shape N×3, found {in_words(array.shape)}")
+        raise ValueError(f"{name}: expected shape N×3, found {in_words(array.shape)}")
     if len(array) > most_rows:
-        raise ValueError(f"vertices: {len(array)} rows are more than {most_rows}")
-    return as_numbers("vertices", array)
+        raise ValueError(f"{name}: {len(array)} rows are more than {most_rows}")
+    return as_numbers(name, array)
 
 
 def faces_of(value: object, vertex_count: int) -> npt.NDArray[np.uint32]:

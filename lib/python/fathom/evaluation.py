@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from os import PathLike
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import _core
-from ._arguments import as_count, as_number, as_threads, camera_handle, culls, one_of, scene_handle
+from ._arguments import as_count, as_number, as_threads, camera_handle, culls, one_of, scene_handle, vertices_of
 from ._render import several_cameras
 from ._shown import repr_without_arrays
 from .camera import Camera
@@ -46,9 +47,9 @@ class Depth(NamedTuple):
 
 class Distances(NamedTuple):
     """Distances of points on one surface from the other surface, in scene units, each exact, rounded once; 0 if no
-    point is seen."""
+    point is seen. Either surface may be a point cloud."""
 
-    #: Points put on the surface, and points that a camera sees; only the latter count.
+    #: Points put on the surface or left in the cloud, and points that a camera sees; only the latter count.
     points: int
     seen: int
     mean: float
@@ -62,6 +63,10 @@ class Distances(NamedTuple):
     #: With `keep_points`, the points that count, (seen, 3), and their distances, (seen,); otherwise None.
     positions: npt.NDArray[np.float64] | None
     distances: npt.NDArray[np.float64] | None
+    #: Points of a point cloud before it was thinned; 0 for a surface.
+    cloud_points: int
+    #: Seen points at `max_distance` or more: left out of mean to max, but not of `shares`.
+    outliers: int
 
     def __repr__(self) -> str:
         return repr_without_arrays(self)
@@ -76,18 +81,27 @@ class Evaluation(NamedTuple):
     completeness: Distances
     #: For each threshold the harmonic mean of precision and recall.
     f_scores: tuple[float, ...]
+    #: The mean of both means, as in DTU's tables; None if no point is left on one side.
+    overall: float | None
 
 
-def evaluate(reconstruction: Scene, truth: Scene, cameras: Camera | Iterable[Camera] = (), *,
-             within: Iterable[float] = (), points: int = 200_000, keep_points: bool = False, cull: Cull = "none",
-             threads: int = 0) -> Evaluation:
+def evaluate(reconstruction: Scene | npt.ArrayLike, truth: Scene | npt.ArrayLike,
+             cameras: Camera | Iterable[Camera] = (), *, within: Iterable[float] = (), points: int = 200_000,
+             density: float | None = None, truth_density: float | None = None, max_distance: float | None = None,
+             keep_points: bool = False, cull: Cull = "none", threads: int = 0) -> Evaluation:
     """Compares a reconstructed surface with the true surface, in the same world and unit: Depth L1 and related figures
-    from exact depth maps of every camera, and distances of points on each surface from the other surface.
+    from exact depth maps of every camera, and distances of points on each surface from the other surface. Either side
+    may be a point cloud: an N×3 array, or a Scene with vertices and no faces.
 
     cameras      points count if a camera sees them on their own surface; without cameras all points count, and there are
-                 no depth figures
+                 no depth figures. Points of a cloud always count, and a cloud has no depth figures
     within       thresholds in scene units, for the fraction of points that are nearer
-    points       number of points on each surface, distributed by area; always the same points
+    points       number of points on each surface, distributed by area; always the same points. All points of a cloud
+                 are measured
+    density      thins the cloud `reconstruction` first: in its order, drops each point that is nearer than this to a
+                 point already kept
+    truth_density  thins the cloud `truth` in the same way
+    max_distance  points at this distance or more are outliers, which only `shares` count
     keep_points  return every point that counts, with its distance
 
     >>> import fathom
@@ -99,11 +113,39 @@ def evaluate(reconstruction: Scene, truth: Scene, cameras: Camera | Iterable[Cam
     >>> found = fathom.evaluate(scan, truth, camera, within=[0.5], points=1000)
     >>> found.depth.l1, found.accuracy.mean, found.f_scores
     (0.25, 0.25, (1.0,))
+    >>> fathom.evaluate([(0, 0, 2.5), (0, 0, 6)], truth, max_distance=1).accuracy.mean
+    0.5
     """
-    depth, accuracy, completeness, f_scores = _core.evaluate(
-        scene_handle(reconstruction), scene_handle(truth), _handles(cameras), _thresholds(within),
-        as_count("points", points, 1, 2**32 - 1), bool(keep_points), one_of("cull", cull, culls), as_threads(threads))
-    return Evaluation(None if depth is None else Depth(*depth), Distances(*accuracy), Distances(*completeness), f_scores)
+    depth, accuracy, completeness, f_scores, overall = _core.evaluate(
+        _side("reconstruction", reconstruction), _side("truth", truth), _handles(cameras), _thresholds(within),
+        as_count("points", points, 1, 2**32 - 1), _positive("density", density),
+        _positive("truth_density", truth_density), _positive("max_distance", max_distance), bool(keep_points),
+        one_of("cull", cull, culls), as_threads(threads))
+    return Evaluation(None if depth is None else Depth(*depth), Distances(*accuracy), Distances(*completeness),
+                      f_scores, overall)
+
+
+def _side(name: str, side: object) -> _core.Scene:
+    """A scene, or the points of a cloud as the vertices of a mesh without faces."""
+    if hasattr(side, "_handle"):
+        return scene_handle(side)
+    if isinstance(side, (str, bytes, PathLike)):
+        raise TypeError(f"{name}: expected a Scene or an N×3 array, found {side!r}; Scene.read() reads files")
+    import numpy as np
+
+    cloud = _core.Scene()
+    mesh = cloud.add_mesh(vertices_of(side, name), np.empty((0, 3), np.uint32))
+    cloud.add_object(mesh, None, name)
+    return cloud
+
+
+def _positive(name: str, value: object) -> float | None:
+    if value is None:
+        return None
+    number = as_number(name, value)
+    if not 0 < number < float("inf"):
+        raise ValueError(f"{name}: expected a positive number, found {value!r}")
+    return number
 
 
 def _handles(cameras: object) -> list[_core.Camera]:

@@ -78,10 +78,13 @@ class Scene:
         self._handle = _core.Scene()
 
     @classmethod
-    def read(cls, *files: Path, threads: int = 0) -> Scene:
+    def read(cls, *files: Path, threads: int = 0, clouds: bool = False) -> Scene:
         """Reads meshes (OBJ, PLY, STL, OFF, glTF/GLB; with the program fathom-formats also the
         formats of assimp) and scene files (JSON) into one scene, in the given order. Tolerated
-        faults are warnings; InputError names the file."""
+        faults are warnings; InputError names the file.
+
+        clouds  a file with vertices and without faces is a point cloud for evaluate(), and no reason for a warning
+        """
         if not files:
             raise TypeError("read: expected a file")
         scene = cls()
@@ -89,7 +92,7 @@ class Scene:
 
         paths = [path_of("files", file) for file in files]
         formats = shutil.which("fathom-formats") or ""
-        scene._handle, notes = _core.read_scene(paths, formats, as_threads(threads))
+        scene._handle, notes = _core.read_scene(paths, formats, as_threads(threads), bool(clouds))
         warn(notes, UserWarning)
         return scene
 
