@@ -4,11 +4,13 @@
 
 #include <array>
 #include <bit>
+#include <limits>
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
 
 #include "fathom/failures/errors.h"
+#include "fathom/text/parse_json.h"
 
 namespace fathom::view {
 namespace {
@@ -29,7 +31,7 @@ OrderedJson data_of(std::string_view page, const char* id) {
   const std::size_t at = page.find(beginning);
   if (at == std::string_view::npos) throw InputError(std::string("there is no ") + id);
   const std::string_view rest = page.substr(at + beginning.size());
-  return OrderedJson::parse(rest.substr(0, rest.find(end_of_data)));
+  return text::parse_json<OrderedJson>(rest.substr(0, rest.find(end_of_data)));
 }
 
 Bytes from_base64(const std::string& text) {
@@ -92,6 +94,15 @@ Samples<float> numbers_of(const Words& words) {
   return numbers;
 }
 
+std::uint32_t size_of(const OrderedJson& told, const char* side) {
+  const OrderedJson& pixels = told.at(side);
+  constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+  if (!pixels.is_number_unsigned() || pixels.get<std::uint64_t>() > most) {
+    throw InputError(std::string("its ") + side + " is no number of pixels");
+  }
+  return pixels.get<std::uint32_t>();
+}
+
 struct SceneMap {
   ViewedMap viewed;
   Words depths;
@@ -101,8 +112,8 @@ SceneMap exact_map(const std::string& scene, const OrderedJson& told, std::uint6
   SceneMap exact;
   DepthMap& map = exact.viewed.map;
   exact.viewed.name = scene + ": exact";
-  map.width = told.at("width").get<std::uint32_t>();
-  map.height = told.at("height").get<std::uint32_t>();
+  map.width = size_of(told, "width");
+  map.height = size_of(told, "height");
   constexpr std::uint64_t bytes_per_pixel = 24;  // words, then the channels made of them
   const std::uint64_t pixels = std::uint64_t{map.width} * map.height;
   if (pixels == 0 || pixels > bytes_left / bytes_per_pixel) {
