@@ -6,7 +6,7 @@
 #include "apps/dataset/dataset_command.h"
 #include "apps/dataset/views.h"
 #include "apps/options/camera_options.h"
-#include "apps/options/map_arguments.h"
+#include "apps/options/map_contents.h"
 #include "apps/options/output_names.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/values.h"
@@ -41,7 +41,7 @@ int run_maps(MapsArguments& arguments, const Console& console) {
       names_of_outputs("--name", arguments.render.output, views.cameras);
   for (const std::string& name : names) require_within_folder("--name", name);
   views.files.push_back({names, [](const auto& map, const auto& plan, const auto& name) {
-                           return encode_map(map, name, plan.format, plan.writing);
+                           return encode_planned(map, plan, name);
                          }});
   const StorageOptions& storage = arguments.render.storage;
   if (storage.png_sidecar) {
@@ -72,8 +72,14 @@ void add_maps_layout(Command& family) {
                  "Pattern of the file names below DIR; the suffix selects the format. {index:04} "
                  "is the camera's number, {name} its name, {stem} its name without folders and "
                  "suffix (default {stem}.exr, or {index:06}.exr if cameras have no names)");
-  command.option("--channels", "LIST", into(arguments->render.channels, parse_channels),
-                 "Channels, as for render (default Z,A in EXR and NPZ, Z in other formats)");
+  command.option(
+      "--channels", "LIST",
+      [arguments](const std::string& text) {
+        Contents contents = parse_contents(text);
+        arguments->render.channels = std::move(contents.channels);
+        arguments->render.is_mask = contents.is_mask;
+      },
+      "Channels, as for render (default Z,A in EXR and NPZ, Z in other formats), or mask");
   arguments->render.storage.add_to(command);
   command.option("--background", "D", into(arguments->render.storage.background, parse_background),
                  "Depth without a surface: inf (default), 0, nan or a number that no surface has "

@@ -60,6 +60,10 @@ std::string description_of(const Scene& scene, const MapPlan& plan) {
                   rendering.depth_encoding.scale, static_cast<int>(rendering.normals));
   text += fmt::format("format {} compression {}", static_cast<int>(plan.format),
                       static_cast<int>(plan.writing.compression));
+  if (plan.is_mask) text += " mask";
+  const NormalCoding& normals = plan.writing.normals;
+  if (normals.bits != 8) text += fmt::format(" bits {}", normals.bits);
+  if (normals.axes != NormalAxes::opencv) text += fmt::format(" axes {}", name_of(normals.axes));
   if (rendering.depth_encoding.beyond_is_none) text += " beyond none";
   if (plan.storage.background) text += fmt::format(" background {:a}", *plan.storage.background);
   for (const ChannelName& name : plan.storage.channel_names) {

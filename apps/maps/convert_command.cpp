@@ -10,23 +10,27 @@
 #include "apps/options/map_arguments.h"
 #include "apps/options/storage_options.h"
 #include "apps/shell/command.h"
+#include "apps/shell/console.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/values.h"
 #include "fathom/camera/camera.h"
 #include "fathom/failures/errors.h"
+#include "fathom/image/channel_names.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/png_files.h"
 #include "fathom/image/point_cloud.h"
 #include "fathom/image/surface.h"
+#include "fathom/text/counted.h"
 #include "fathom/text/small_letters.h"
 
 namespace fathom::app {
 namespace {
 
 struct ConvertArguments {
-  std::string map, output, camera, channel;
+  std::vector<std::string> maps;
+  std::string output, camera, channel;
   std::optional<DepthQuantity> from, to;
   std::optional<double> baseline, doffs;
   PointFrame frame = PointFrame::world;
@@ -51,28 +55,42 @@ std::optional<StereoRig> rig_of(const ConvertArguments& arguments) {
   return std::nullopt;
 }
 
-/// The one camera of a file, of the size of the map.
-Camera camera_in(const std::string& file, const DepthMap& map, const Console& console) {
-  const std::vector<Camera> cameras = read_camera_file(file, console);
-  if (cameras.size() != 1) {
-    throw UsageError(fmt::format("--camera: a path of {} cameras; a map has one", cameras.size()));
-  }
-  if (cameras[0].width != map.width || cameras[0].height != map.height) {
-    throw InputError(fmt::format("{}: a camera of {}x{} pixels, but the map has {}x{}", file,
-                                 cameras[0].width, cameras[0].height, map.width, map.height));
-  }
-  return cameras[0];
+/// The cameras of the camera file, one for each map; none if no file is given.
+std::vector<Camera> cameras_in_file(const ConvertArguments& arguments, const Console& console) {
+  if (arguments.camera.empty()) return {};
+  std::vector<Camera> cameras = read_camera_file(arguments.camera, console);
+  const std::size_t maps = arguments.maps.size();
+  if (cameras.size() == maps) return cameras;
+  throw UsageError(
+      maps == 1 ? fmt::format("--camera: a path of {} cameras; a map has one", cameras.size())
+                : fmt::format("--camera: {}, but there are {} maps",
+                              text::counted(cameras.size(), "camera"), maps));
 }
 
-/// The camera of the camera file, if given, else the map's camera.
+/// The camera of the file, of the size of the map, or else the map's own.
+Camera camera_for(const DepthMap& map, const ConvertArguments& arguments,
+                  const std::vector<Camera>& in_file, std::size_t number) {
+  const std::string& name = arguments.maps[number];
+  if (in_file.empty()) {
+    const std::optional<Camera> camera = camera_of(map, name);
+    if (!camera) throw InputError(name + ": carries no camera; expected --camera FILE");
+    return *camera;
+  }
+  const Camera& camera = in_file[number];
+  if (camera.width != map.width || camera.height != map.height) {
+    throw InputError(fmt::format("{}: a camera of {}x{} pixels, but the map has {}x{}",
+                                 arguments.camera, camera.width, camera.height, map.width,
+                                 map.height));
+  }
+  return camera;
+}
+
 Camera camera_for(const DepthMap& map, const ConvertArguments& arguments, const Console& console) {
-  if (!arguments.camera.empty()) return camera_in(arguments.camera, map, console);
-  const std::optional<Camera> camera = camera_of(map, arguments.map);
-  if (!camera) throw InputError(arguments.map + ": carries no camera; expected --camera FILE");
-  return *camera;
+  return camera_for(map, arguments, cameras_in_file(arguments, console), 0);
 }
 
-int write_points(const DepthMap& map, const ConvertArguments& arguments, const Console& console) {
+/// The cloud of the points of all maps.
+int write_points(const ConvertArguments& arguments, const Console& console) {
   if (arguments.to || !arguments.channel.empty()) {
     throw UsageError("--to and --channel do not go with a point cloud");
   }
@@ -83,11 +101,36 @@ int write_points(const DepthMap& map, const ConvertArguments& arguments, const C
   if (arguments.storage.background || !arguments.storage.channel_names.empty()) {
     throw UsageError("--background and --channel-name do not go with a point cloud");
   }
-  const PointCloudOptions options{.frame = arguments.frame,
-                                  .binary64 = arguments.storage.dtype != StoredType::binary32};
-  const Camera camera = camera_for(map, arguments, console);
+  const std::size_t maps = arguments.maps.size();
+  if (maps > 1 && arguments.frame == PointFrame::camera) {
+    throw UsageError("--frame camera is for the cloud of one map: each has a frame of its own");
+  }
+  PointCloud cloud({.frame = arguments.frame,
+                    .binary64 = arguments.storage.dtype != StoredType::binary32,
+                    .numbers_views = maps > 1});
+  const std::vector<Camera> in_file = cameras_in_file(arguments, console);
   OutputFile output(arguments.output);
-  output.write([&](const auto& path) { write_point_cloud(map, camera, path, options); });
+  Progress progress(console, "converting");
+  const auto report = progress.reporter();
+  for (std::size_t i = 0; i < maps; ++i) {
+    const DepthMap map = read_map_argument(arguments.maps[i]);
+    cloud.add(map, camera_for(map, arguments, in_file, i), arguments.maps[i]);
+    if (report) report(static_cast<double>(i + 1) / static_cast<double>(maps));
+  }
+  output.write(cloud.encode());
+  output.commit();
+  return done;
+}
+
+/// The mask of a map without a channel of this name.
+int write_mask(const DepthMap& map, const ConvertArguments& arguments, MapFormat format) {
+  if (format != MapFormat::png) {
+    throw UsageError(arguments.output +
+                     ": a mask is an 8-bit PNG, 255 where a surface is; expected .png");
+  }
+  if (arguments.to) throw UsageError("--to does not go with a mask");
+  OutputFile output(arguments.output);
+  output.write(encode_mask(map, arguments.output));
   output.commit();
   return done;
 }
@@ -145,6 +188,9 @@ DepthMap stored(DepthMap map, const ConvertArguments& arguments, MapFormat forma
     DepthMap parts = only_parts(map, arguments.channel);
     if (!parts.channels.empty()) return parts;
   }
+  // The only channel may have parts: normals of a PNG.
+  const bool is_one_of_parts = map.channels.size() > 1 && names_of_channels(map).size() == 1;
+  if (arguments.channel.empty() && is_one_of_parts) return map;
   const ImageChannel* channel = chosen_channel(map, arguments.channel);
   // Identifiers, normals and so on are not depths: they keep their type.
   if (channel != nullptr && kind_of(*channel) != ChannelKind::depth) return only(map, *channel);
@@ -190,16 +236,20 @@ void write_outputs(const DepthMap& map, const ConvertArguments& arguments, MapFo
 }
 
 int run_convert(const ConvertArguments& arguments, const Console& console) {
-  if (ends_with_ply(arguments.output)) {
-    return write_points(read_map_argument(arguments.map), arguments, console);
+  if (ends_with_ply(arguments.output)) return write_points(arguments, console);
+  if (arguments.maps.size() > 1) {
+    throw UsageError(arguments.output + ": several maps make a point cloud; expected .ply");
   }
   const MapFormat format = arguments.storage.format_of(arguments.output);
+  DepthMap read = read_map_argument(arguments.maps.front());
+  if (arguments.channel == "mask" && read.find("mask") == nullptr) {
+    return write_mask(read, arguments, format);
+  }
   StorageOptions dress = arguments.storage;
   // A conversion has already set the background, because it needs the background of its input.
   if (arguments.to) dress.background.reset();
   const DepthMap map = dress.dressed(
-      stored(converted(read_map_argument(arguments.map), arguments, console), arguments, format),
-      arguments.output);
+      stored(converted(std::move(read), arguments, console), arguments, format), arguments.output);
   write_outputs(map, arguments, format, write_options(map, arguments, format, console));
   warn_of_codes_beyond(map, arguments.output, console);
   return done;
@@ -217,25 +267,35 @@ void add_convert(Command& program) {
       "  fathom convert spot.exr --background 0 --channel-name Z=Y -o for-opencv.exr\n"
       "  fathom convert spot.exr -o spot.npz             # every channel, for NumPy\n"
       "  fathom convert spot.exr -o points.ply\n"
+      "  fathom convert views/*.exr -o cloud.ply         # all points of all maps\n"
+      "  fathom convert spot.exr --channel N -o normals.png\n"
+      "  fathom convert spot.exr --channel mask -o mask.png\n"
       "  fathom convert plan.exr -o plan.tif             # GeoTIFF, if seen from above\n"
       "  fathom convert a.jpg.geometric.bin -o a.exr     # a dense map of COLMAP\n"
       "\nConversions start from the stored values, which are rounded already; 'fathom render "
       "--channels\n"
       "distance' gives the exact ray distance, and render to .png or .npy rounds once.");
-  command.argument("MAP", arguments->map, "Map to convert (" + names_of_readable_maps() + ")")
+  command
+      .arguments("MAP", arguments->maps,
+                 "Map to convert (" + names_of_readable_maps() +
+                     "); several make one point cloud of all their points")
       .required();
   add_output_option(command, "FILE", arguments->output,
                     "Write this map (" + suffixes_of_maps() +
                         "; .bin is for COLMAP, .tif for GIS) or point cloud (.ply)")
       .required();
-  command.option("--channel", "NAME", arguments->channel,
-                 "Channel to convert (default Z, or the only channel)");
+  command.option(
+      "--channel", "NAME", arguments->channel,
+      "Channel to convert (default Z, or the only channel), or mask: 255 where a surface "
+      "is, as 8-bit PNG");
   command.option("--to", "NAME", into(arguments->to, parse_quantity),
                  "Convert to Z (planar depth), distance (along the ray) or disparity");
   command.option("--from", "NAME", into(arguments->from, parse_quantity),
                  "Quantity that the map holds: Z (default), distance or disparity");
-  command.option("--camera", "FILE", arguments->camera,
-                 "Camera file, if the map does not contain its camera");
+  command.option(
+      "--camera", "FILE", arguments->camera,
+      "Camera file, if the map does not contain its camera; of several maps, a camera for "
+      "each");
   command.option("--baseline", "B", into(arguments->baseline, parse_number),
                  "Baseline of the stereo pair, for disparity");
   command.option("--doffs", "D", into(arguments->doffs, parse_number),

@@ -57,7 +57,8 @@ const char* type_name(std::uint32_t) {
 /// 0, also at pixels whose centre no surface covers.
 std::vector<std::uint8_t> pixels_with_surface(const DepthMap& map, const ImageChannel& channel) {
   const auto* coverage = map.values<float>(channel.name);
-  if (coverage == nullptr || (channel.name != "A" && channel.name != "Asampled"))
+  if (coverage == nullptr ||
+      (channel.name != "A" && channel.name != "Asampled" && channel.name != "mask"))
     return surface_mask(map, channel);
   std::vector<std::uint8_t> mask(coverage->size());
   std::ranges::transform(*coverage, mask.begin(), [](float value) { return value != 0; });

@@ -163,14 +163,16 @@ int render_maps(const JobTogether& job, const std::vector<Camera>& cameras,
 
 }  // namespace
 
-int render_together(const MpiArguments& arguments, const Console& for_all) {
+int render_together(const MpiArguments& given, const Console& for_all) {
   const Ranks ranks;
+  MpiArguments arguments = given;
   const RenderArguments& render = arguments.render;
   Console console = for_all;
   console.quiet = console.quiet || !ranks.is_first();
 
   MapPlan plan;
   together(ranks, [&] {
+    arguments.render = given.render.of_only_output("fathom-mpi");
     refuse_what_is_missing(render);
     if (!render.deep) plan = plan_maps(render);
   });

@@ -26,7 +26,7 @@ struct Part {
 
 constexpr const char* fields =
     "the fields are {index}, {index:04} with leading zeros, {name} and {stem}, and {{ stands for a "
-    "brace";
+    "brace; -o mask= also has {object}";
 
 /// The field between two braces. Fails with UsageError for an unknown field.
 Part field_named(const char* option, const std::string& field) {

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <limits>
@@ -31,6 +32,14 @@ bool parse_beyond(const std::string& text) {
 
 StoredType parse_dtype(const std::string& text) {
   return parse_enumerator(text, std::array{StoredType::binary32, StoredType::binary64});
+}
+
+int parse_bits(const std::string& text) {
+  return parse_word<int>(text, {{"8", 8}, {"16", 16}});
+}
+
+NormalAxes parse_axes(const std::string& text) {
+  return parse_enumerator(text, all_normal_axes);
 }
 
 /// "Z=Y,distance=D"
@@ -63,6 +72,11 @@ void StorageOptions::add_to(Command& command) {
   add_beyond_to(command);
   command.flag("--png-sidecar", png_sidecar,
                "Write a JSON file next to a PNG that states the meaning of its codes");
+  command.option("--normal-bits", "N", into(normal_bits, parse_bits),
+                 "Bits of each colour of a PNG of normals: 8 (default) or 16");
+  command.option("--normal-axes", "NAME", into(normal_axes, parse_axes),
+                 "Axes of channel Nc in a PNG: opencv (default; x right, y down, z forward) or "
+                 "opengl (x right, y up, z backward)");
   command.option("--dtype", "NAME", into(dtype, parse_dtype),
                  "Number type of an NPY or NPZ: float32 (default) or float64");
   command.option("--channel-name", "NAME=AS", into(channel_names, parse_channel_names),
@@ -105,8 +119,52 @@ void StorageOptions::check_png_options(const std::string& target, MapFormat form
   const char* given = png_scale            ? "--png-scale"
                       : png_beyond_is_none ? "--png-beyond"
                       : png_sidecar        ? "--png-sidecar"
+                      : normal_bits        ? "--normal-bits"
+                      : normal_axes        ? "--normal-axes"
                                            : nullptr;
   if (given != nullptr) throw UsageError(std::string(given) + " is for .png, not for " + target);
+}
+
+StorageOptions StorageOptions::fitting(const std::string& target) const {
+  StorageOptions fit = *this;
+  const std::optional<MapFormat> format = map_format_of(target);
+  if (!format) return fit;
+  if (*format != MapFormat::exr) fit.compression.reset();
+  if (*format != MapFormat::png) {
+    fit.png_scale.reset();
+    fit.png_beyond_is_none.reset();
+    fit.png_sidecar = false;
+    fit.normal_bits.reset();
+    fit.normal_axes.reset();
+  }
+  if (*format != MapFormat::npy && *format != MapFormat::npz) fit.dtype.reset();
+  if (!keeps_all_channels(*format)) fit.channel_names.clear();
+  if (has_zero_for_none(*format)) fit.background.reset();
+  return fit;
+}
+
+void StorageOptions::require_effect(const std::vector<std::string>& targets) const {
+  std::array<StorageOptions, 8> alone;
+  alone[0].compression = compression;
+  alone[1].png_scale = png_scale;
+  alone[2].png_beyond_is_none = png_beyond_is_none;
+  alone[3].png_sidecar = png_sidecar;
+  alone[4].dtype = dtype;
+  alone[5].channel_names = channel_names;
+  alone[6].normal_bits = normal_bits;
+  alone[7].normal_axes = normal_axes;
+  for (const StorageOptions& option : alone) {
+    const auto takes = [&](const std::string& target) {
+      try {
+        (void)option.format_of(target);
+        return true;
+      } catch (const UsageError&) {
+        return false;
+      }
+    };
+    // The error of the first is that of a single output.
+    if (std::ranges::none_of(targets, takes)) (void)option.format_of(targets.front());
+  }
 }
 
 DepthEncoding StorageOptions::encoding_for(MapFormat format) const {
@@ -151,6 +209,8 @@ WriteOptions StorageOptions::write_options(int threads) const {
   WriteOptions options;
   options.threads = threads;
   options.compression = compression.value_or(options.compression);
+  options.normals.bits = normal_bits.value_or(options.normals.bits);
+  options.normals.axes = normal_axes.value_or(options.normals.axes);
   return options;
 }
 

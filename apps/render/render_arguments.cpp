@@ -24,6 +24,10 @@ EngineName parse_engine(const std::string& text) {
                                        {"pipeline", EngineName::pipeline}});
 }
 
+bool has_normals(Channel channel) {
+  return description_of(channel).kind == ChannelKind::direction;
+}
+
 /// "1000" or "all", the greatest number.
 std::uint64_t parse_pixels(const std::string& text) {
   constexpr auto all = std::numeric_limits<std::uint64_t>::max();
@@ -65,8 +69,14 @@ void add_camera(Command& command, RenderArguments& arguments) {
 void add_contents(Command& command, RenderArguments& arguments) {
   command.begin_group("Channels and engine");
   command.option(
-      "--channels", "LIST", into(arguments.channels, parse_channels),
-      "Channels of the map, from " + joined(names_of_channels(), ", ") +
+      "--channels", "LIST",
+      [&arguments](const std::string& text) {
+        Contents contents = parse_contents(text);
+        arguments.channels = std::move(contents.channels);
+        arguments.is_mask = contents.is_mask;
+      },
+      "Channels of the map, from " + joined(names_of_channels(), ", ") + "; also " +
+          names_of_contents() +
           " (default Z,A in EXR and NPZ; Z in other formats and with --engine pipeline)");
   command.flag(
       "--deep", arguments.deep,
@@ -141,12 +151,18 @@ void RenderArguments::add_to(Command& command) {
 }
 
 void RenderArguments::add_output(Command& command) {
-  add_output_option(
-      command, "FILE", output,
+  Option option = add_output_options(
+      command, "FILE",
+      [this](const std::vector<std::string>& texts) {
+        outputs.clear();
+        for (const std::string& text : texts) outputs.push_back(parse_output(text));
+        output = outputs.front().pattern;
+      },
       "Write the map here; the suffix selects the format: .exr, .pfm, .png (16 bit), .npy, .npz, "
       ".bin (COLMAP) or .tif (GeoTIFF, for cameras that look straight down). Missing folders are "
-      "created")
-      .required();
+      "created. NAME=FILE selects the contents, as --channels does; repeat the option for several "
+      "files: -o depth=z.png -o mask=m.png -o normal=n.png");
+  option.required();
 }
 
 /// A single value is the background of the map; a colour is the background of the picture.
@@ -179,7 +195,11 @@ void RenderArguments::refuse_pipeline_options() const {
     if (option.name() != "--normals") {
       throw UsageError(option.name() + " is for --engine pipeline");
     }
-    if (!channels || std::ranges::count(*channels, Channel::Ns) == 0) {
+    const auto names_ns = [](const OutputArgument& each) {
+      return each.contents && std::ranges::count(each.contents->channels, Channel::Ns) > 0;
+    };
+    const bool has_ns = channels && std::ranges::count(*channels, Channel::Ns) > 0;
+    if (!has_ns && std::ranges::none_of(outputs, names_ns)) {
       throw UsageError("--normals is for channel Ns and for --engine pipeline");
     }
   }
@@ -188,6 +208,54 @@ void RenderArguments::refuse_pipeline_options() const {
 std::vector<MatteKind> RenderArguments::mattes() const {
   if (!mattes_by.empty() || !cryptomatte) return mattes_by;
   return {std::nullopt};
+}
+
+std::vector<std::string> RenderArguments::patterns() const {
+  if (outputs.empty()) return {output};
+  std::vector<std::string> all;
+  for (const OutputArgument& each : outputs) all.push_back(each.pattern);
+  return all;
+}
+
+RenderArguments RenderArguments::of_output(std::size_t number) const {
+  RenderArguments only = *this;
+  if (outputs.empty()) return only;
+  const OutputArgument& chosen = outputs[number];
+  only.outputs = {{std::nullopt, chosen.pattern}};
+  only.output = chosen.pattern;
+  if (chosen.contents) {
+    only.channels = chosen.contents->channels;
+    only.is_mask = chosen.contents->is_mask;
+    only.object = chosen.contents->object;
+  }
+  if (outputs.size() == 1) {
+    if (chosen.contents && channels) {
+      throw UsageError("--channels is for an -o without names; this one is NAME=FILE");
+    }
+    return only;
+  }
+  only.storage = storage.fitting(chosen.pattern);
+  const bool is_normal = only.channels && std::ranges::any_of(*only.channels, has_normals);
+  if (is_normal || only.is_mask) only.storage.png_sidecar = false;
+  if (!is_normal) only.storage.normal_bits.reset();
+  if (only.channels != std::vector{Channel::Nc}) only.storage.normal_axes.reset();
+  if (!chosen.contents) return only;
+  const auto is_elsewhere = [&](const ChannelName& name) {
+    return std::ranges::none_of(*only.channels, [&](Channel channel) {
+      return std::ranges::count(part_names(channel), name.channel) > 0;
+    });
+  };
+  std::erase_if(only.storage.channel_names, is_elsewhere);
+  return only;
+}
+
+RenderArguments RenderArguments::of_only_output(const std::string& writer) const {
+  if (outputs.size() > 1) {
+    throw UsageError("-o: " + writer + " writes a single map, without NAME=");
+  }
+  RenderArguments only = of_output(0);
+  if (only.is_mask) throw UsageError("mask is for the exact engines of fathom, not for " + writer);
+  return only;
 }
 
 void add_render(Command& program, const Render& by_exact_engine, const Render& by_pipeline) {
@@ -203,6 +271,8 @@ void add_render(Command& program, const Render& by_exact_engine, const Render& b
       "  fathom render scan.ply --engine fast --verify 1000 -o scan.exr\n"
       "  fathom render room.json --deep -o room.deep.exr\n"
       "  fathom render spot.obj --camera path.json -o 'view-{index:04}.exr'\n"
+      "  fathom render spot.obj --camera path.json --scale 0.5 -o 'depth=z/{stem}.png' \\\n"
+      "    -o 'mask=m/{stem}.png' -o 'normal=n/{stem}.png'\n"
       "  fathom render spot.obj --near 0.1 --far 100 --depth-format unorm16 \\\n"
       "    --against-exact -o stored.exr\n"
       "  fathom render spot.obj --engine pipeline --shading phong --antialias msaa:4 \\\n"

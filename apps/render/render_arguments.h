@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/options/camera_options.h"
+#include "apps/options/map_contents.h"
 #include "apps/options/pipeline_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/options/storage_options.h"
@@ -47,11 +48,18 @@ struct RenderArguments {
   EngineName engine = EngineName::fast;
   Cull cull = Cull::none;
   std::optional<std::vector<Channel>> channels;
+  /// Whether the map is written as the mask of its one channel.
+  bool is_mask = false;
+  /// The mask is that of one object.
+  std::optional<std::uint32_t> object;
   std::optional<SamplePattern> samples;
   std::optional<std::uint64_t> verified_pixels;
   bool stream = false, deep = false, cryptomatte = false;
   std::vector<MatteKind> mattes_by;
-  /// Names of files; empty: not asked for. "-" is standard output for the second line.
+  /// Each -o; empty where a command has only `output`.
+  std::vector<OutputArgument> outputs;
+  /// Names of files; empty: not asked for. "-" is standard output for the second line. `output` is
+  /// the pattern of the first -o.
   std::string output, image;
   std::string save_camera, statistics;
 
@@ -60,6 +68,13 @@ struct RenderArguments {
   void refuse_pipeline_options() const;
   /// The requested layers of Cryptomatte.
   [[nodiscard]] std::vector<MatteKind> mattes() const;
+  /// The patterns of all outputs.
+  [[nodiscard]] std::vector<std::string> patterns() const;
+  /// The arguments as if this output were the only one, with the options that its format has.
+  /// Fails    UsageError where both the output and --channels name channels.
+  [[nodiscard]] RenderArguments of_output(std::size_t number) const;
+  /// The same, for engines that write a single map. Fails with UsageError if there are several.
+  [[nodiscard]] RenderArguments of_only_output(const std::string& writer) const;
 
  private:
   void add_output(Command& command);

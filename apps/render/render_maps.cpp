@@ -15,6 +15,7 @@
 #include "fathom/camera/camera.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/failures/errors.h"
+#include "fathom/files/file_bytes.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/image/png_files.h"
@@ -97,11 +98,39 @@ Rendered RenderInput::render(const Camera& camera, const RenderOptions& options,
              : fathom::render(scene_, camera, options, context);
 }
 
-/// Makes the map of a camera, checks it if requested, and writes it.
-MapReport make_map(const MapPlan& plan, const RenderInput& scene, const MotionOptions& motion,
+/// What an output has of the map of its pass.
+DepthMap part_for(const OutputPlan& output, const DepthMap& map) {
+  DepthMap part = map;
+  part.channels.clear();
+  for (const Channel channel : output.plan.rendering.channels) {
+    for (const std::string& name : part_names(channel)) part.channels.push_back(*map.find(name));
+  }
+  if (output.plan.rendering.depth_encoding.type != DepthEncoding::Type::scaled_unorm16) {
+    part.png_scale.reset();
+    part.codes_beyond.reset();
+  }
+  return part;
+}
+
+/// Writes the file of an output, and the description of its codes if requested.
+void write_output(const OutputPlan& output, DepthMap map, RenderOutputs& outputs,
+                  std::size_t camera, const Console& console) {
+  const std::string& name = outputs.map_name(camera, output.number);
+  const MapPlan& plan = output.plan;
+  map = plan.storage.dressed(std::move(map), name, std::numeric_limits<double>::infinity());
+  outputs.map(camera, output.number).write([&](const auto& path) {
+    files::write_file(path, encode_planned(map, plan, name));
+  });
+  if (plan.storage.png_sidecar) outputs.sidecar(camera, output.number).write(png_sidecar(map));
+  warn_of_codes_beyond(map, name, console);
+}
+
+/// Makes the map of a camera, checks it if requested, and writes the files of the pass.
+MapReport make_map(const RenderPass& pass, const RenderInput& scene, const MotionOptions& motion,
                    const Camera& camera, RenderOutputs& outputs, std::size_t number,
                    const RenderContext& context, const Console& console) {
-  const std::string& name = outputs.map_name(number);
+  const MapPlan& plan = pass.plan;
+  const std::string& name = outputs.map_name(number, pass.outputs.front().number);
   MapReport report{.map = name, .engine = plan.rendering.engine};
   const RenderOptions& options = plan.rendering;
   Stopwatch stopwatch;
@@ -122,51 +151,98 @@ MapReport make_map(const MapPlan& plan, const RenderInput& scene, const MotionOp
   add_planned(map, plan, name, {scene.triangles(), camera, options, render_again, mattes}, report,
               console);
   stopwatch.lap();
-  map = plan.storage.dressed(std::move(map), name, std::numeric_limits<double>::infinity());
-  outputs.map(number).write(
-      [&](const auto& path) { write_map(map, path, plan.format, plan.writing); });
-  if (plan.storage.png_sidecar) outputs.sidecar(number).write(png_sidecar(map));
-  warn_of_codes_beyond(map, name, console);
+  if (pass.outputs.size() == 1) {
+    write_output(pass.outputs.front(), std::move(map), outputs, number, console);
+  } else {
+    for (const OutputPlan& output : pass.outputs) {
+      write_output(output, part_for(output, map), outputs, number, console);
+    }
+  }
   report.seconds.write = stopwatch.lap();
   return report;
 }
 
-int render_maps(const RenderArguments& arguments, const MapPlan& plan, const Console& console) {
-  const ThreadLimit limit(plan.rendering.threads);
+/// Channels of all passes, each once.
+std::vector<Channel> channels_of(const std::vector<RenderPass>& passes) {
+  std::vector<Channel> channels;
+  for (const RenderPass& pass : passes) {
+    for (const Channel channel : pass.plan.rendering.channels) {
+      if (std::ranges::count(channels, channel) == 0) channels.push_back(channel);
+    }
+  }
+  return channels;
+}
+
+void check_passes(const std::vector<Camera>& cameras, const std::vector<RenderPass>& passes,
+                  const std::vector<std::string>& patterns) {
+  for (const RenderPass& pass : passes) {
+    check_cameras(cameras, pass.plan, patterns[pass.outputs.front().number]);
+    if (pass.outputs.size() == 1) continue;
+    for (const OutputPlan& output : pass.outputs) {
+      check_cameras(cameras, output.plan, patterns[output.number]);
+    }
+  }
+}
+
+/// The hint for the first output that has one.
+std::string hint_of(const std::vector<RenderPass>& passes, const RenderOutputs& outputs) {
+  for (const RenderPass& pass : passes) {
+    for (const OutputPlan& output : pass.outputs) {
+      const std::string& name = outputs.map_name(0, output.number);
+      if (std::string hint = hint_for_first_exr(name, output.plan); !hint.empty()) return hint;
+    }
+  }
+  return "";
+}
+
+int render_maps(RenderArguments arguments, const Console& console) {
+  std::vector<RenderPass> passes = plan_passes(arguments);
+  const ThreadLimit limit(passes.front().plan.rendering.threads);
   Stopwatch stopwatch;
   const auto place = arguments.stream ? RenderInput::Place::files : RenderInput::Place::memory;
+  const auto any = [&](const auto& needs) {
+    return std::ranges::any_of(passes, [&](const RenderPass& pass) { return needs(pass.plan); });
+  };
   RenderInput scene(arguments.scene, place,
-                    {.segments = plan.needs_segments(), .normals = plan.needs_normals()}, console);
+                    {.segments = any([](const MapPlan& plan) { return plan.needs_segments(); }),
+                     .normals = any([](const MapPlan& plan) { return plan.needs_normals(); })},
+                    console);
   const double seconds_reading = stopwatch.lap();
+  arguments.outputs = with_objects(arguments.outputs, scene.outline().objects.size());
+  passes = plan_passes(arguments);
   const std::vector<Camera> cameras = arguments.camera.get(scene.outline(), console);
   scene.place(arguments.motion);
-  warn_of_missing_segments(scene.triangles(), plan.rendering.channels, console);
-  check_cameras(cameras, plan, arguments.output);
+  warn_of_missing_segments(scene.triangles(), channels_of(passes), console);
+  check_passes(cameras, passes, arguments.patterns());
   RenderOutputs outputs(arguments, cameras);
   outputs.write_cameras(to_json(cameras) + "\n");
+  const std::string hint = console.shows_progress() ? hint_of(passes, outputs) : "";
 
   RenderMemory memory;
   // Files are read to keep memory small.
-  RenderMemory* const kept = cameras.size() > 1 && !arguments.stream ? &memory : nullptr;
+  const std::size_t maps = cameras.size() * passes.size();
+  RenderMemory* const kept = maps > 1 && !arguments.stream ? &memory : nullptr;
   std::vector<MapReport> reports;
   bool all_agree = true;
   CameraWarnings warnings;
   {
     Progress progress(console, "rendering");
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-      reports.push_back(make_map(plan, scene, arguments.motion, cameras[i], outputs, i,
-                                 {.kept = kept, .progress = progress.reporter(i, cameras.size())},
-                                 console));
+    for (std::size_t k = 0; k < maps; ++k) {
+      const std::size_t i = k / passes.size(), pass = k % passes.size();
+      reports.push_back(make_map(passes[pass], scene, arguments.motion, cameras[i], outputs, i,
+                                 {.kept = kept, .progress = progress.reporter(k, maps)}, console));
       MapReport& report = reports.back();
       report.seconds.read = seconds_reading;
+      all_agree = all_agree && (!report.verification || report.verification->agrees());
+      if (pass != 0) continue;
       if (i == 0) warn_of(report.statistics, console);
       warnings.note(scene.outline(), cameras[i], report.statistics.pixels_with_surface);
-      all_agree = all_agree && (!report.verification || report.verification->agrees());
     }
   }
   warnings.tell(console);
   outputs.write_statistics(as_json(reports));
   outputs.commit();
+  if (!hint.empty()) console.note(hint);
   return all_agree ? done : answer_is_no;
 }
 
@@ -200,8 +276,11 @@ int render_deep_maps(const RenderArguments& arguments, const DeepMapPlan& plan,
 }  // namespace
 
 int render_exactly(const RenderArguments& arguments, const Console& console) {
+  if (arguments.deep && arguments.patterns().size() > 1) {
+    throw UsageError("--deep is for a single -o");
+  }
   return arguments.deep ? render_deep_maps(arguments, plan_deep_maps(arguments), console)
-                        : render_maps(arguments, plan_maps(arguments), console);
+                        : render_maps(arguments, console);
 }
 
 }  // namespace fathom::app

@@ -8,18 +8,25 @@
 
 namespace fathom::app {
 
-/// The outputs of `render`: for each camera a map and, if requested, a picture and a description of
-/// the codes; the cameras; the statistics. All are opened before the work and published together
+/// The outputs of `render`: for each camera the file of each -o and, if requested, a picture and a
+/// description of the codes of each PNG; the cameras; the statistics. All are opened before the work and published together
 /// when every file is written.
 class RenderOutputs {
  public:
   /// Fails    UsageError where the names do not fit the number of cameras; as OutputFile.
   RenderOutputs(const RenderArguments& arguments, const std::vector<Camera>& cameras);
 
-  [[nodiscard]] const std::string& map_name(std::size_t camera) const { return names_[camera]; }
-  [[nodiscard]] const OutputFile& map(std::size_t camera) const { return maps_[camera]; }
+  /// `number` counts the -o.
+  [[nodiscard]] const std::string& map_name(std::size_t camera, std::size_t number = 0) const {
+    return maps_[number].names[camera];
+  }
+  [[nodiscard]] const OutputFile& map(std::size_t camera, std::size_t number = 0) const {
+    return maps_[number].files[camera];
+  }
+  [[nodiscard]] const OutputFile& sidecar(std::size_t camera, std::size_t number = 0) const {
+    return maps_[number].sidecars[camera];
+  }
   [[nodiscard]] const OutputFile& picture(std::size_t camera) const { return pictures_[camera]; }
-  [[nodiscard]] const OutputFile& sidecar(std::size_t camera) const { return sidecars_[camera]; }
 
   void write_cameras(const std::string& json) { cameras_.write(json); }
   void write_statistics(const std::string& json) { statistics_.write(json); }
@@ -28,8 +35,14 @@ class RenderOutputs {
   void commit();
 
  private:
-  std::vector<std::string> names_;
-  std::vector<OutputFile> maps_, pictures_, sidecars_;
+  /// The files of one -o, for each camera.
+  struct Maps {
+    std::vector<std::string> names;
+    std::vector<OutputFile> files, sidecars;
+  };
+
+  std::vector<Maps> maps_;
+  std::vector<OutputFile> pictures_;
   TextOutput cameras_, statistics_;
 };
 

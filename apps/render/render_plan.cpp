@@ -10,6 +10,7 @@
 #include "fathom/depth_buffer/depth_buffer.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/deep_map.h"
+#include "fathom/image/png_files.h"
 #include "fathom/rendering/segment_channels.h"
 
 namespace fathom::app {
@@ -47,6 +48,12 @@ void check_stream(const RenderArguments& a, const std::vector<Channel>& channels
   if (!a.mattes().empty()) throw UsageError("--cryptomatte is not for --stream");
 }
 
+/// Whether a PNG of these channels has normals as its colours.
+bool is_normals(MapFormat format, const std::vector<Channel>& channels) {
+  return format == MapFormat::png && channels.size() == 1 &&
+         description_of(channels.front()).kind == ChannelKind::direction;
+}
+
 /// Refuses options that need more channels than the file format holds.
 void check_single_channel(const RenderArguments& a, MapFormat format,
                           const std::vector<Channel>& channels) {
@@ -65,14 +72,35 @@ void check_single_channel(const RenderArguments& a, MapFormat format,
   }
   // The parts of one are an array of pixels with several.
   if (holds_parts(format) && channels.size() == 1) return;
+  if (is_normals(format, channels)) return;
   if (count_parts(channels) != 1) {
     throw UsageError(fmt::format("{} holds one channel, not '{}'; {} hold them all", a.output,
                                  text_of(channels), suffixes_of_complete_maps()));
   }
   const bool has_codes = description_of(channels.front()).type != ChannelType::binary32;
   if (format == MapFormat::png && !has_codes) {
-    throw UsageError(fmt::format("{}: a PNG holds depths or numbers, not {}; there is .exr",
-                                 a.output, text_of(channels)));
+    throw UsageError(
+        fmt::format("{}: a PNG holds depths, normals or numbers, not {}; there is .exr", a.output,
+                    text_of(channels)));
+  }
+}
+
+/// Refuses what pictures of normals and masks do not have.
+void check_pictures(const RenderArguments& a, MapFormat format,
+                    const std::vector<Channel>& channels) {
+  if (a.is_mask && format != MapFormat::png) {
+    throw UsageError(a.output + ": a mask is an 8-bit PNG, 255 where a surface is; expected .png");
+  }
+  const bool normals = is_normals(format, channels);
+  if (a.storage.png_sidecar && (a.is_mask || normals)) {
+    throw UsageError("--png-sidecar is for depths and numbers, not for masks and normals");
+  }
+  if (!normals && (a.storage.normal_bits || a.storage.normal_axes)) {
+    throw UsageError("--normal-bits and --normal-axes are for a PNG of N, Nc or Ns");
+  }
+  if (a.storage.normal_axes == NormalAxes::opengl && channels != std::vector{Channel::Nc}) {
+    throw UsageError("--normal-axes opengl is for Nc, normals in the camera's frame, not for " +
+                     text_of(channels));
   }
 }
 
@@ -98,7 +126,9 @@ void check_deep(const RenderArguments& a) {
     throw UsageError("--deep is for .exr, not for " + a.output);
   }
   if (a.stream) throw UsageError("--deep is not for --stream");
-  const char* other = a.channels                         ? "--channels"
+  const bool is_named = !a.outputs.empty() && a.outputs.front().contents;
+  const char* other = is_named                           ? "NAME="
+                      : a.channels                       ? "--channels"
                       : a.storage.background             ? "--background"
                       : !a.storage.channel_names.empty() ? "--channel-name"
                       : !a.mattes().empty()              ? "--cryptomatte"
@@ -112,6 +142,85 @@ void check_deep(const RenderArguments& a) {
   if (a.verified_pixels || !a.statistics.empty()) {
     throw UsageError("--verify and --stats are not for --deep");
   }
+}
+
+/// The plan of arguments with a single output.
+MapPlan plan_of_output(const RenderArguments& a) {
+  MapPlan plan;
+  plan.format = a.storage.format_of(a.output);
+  std::vector<Channel> channels = channels_of(a, plan.format);
+  check_stream(a, channels);
+  check_single_channel(a, plan.format, channels);
+  check_pictures(a, plan.format, channels);
+  plan.depth_buffer = depth_buffer_of(a.depth_buffer, channels);
+  if (plan.depth_buffer && plan.depth_buffer->drops_id) channels.push_back(Channel::id);
+
+  plan.writing = a.storage.write_options(a.scene.threads);
+  plan.storage = a.storage;
+  plan.rendering = rendering_of(a);
+  plan.rendering.channels = channels;
+  plan.rendering.depth_encoding = a.storage.encoding_for(plan.format);
+  plan.is_mask = a.is_mask;
+  plan.object = a.object;
+  plan.mattes = a.mattes();
+  plan.samples = a.samples;
+  plan.verified_pixels = a.verified_pixels;
+  return plan;
+}
+
+/// Refuses options that belong to one map, or that none of several outputs has.
+void check_several(const RenderArguments& a, const std::vector<std::string>& patterns) {
+  const char* const single = !a.mattes().empty()      ? "--cryptomatte"
+                             : a.samples              ? "--samples"
+                             : a.depth_buffer.storage ? "--depth-format"
+                                                      : nullptr;
+  if (single != nullptr) throw UsageError(std::string(single) + " is for a single -o");
+  const auto is_unnamed = [](const OutputArgument& output) { return !output.contents; };
+  if (a.channels && std::ranges::none_of(a.outputs, is_unnamed)) {
+    throw UsageError("--channels is for an -o without names; each of these is NAME=FILE");
+  }
+  a.storage.require_effect(patterns);
+  bool codes_normals = false, turns_normals = false;
+  for (std::size_t number = 0; number < patterns.size(); ++number) {
+    const StorageOptions storage = a.of_output(number).storage;
+    codes_normals = codes_normals || storage.normal_bits;
+    turns_normals = turns_normals || storage.normal_axes;
+  }
+  if (a.storage.normal_bits && !codes_normals) {
+    throw UsageError("--normal-bits is for a PNG of N, Nc or Ns, and no output is one");
+  }
+  if (a.storage.normal_axes && !turns_normals) {
+    throw UsageError("--normal-axes is for a PNG of Nc, and no output is one");
+  }
+}
+
+bool has_depths(const MapPlan& plan) {
+  return std::ranges::any_of(plan.rendering.channels, [](Channel channel) {
+    return description_of(channel).type == ChannelType::encoded;
+  });
+}
+
+/// Whether one rendering has the depths of both.
+bool fit_together(const MapPlan& a, const MapPlan& b) {
+  const DepthEncoding &x = a.rendering.depth_encoding, &y = b.rendering.depth_encoding;
+  return !has_depths(a) || !has_depths(b) ||
+         (x.type == y.type && x.scale == y.scale && x.beyond_is_none == y.beyond_is_none);
+}
+
+/// Adds an output to the first pass that it fits, or to a new one.
+void add_to_passes(std::vector<RenderPass>& passes, OutputPlan output) {
+  const auto pass = std::ranges::find_if(
+      passes, [&](const RenderPass& each) { return fit_together(each.plan, output.plan); });
+  if (pass == passes.end()) {
+    passes.push_back({output.plan, {std::move(output)}});
+    return;
+  }
+  RenderOptions& whole = pass->plan.rendering;
+  if (!has_depths(pass->plan)) whole.depth_encoding = output.plan.rendering.depth_encoding;
+  for (const Channel channel : output.plan.rendering.channels) {
+    if (!contains(whole.channels, channel)) whole.channels.push_back(channel);
+  }
+  pass->outputs.push_back(std::move(output));
 }
 
 }  // namespace
@@ -130,25 +239,26 @@ bool MapPlan::needs_segments() const {
          std::ranges::any_of(mattes, is_segmentation);
 }
 
-MapPlan plan_maps(const RenderArguments& a) {
-  a.refuse_pipeline_options();
-  MapPlan plan;
-  plan.format = a.storage.format_of(a.output);
-  std::vector<Channel> channels = channels_of(a, plan.format);
-  check_stream(a, channels);
-  check_single_channel(a, plan.format, channels);
-  plan.depth_buffer = depth_buffer_of(a.depth_buffer, channels);
-  if (plan.depth_buffer && plan.depth_buffer->drops_id) channels.push_back(Channel::id);
+MapPlan plan_maps(const RenderArguments& arguments) {
+  arguments.refuse_pipeline_options();
+  return plan_of_output(arguments.of_output(0));
+}
 
-  plan.writing = a.storage.write_options(a.scene.threads);
-  plan.storage = a.storage;
-  plan.rendering = rendering_of(a);
-  plan.rendering.channels = channels;
-  plan.rendering.depth_encoding = a.storage.encoding_for(plan.format);
-  plan.mattes = a.mattes();
-  plan.samples = a.samples;
-  plan.verified_pixels = a.verified_pixels;
-  return plan;
+std::vector<RenderPass> plan_passes(const RenderArguments& arguments) {
+  arguments.refuse_pipeline_options();
+  const std::vector<std::string> patterns = arguments.patterns();
+  if (patterns.size() > 1) check_several(arguments, patterns);
+  std::vector<RenderPass> passes;
+  for (std::size_t number = 0; number < patterns.size(); ++number) {
+    add_to_passes(passes, {number, plan_of_output(arguments.of_output(number))});
+  }
+  return passes;
+}
+
+std::vector<std::byte> encode_planned(const DepthMap& map, const MapPlan& plan,
+                                      const std::string& name) {
+  if (plan.is_mask) return encode_mask(map, name, plan.object);
+  return encode_map(map, name, plan.format, plan.writing);
 }
 
 DeepMapPlan plan_deep_maps(const RenderArguments& a) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -30,6 +31,10 @@ struct MapPlan {
   WriteOptions writing;
   StorageOptions storage;
   RenderOptions rendering;
+  /// Whether the file is the mask of the map.
+  bool is_mask = false;
+  /// The mask is that of one object.
+  std::optional<std::uint32_t> object;
   std::vector<MatteKind> mattes;
   std::optional<SamplePattern> samples;
   std::optional<DepthBufferPlan> depth_buffer;
@@ -41,14 +46,35 @@ struct MapPlan {
   [[nodiscard]] bool needs_segments() const;
 };
 
+/// One of the files of each camera: which -o it is, and its plan as if it were the only one.
+struct OutputPlan {
+  std::size_t number = 0;
+  MapPlan plan;
+};
+
+/// A rendering of each camera, and the files that are written from it. The plan's channels are
+/// those of all its outputs.
+struct RenderPass {
+  MapPlan plan;
+  std::vector<OutputPlan> outputs;
+};
+
+/// The file of a map, or of its mask; `name` is its name for messages.
+/// Fails    as encode_map().
+std::vector<std::byte> encode_planned(const DepthMap& map, const MapPlan& plan,
+                                      const std::string& name);
+
 /// How deep maps are made.
 struct DeepMapPlan {
   Compression compression = Compression::zips;
   RenderOptions rendering;
 };
 
-/// Both fail with UsageError where the arguments contradict each other, before any work.
+/// All fail with UsageError where the arguments contradict each other, before any work.
 MapPlan plan_maps(const RenderArguments& arguments);
+/// All outputs, in as few passes as can be: depths of different types (binary32, binary64, codes)
+/// are rounded once each, so each type takes a pass of its own.
+std::vector<RenderPass> plan_passes(const RenderArguments& arguments);
 DeepMapPlan plan_deep_maps(const RenderArguments& arguments);
 
 }  // namespace fathom::app

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
@@ -103,6 +105,20 @@ void warn_of_missing_segments(const TriangleSource& triangles, const std::vector
     console.warn(fmt::format("no triangle of the scene has a {}: channel {} is {} at all surfaces",
                              name, name, no_segment));
   }
+}
+
+std::string hint_for_first_exr(const std::string& map, const MapPlan& plan) {
+  namespace fs = std::filesystem;
+  const bool has_depth = std::ranges::count(plan.rendering.channels, Channel::Z) > 0;
+  if (plan.format != MapFormat::exr || !has_depth || !plan.storage.channel_names.empty()) return "";
+  const fs::path folder = fs::absolute(map).parent_path();
+  std::error_code unreadable;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, unreadable)) {
+    if (map_format_of(entry.path()) == MapFormat::exr) return "";
+  }
+  return "hint: OpenCV and imageio show zeros for channel Z of an EXR: '--channels Z "
+         "--channel-name "
+         "Z=Y' writes it for them";
 }
 
 std::string as_json(const std::vector<MapReport>& maps) {

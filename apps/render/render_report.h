@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/render/render_plan.h"
 #include "apps/shell/console.h"
 #include "fathom/depth_buffer/depth_buffer.h"
 #include "fathom/image/channel_table.h"
@@ -23,6 +24,10 @@ void warn_of(const RenderStatistics& statistics, const Console& console);
 /// Warnings about channels that will be empty because the scene has no such data.
 void warn_of_missing_segments(const TriangleSource& triangles, const std::vector<Channel>& channels,
                               const Console& console);
+
+/// A hint for whoever writes a depth map as EXR into a folder without any, which other programs
+/// will read: how OpenCV and imageio find the depth. Empty for other maps and folders.
+std::string hint_for_first_exr(const std::string& map, const MapPlan& plan);
 
 /// Warnings about suspicious cameras of a path, each kind once.
 class CameraWarnings {

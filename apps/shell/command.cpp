@@ -110,6 +110,16 @@ Option Command::option(const std::string& names, const std::string& value_name, 
       names, value_name, [&value](const std::string& text) { value = text; }, help);
 }
 
+Option Command::repeated_option(const std::string& names, const std::string& value_name,
+                                std::function<void(const std::vector<std::string>&)> take,
+                                const std::string& help) {
+  CLI::Option& option = *app_.add_option(names, help)
+                             ->type_name(value_name)
+                             ->expected(1, -1)
+                             ->allow_extra_args(false);
+  return taken_by(option, std::move(take));
+}
+
 Option Command::option_with_values(const std::string& names, const std::string& value_name,
                                    std::vector<std::string>& values, const std::string& help) {
   CLI::Option& option =
@@ -138,6 +148,13 @@ void Command::offer(const Option& option, std::vector<std::string> words) {
   const auto taken = std::ranges::find_if(
       taken_, [&](const Taken& each) { return each.option->get_name() == option.name(); });
   taken->offered = std::move(words);
+}
+
+Option add_output_options(Command& command, const std::string& value_name,
+                          std::function<void(const std::vector<std::string>&)> take,
+                          const std::string& help) {
+  return command.repeated_option(std::string("-o,--output,") + other_name_of_output, value_name,
+                                 std::move(take), help);
 }
 
 int Command::run_named(const Console& console) const {

@@ -72,6 +72,10 @@ class Command {
                 const std::string& help);
   Option option(const std::string& names, const std::string& value_name, TakeText take,
                 const std::string& help);
+  /// An option that may be given several times, with one value each.
+  Option repeated_option(const std::string& names, const std::string& value_name,
+                         std::function<void(const std::vector<std::string>&)> take,
+                         const std::string& help);
   Option option_with_values(const std::string& names, const std::string& value_name,
                             std::vector<std::string>& values, const std::string& help);
   Option flag(const std::string& name, bool& value, const std::string& help);
@@ -124,5 +128,10 @@ Option add_output_option(Command& command, const std::string& value_name, Target
   return command.option(std::string("-o,--output,") + other_name_of_output, value_name,
                         std::forward<Target>(target), help);
 }
+
+/// The same, for a command that may have several.
+Option add_output_options(Command& command, const std::string& value_name,
+                          std::function<void(const std::vector<std::string>&)> take,
+                          const std::string& help);
 
 }  // namespace fathom::app

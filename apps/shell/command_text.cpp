@@ -45,7 +45,7 @@ OptionText option_text(const CLI::Option& option, const std::vector<const CLI::O
   text.heading = text.is_argument ? "Arguments" : option.get_group();
   text.excluded = excluded_by(option, all);
   text.is_required = option.get_required();
-  text.takes_several = option.get_items_expected_max() > 1;
+  text.takes_several = option.get_items_expected_max() > 1 && option.get_allow_extra_args();
   return text;
 }
 

@@ -212,7 +212,8 @@ int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const 
 }  // namespace
 
 int render_by_pipeline(const RenderArguments& arguments, const Console& console) {
-  return carry_out(plan_pipeline(arguments), arguments, console);
+  const RenderArguments only = arguments.of_only_output("--engine pipeline");
+  return carry_out(plan_pipeline(only), only, console);
 }
 
 }  // namespace fathom::app

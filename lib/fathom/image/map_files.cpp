@@ -11,6 +11,8 @@
 #include "fathom/image/channel_names.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/npy_array.h"
+#include "fathom/image/png_files.h"
+#include "fathom/image/surface.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/json_text.h"
 #include "fathom/threads/threads.h"
@@ -85,6 +87,17 @@ std::vector<const ImageChannel*> some_of(const DepthMap& map, const WriteOptions
   return channels_to_write(map, options.channel);
 }
 
+Bytes encode_any_png(const DepthMap& map, const WriteOptions& options, const std::string& name) {
+  const std::vector<const ImageChannel*> parts = some_of(map, options);
+  if (parts.size() == 3 && kind_of(*parts[0]) == ChannelKind::direction) {
+    return encode_normals(map, parts, options.normals, name);
+  }
+  if (parts[0]->name == "mask" && std::holds_alternative<Samples<float>>(parts[0]->values)) {
+    return encode_mask(map, name);
+  }
+  return encode_png(map, one_of(map, options), name);
+}
+
 [[noreturn]] DepthMap refuse_tiff(ByteView /*bytes*/, const std::string& name,
                                   const MapMemory& /*memory*/) {
   throw InputError(name + ": TIFF is written, not read: give the map as EXR, NPZ or NPY");
@@ -127,7 +140,7 @@ constexpr auto codecs = std::to_array<Codec>({
      as_much},
     {MapFormat::png,
      [](const DepthMap& map, const WriteOptions& options, const std::string& name) {
-       return encode_png(map, one_of(map, options), name);
+       return encode_any_png(map, options, name);
      },
      [](ByteView bytes) { return starts_with(bytes, "\x89PNG\r\n\x1a\n"); }, decode_png, nothing},
     {MapFormat::npy,

@@ -10,6 +10,7 @@
 
 #include "fathom/image/depth_map.h"
 #include "fathom/image/map_formats.h"
+#include "fathom/image/normal_codes.h"
 #include "fathom/memory/available_memory.h"
 
 namespace fathom {
@@ -35,10 +36,13 @@ struct WriteOptions {
   /// Threads to compress with; 0: all.
   int threads = 0;
   /// The channel to write as PFM, PNG, NPY or for COLMAP; if empty, the map's only channel. As NPY
-  /// also a channel of several parts, "N" for N.X, N.Y and N.Z; for COLMAP "Nc".
+  /// also a channel of several parts, "N" for N.X, N.Y and N.Z; as PNG also one of normals, N, Nc
+  /// or Ns; for COLMAP "Nc".
   std::string channel;
   /// The camera that places a GeoTIFF in the world; nullopt: the map's camera.
   std::optional<Camera> camera;
+  /// How a PNG stores normals.
+  NormalCoding normals;
 };
 
 /// Least number of bytes that encode_map() takes in addition to a map of so many bytes: for a
@@ -52,7 +56,8 @@ double memory_to_encode(MapFormat format, Compression compression, std::uint32_t
 ///   EXR   every channel, all attributes (docs/reading-maps.md).
 ///   PFM   one binary32 channel, bottom row first, little endian, scale −1.
 ///   PNG   one channel of 16-bit codes, big endian as always in PNG, with the scale as text chunk
-///         `fathom:scale`, attributes as text chunks; or identifiers up to 65534.
+///         `fathom:scale`, attributes as text chunks; or identifiers up to 65534; or normals as
+///         RGB (normal_codes.h).
 ///   NPY   one channel, C order, shape (height, width), version 1.0; one of several parts, of one
 ///         type, has shape (height, width, parts).
 ///   NPZ   every channel as such an array, in a ZIP archive without compression, of less than 4

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,7 +33,15 @@ std::string png_sidecar(const DepthMap& map, const std::string& channel = "");
 std::vector<std::byte> encode_mask(std::span<const std::uint8_t> mask, std::uint32_t width,
                                    std::uint32_t height, const std::string& name);
 
-/// Writes it to a file. Fails as encode_mask(), and OutputError, "PATH: why", if it cannot be
+/// The mask of a map, with its camera and texts, by which read_map() reads it as a channel `mask`
+/// of 1 and 0: 255 where its channel `mask` is not 0, if it has one; or else where it shows a
+/// surface (surface_mask() of Z, or of the first channel), or this object.
+/// Fails    InputError if the map has a fault; UsageError if an object is asked for and the map has
+///          no channel `object`; OutputError where a text does not fit PNG.
+std::vector<std::byte> encode_mask(const DepthMap& map, const std::string& name,
+                                   std::optional<std::uint32_t> object = std::nullopt);
+
+/// Writes a mask to a file. Fails as encode_mask(), and OutputError, "PATH: why", if it cannot be
 /// written.
 void write_mask(std::span<const std::uint8_t> mask, std::uint32_t width, std::uint32_t height,
                 const std::filesystem::path& path);

@@ -145,31 +145,48 @@ std::vector<std::array<double, 3>> points_of(const DepthMap& map, const Camera& 
   return all;
 }
 
-void write_point_cloud(const DepthMap& map, const Camera& camera, const std::filesystem::path& path,
-                       const PointCloudOptions& options) {
+void PointCloud::add(const DepthMap& map, const Camera& camera, const std::string& name) {
   const StandardArithmetic standard;
   require_valid(map);
   require_valid(camera);
-  const Points points(map, camera, options.frame);
+  const Points points(map, camera, options_.frame);
   std::vector<std::string> identifiers;
-  for (const char* name : {"id", "face", "object"})
-    if (map.values<std::uint32_t>(name)) identifiers.emplace_back(name);
-
-  Bytes body;
-  std::size_t count = 0;
+  for (const char* each : {"id", "face", "object"})
+    if (map.values<std::uint32_t>(each)) identifiers.emplace_back(each);
+  if (maps_ == 0) {
+    has_normals_ = points.has_normals();
+    identifiers_ = std::move(identifiers);
+  } else if (has_normals_ != points.has_normals() || identifiers_ != identifiers) {
+    throw UsageError(name + ": the maps of a cloud need the same of N, id, face and object");
+  }
   for (std::size_t k = 0; k < std::size_t{map.width} * map.height; ++k) {
     const std::optional<Vector> p = points.point(k);
     if (!p) continue;
-    ++count;
-    for (const double x : *p) options.binary64 ? put(body, x) : put(body, static_cast<float>(x));
-    if (points.has_normals())
-      for (const double x : points.normal(k)) put(body, static_cast<float>(x));
-    for (const std::string& name : identifiers) put(body, (*map.values<std::uint32_t>(name))[k]);
+    ++points_;
+    for (const double x : *p) options_.binary64 ? put(body_, x) : put(body_, static_cast<float>(x));
+    if (has_normals_)
+      for (const double x : points.normal(k)) put(body_, static_cast<float>(x));
+    for (const std::string& each : identifiers_) put(body_, (*map.values<std::uint32_t>(each))[k]);
+    if (options_.numbers_views) put(body_, maps_);
   }
+  ++maps_;
+}
+
+std::vector<std::byte> PointCloud::encode() const {
+  std::vector<std::string> numbers = identifiers_;
+  if (options_.numbers_views) numbers.emplace_back("view");
   Bytes file;
-  append(file, header_of(count, options, points.has_normals(), identifiers));
-  append(file, body);
-  write_file(path, file);
+  append(file, header_of(points_, options_, has_normals_, numbers));
+  append(file, body_);
+  return file;
+}
+
+void write_point_cloud(const DepthMap& map, const Camera& camera, const std::filesystem::path& path,
+                       const PointCloudOptions& options) {
+  const StandardArithmetic standard;
+  PointCloud cloud(options);
+  cloud.add(map, camera, path.string());
+  write_file(path, cloud.encode());
 }
 
 }  // namespace fathom

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "fathom/camera/point_frame.h"
@@ -23,6 +26,29 @@ struct PointCloudOptions {
   PointFrame frame = PointFrame::world;
   /// Coordinates as `double` (default) or as `float`.
   bool binary64 = true;
+  /// Whether each point has the number of its map, `view` (uint), after all else.
+  bool numbers_views = false;
+};
+
+/// A cloud of the points of one map or of several, one after the other. A point that several maps
+/// show is there several times.
+class PointCloud {
+ public:
+  explicit PointCloud(const PointCloudOptions& options) : options_(options) {}
+
+  /// Adds points_of(). `name` is the map's for messages.
+  /// Fails    as points_of(); UsageError if the maps before have other normals or identifiers.
+  void add(const DepthMap& map, const Camera& camera, const std::string& name);
+  /// The file, as of write_point_cloud().
+  [[nodiscard]] std::vector<std::byte> encode() const;
+
+ private:
+  PointCloudOptions options_;
+  bool has_normals_ = false;
+  std::vector<std::string> identifiers_;
+  std::vector<std::byte> body_;
+  std::size_t points_ = 0;
+  std::uint32_t maps_ = 0;
 };
 
 /// Writes points_of() as PLY, binary little endian: x y z; nx ny nz (float) where the map has N;

@@ -27,6 +27,13 @@ files::Bytes encode_pfm(const DepthMap& map, const ImageChannel& channel, const 
 DepthMap decode_pfm(files::ByteView bytes, const std::string& name);
 
 files::Bytes encode_png(const DepthMap& map, const ImageChannel& channel, const std::string& name);
+/// The three parts of a channel of normals as the colours of a picture (normal_codes.h).
+/// Fails    UsageError for other bits than 8 and 16, or axes of OpenGL for another channel than Nc.
+files::Bytes encode_normals(const DepthMap& map, const std::vector<const ImageChannel*>& parts,
+                            const NormalCoding& coding, const std::string& name);
+/// The parts of a channel from rows of such a picture; `flips` for the axes of OpenGL.
+std::vector<ImageChannel> normals_from(files::ByteView pixels, std::size_t count, int bits,
+                                       bool flips, const std::string& channel);
 DepthMap decode_png(files::ByteView bytes, const std::string& name, const MapMemory& memory = {});
 
 /// One channel, or several of one type as the parts of a pixel.

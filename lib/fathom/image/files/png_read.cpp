@@ -5,6 +5,7 @@
 #include <cstring>
 #include <iterator>
 #include <new>
+#include <span>
 
 #include "fathom/failures/errors.h"
 #include "fathom/files/byte_order.h"
@@ -110,6 +111,33 @@ void take_name_tables(DepthMap& map) {
   }
 }
 
+/// What the pixels of a PNG are, by its header and texts.
+enum class Pixels { codes, normals, mask, other };
+
+Pixels pixels_of(const Reading& reading, const DepthMap& texts) {
+  const int bits = png_get_bit_depth(reading.png, reading.info);
+  const int colour = png_get_color_type(reading.png, reading.info);
+  if (bits == 16 && colour == PNG_COLOR_TYPE_GRAY) return Pixels::codes;
+  const auto type = texts.texts.find(type_text);
+  if (type == texts.texts.end()) return Pixels::other;
+  if (colour == PNG_COLOR_TYPE_RGB && type->second == normal_type) return Pixels::normals;
+  if (bits == 8 && colour == PNG_COLOR_TYPE_GRAY && type->second == mask_type) return Pixels::mask;
+  return Pixels::other;
+}
+
+/// Bytes of a pixel in the rows of the file.
+std::uint64_t bytes_of_pixel(const Reading& reading) {
+  return png_get_channels(reading.png, reading.info) *
+         (png_get_bit_depth(reading.png, reading.info) / 8u);
+}
+
+ImageChannel mask_from(const Reading& reading, std::uint64_t pixels) {
+  Samples<float> mask(pixels);
+  std::transform(reading.pixels.begin(), reading.pixels.end(), mask.begin(),
+                 [](png_byte value) { return value != 0 ? 1.0f : 0.0f; });
+  return {"mask", std::move(mask)};
+}
+
 /// Codes, or identifiers if the file says so (png_write.cpp).
 ImageChannel channel_from(Samples<std::uint16_t> codes, DepthMap& map) {
   const std::string channel = take_text(map, channel_text).value_or("Z");
@@ -122,6 +150,22 @@ ImageChannel channel_from(Samples<std::uint16_t> codes, DepthMap& map) {
     if (codes[k] == 65534 && segments) ids[k] = no_segment;
   }
   return {channel, std::move(ids)};
+}
+
+/// The channels of normals, or a mask, whose rows have been read.
+DepthMap map_of_picture(const Reading& reading, Pixels kind, DepthMap map) {
+  const std::uint64_t pixels = std::uint64_t{map.width} * map.height;
+  const std::string channel = take_text(map, channel_text).value_or("N");
+  const bool flips = take_text(map, axes_text) == "opengl";
+  (void)take_text(map, type_text);
+  take_name_tables(map);
+  if (kind == Pixels::mask) {
+    map.channels.push_back(mask_from(reading, pixels));
+  } else {
+    map.channels = normals_from(std::as_bytes(std::span(reading.pixels)), pixels,
+                                png_get_bit_depth(reading.png, reading.info), flips, channel);
+  }
+  return map;
 }
 
 }  // namespace
@@ -138,29 +182,35 @@ DepthMap decode_png(ByteView bytes, const std::string& name, const MapMemory& me
   DepthMap map;
   map.width = png_get_image_width(reading.png, reading.info);
   map.height = png_get_image_height(reading.png, reading.info);
-  if (png_get_bit_depth(reading.png, reading.info) != 16 ||
-      png_get_color_type(reading.png, reading.info) != PNG_COLOR_TYPE_GRAY)
+  // Texts stand before the pixels, by which normals and masks are told from pictures.
+  read_texts(reading, map);
+  const Pixels kind = pixels_of(reading, map);
+  if (kind == Pixels::other)
     throw InputError(name +
                      ": a picture, not a depth map: expected a PNG of one 16-bit grey channel");
   const std::uint64_t pixels = std::uint64_t{map.width} * map.height;
-  if (pixels > bytes.size() * greatest_deflate_ratio / 2)
+  const std::uint64_t pixel_bytes = bytes_of_pixel(reading);
+  if (pixels > bytes.size() * greatest_deflate_ratio / pixel_bytes)
     fail("its header claims " + std::to_string(map.width) + "×" + std::to_string(map.height) +
          " pixels, more than " + std::to_string(bytes.size()) + " bytes can hold");
 
-  // Rows as libpng gives them, the same as codes, and identifiers.
-  require_map_memory(map.width, map.height, 2 + 2 + 4, bytes.size(), memory, name);
-  reading.pixels.resize(2 * pixels);
+  // Rows as libpng gives them, the same as codes, and identifiers; or normals, or a mask.
+  const std::uint64_t held = kind == Pixels::codes ? 2 + 4 : kind == Pixels::normals ? 12 : 4;
+  require_map_memory(map.width, map.height, pixel_bytes + held, bytes.size(), memory, name);
+  reading.pixels.resize(pixel_bytes * pixels);
   reading.rows.resize(map.height);
-  for (std::size_t y = 0; y < map.height; ++y) reading.rows[y] = &reading.pixels[y * 2 * map.width];
+  for (std::size_t y = 0; y < map.height; ++y)
+    reading.rows[y] = &reading.pixels[y * pixel_bytes * map.width];
   const bool has_pixels = read_pixels(reading);
   if (reading.failure.out_of_memory) throw std::bad_alloc();
   if (!has_pixels) fail(reading.failure.reason);
 
-  Samples<std::uint16_t> codes(pixels);
+  read_texts(reading, map);
   const auto* data = reinterpret_cast<const std::byte*>(reading.pixels.data());
+  if (kind != Pixels::codes) return map_of_picture(reading, kind, std::move(map));
+  Samples<std::uint16_t> codes(pixels);
   for (std::size_t k = 0; k < pixels; ++k)
     codes[k] = load<std::uint16_t>(data + 2 * k, std::endian::big);
-  read_texts(reading, map);
   if (const auto text = take_text(map, scale_text)) map.png_scale = read_scale(*text, name);
   if (const auto text = take_text(map, beyond_text)) {
     std::uint64_t beyond = 0;

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fathom/image/channel_table.h"
+
+/// What users call the contents of a map file: `-o NAME=FILE` and `--channels NAME` of `render`.
+namespace fathom::app {
+
+/// A name for a channel that those who make data sets know, or for a mask.
+struct ContentsName {
+  std::string_view name;
+  /// From which the mask is made, if it is one.
+  Channel channel;
+  bool is_mask;
+};
+
+/// The names besides the channels' own: help, completion, messages and parsers take them from here.
+inline constexpr auto contents_table = std::to_array<ContentsName>({
+    {"depth", Channel::Z, false},
+    {"normal", Channel::N, false},
+    {"camera-normal", Channel::Nc, false},
+    {"segmentation", Channel::object, false},
+    {"mask", Channel::id, true},
+});
+
+/// What a file contains: some channels, or a mask, whose channel shows where surfaces are.
+struct Contents {
+  std::vector<Channel> channels;
+  bool is_mask = false;
+  /// The mask is that of one object.
+  std::optional<std::uint32_t> object = {};
+};
+
+/// "Z,N", "depth" or "mask", which stands alone.
+/// Fails    UsageError where a name does not exist or a channel stands twice.
+Contents parse_contents(const std::string& list);
+
+/// "depth (Z), normal (N), …"
+std::string names_of_contents();
+
+/// `-o [NAMES=]FILE`: a file of each camera, and what it contains if that is said.
+struct OutputArgument {
+  std::optional<Contents> contents;
+  /// Of file names (output_names.h).
+  std::string pattern;
+};
+
+/// "depth=z/{stem}.png". A text whose part before the first "=" is no list of names is a pattern,
+/// and so is one with a "/" or "." there, such as "./depth=1.png".
+/// Fails    UsageError where a name is misspelt.
+OutputArgument parse_output(const std::string& text);
+
+/// The outputs with a mask for each of the scene's objects in place of each mask whose pattern has
+/// the field {object}: the number of the object, with leading zeros as {object:03}.
+std::vector<OutputArgument> with_objects(const std::vector<OutputArgument>& outputs,
+                                         std::size_t objects);
+
+}  // namespace fathom::app

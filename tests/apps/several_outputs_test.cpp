@@ -1,0 +1,236 @@
+// Several files from one run of `fathom render`: each has the bytes that a run of its own gives.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run_program.h"
+#include "sample_files.h"
+#include "test_folder.h"
+#include "tests/places.h"
+
+namespace fathom::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+class SeveralOutputs : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("square.obj", square_obj);
+    folder_.write("camera.json", square_camera);
+    expect_done({"camera", "orbit", pair_, "--views", "2", "--size", "60x40", "-o", "path.json"});
+  }
+
+  Outcome fathom(const std::vector<std::string>& arguments) const {
+    return run_fathom(arguments, {.folder = folder_.path()});
+  }
+  void expect_done(const std::vector<std::string>& arguments) const {
+    const Outcome outcome = fathom(arguments);
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.err, "");
+  }
+  void expect_refused(const std::vector<std::string>& more, const std::string& said) const {
+    std::vector<std::string> arguments{"render", "square.obj", "--camera", "camera.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = fathom(arguments);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(said));
+  }
+  void run_python(const std::string& script) const {
+    const Outcome outcome = run({python, "-c", script}, {.folder = folder_.path()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+  }
+
+  const std::string pair_ = source_dir() / "data/scenes/pair.json";
+  TestFolder folder_;
+};
+
+TEST_F(SeveralOutputs, AreThoseOfRunsOfTheirOwn) {
+  const std::vector<std::string> views{"render", pair_, "--camera", "path.json"};
+  std::vector<std::string> together = views;
+  struct Output {
+    std::string names, file;
+    /// Of --channels, and the options that the format has.
+    std::vector<std::string> alone;
+  };
+  const std::vector<Output> outputs{
+      {"normal", "n{index}.png", {"--channels", "N", "--normal-bits", "16"}},
+      {"depth", "z{index}.png", {"--channels", "Z", "--png-scale", "500"}},
+      {"mask", "m{index}.png", {"--channels", "mask"}},
+      {"camera-normal", "c{index}.npy", {"--channels", "Nc", "--dtype", "float64"}},
+      {"segmentation", "s{index}.png", {"--channels", "object"}},
+      {"Z,id,N", "e{index}.exr", {"--channels", "Z,id,N", "--background", "0"}},
+      {"distance",
+       "d{index}.npy",
+       {"--channels", "distance", "--dtype", "float64", "--background", "0"}},
+      {"", "all{index}.npz", {"--channels", "Z,A", "--dtype", "float64", "--background", "0"}},
+  };
+  for (const Output& output : outputs) {
+    const std::string names = output.names.empty() ? "" : output.names + "=";
+    together.insert(together.end(), {"-o", names + "together/" + output.file});
+    std::vector<std::string> alone = views;
+    alone.insert(alone.end(), output.alone.begin(), output.alone.end());
+    alone.insert(alone.end(), {"-o", "alone/" + output.file});
+    expect_done(alone);
+  }
+  together.insert(together.end(),
+                  {"--png-scale", "500", "--normal-bits", "16", "--dtype", "float64",
+                   "--background", "0", "--stats", "stats.json", "--verify", "20"});
+  EXPECT_EQ(fathom(together).status, 0);
+  for (const Output& output : outputs) {
+    for (const char* index : {"0", "1"}) {
+      std::string file = output.file;
+      file.replace(file.find("{index}"), 7, index);
+      EXPECT_TRUE(folder_.read("together/" + file) == folder_.read("alone/" + file)) << file;
+    }
+  }
+  // Codes, binary32 and binary64 are rounded once each, so a view is rendered three times.
+  EXPECT_EQ(nlohmann::json::parse(folder_.read("stats.json")).size(), 6u);
+}
+
+TEST_F(SeveralOutputs, WithOneTypeOfDepthRenderEachViewOnce) {
+  expect_done({"render", pair_, "--camera", "path.json", "-o", "depth=z{index}.png", "-o",
+               "mask=m{index}.png", "-o", "normal=n{index}.png", "-o", "id=i{index}.exr", "--stats",
+               "stats.json"});
+  EXPECT_EQ(nlohmann::json::parse(folder_.read("stats.json")).size(), 2u);
+}
+
+TEST_F(SeveralOutputs, MasksAreEightBitsAndNormalsColours) {
+  expect_done({"render", "square.obj", "--camera", "camera.json", "-o", "mask=m.png", "-o",
+               "normal=n.png", "-o", "camera-normal=gl.png", "--normal-axes", "opengl"});
+  run_python(R"(
+import numpy as np
+import OpenImageIO as oiio
+def read(name):
+    file = oiio.ImageInput.open(name)
+    assert str(file.spec().format) == 'uint8', file.spec().format
+    return file.read_image('uint8')
+inside = np.zeros((6, 8), bool)
+inside[1:5, 2:6] = True
+mask, normal, turned = read('m.png'), read('n.png'), read('gl.png')
+assert mask.shape == (6, 8, 1) and (mask[..., 0] == np.where(inside, 255, 0)).all()
+# The square faces the camera: (0, 0, -1) is (127.5, 127.5, 0), half to even.
+assert normal.shape == (6, 8, 3)
+assert (normal[inside] == (128, 128, 0)).all() and (normal[~inside] == 0).all()
+# With OpenGL's axes it is (0, 0, 1).
+assert (turned[inside] == (128, 128, 255)).all() and (turned[~inside] == 0).all()
+)");
+  // Both are read back.
+  expect_done({"convert", "m.png", "-o", "again.png"});
+  EXPECT_TRUE(folder_.read("again.png") == folder_.read("m.png"));
+  expect_done({"convert", "n.png", "-o", "again.png"});
+  EXPECT_TRUE(folder_.read("again.png") == folder_.read("n.png"));
+  for (const char* file : {"m.png", "n.png"}) expect_done({"info", file});
+  // A map has the same mask and normals.
+  expect_done(
+      {"render", "square.obj", "--camera", "camera.json", "--channels", "id", "-o", "map.exr"});
+  expect_done({"convert", "map.exr", "--channel", "mask", "-o", "again.png"});
+  EXPECT_TRUE(folder_.read("again.png") == folder_.read("m.png"));
+}
+
+TEST_F(SeveralOutputs, AMaskForEachObject) {
+  expect_done({"render", pair_, "--size", "60x40", "-o", "mask=m/{object:02}.png", "-o",
+               "object=objects.npy"});
+  run_python(R"(
+import numpy as np
+import OpenImageIO as oiio
+objects = np.load('objects.npy')
+assert set(np.unique(objects)) == {0, 1, 0xFFFFFFFF}
+for k in (0, 1):
+    mask = oiio.ImageInput.open(f'm/{k:02}.png').read_image('uint8')[..., 0]
+    assert (mask == np.where(objects == k, 255, 0)).all() and mask.any()
+)");
+  expect_refused({"-o", "depth=z-{object}.png"}, "there is no field '{object}'");
+}
+
+TEST_F(SeveralOutputs, NamesThatCannotBe) {
+  expect_refused({"-o", "dpeth=z.png"}, "did you mean 'depth'?; a file of this name is");
+  expect_refused({"-o", "mask=m.exr"}, "m.exr: a mask is an 8-bit PNG");
+  expect_refused({"-o", "mask,Z=m.png"}, "'mask' is a file of its own");
+  expect_refused({"-o", "depth="}, "'depth=' has no file");
+  expect_refused({"-o", "depth=a.png", "-o", "mask=a.png"}, "would both be written as a.png");
+  expect_refused({"-o", "depth=a.png", "--channels", "Z"}, "--channels is for an -o without names");
+  expect_refused({"-o", "depth=a.png", "-o", "mask=b.png", "--channels", "Z"},
+                 "--channels is for an -o without names");
+  expect_refused({"-o", "depth=a.png", "-o", "mask=b.png", "--compression", "rle"},
+                 "--compression is for .exr");
+  expect_refused({"-o", "a.exr", "-o", "b.exr", "--samples", "4"}, "--samples is for a single -o");
+  expect_refused({"-o", "a.exr", "-o", "b.exr", "--deep"}, "--deep is for a single -o");
+  expect_refused({"-o", "normal=n.png", "--normal-axes", "opengl"},
+                 "--normal-axes opengl is for Nc");
+  expect_refused({"-o", "z.png", "--normal-bits", "8"}, "are for a PNG of N, Nc or Ns");
+  expect_refused({"-o", "a.png", "-o", "mask=b.png", "--normal-bits", "8"},
+                 "--normal-bits is for a PNG of N, Nc or Ns, and no output is one");
+  expect_refused({"-o", "normal=a.png", "-o", "mask=b.png", "--normal-axes", "opengl"},
+                 "--normal-axes is for a PNG of Nc, and no output is one");
+  expect_refused({"-o", "mask=m.png", "--png-sidecar"}, "--png-sidecar is for depths and numbers");
+  // Other names with "=" are files, as before.
+  expect_done({"render", "square.obj", "--camera", "camera.json", "-o", "run=3.exr"});
+  expect_done({"render", "square.obj", "--camera", "camera.json", "-o", "./depth=3.exr"});
+  EXPECT_THAT(folder_.names(), ::testing::IsSupersetOf({"depth=3.exr", "run=3.exr"}));
+}
+
+TEST_F(SeveralOutputs, TheFirstExrOfAFolderHasAHintOnATerminal) {
+  run_python("program = '" + program_path() + "'\n" + R"(
+import os, pty, subprocess
+def told(*arguments):
+    master, slave = pty.openpty()
+    command = [program, 'render', 'square.obj', '--camera', 'camera.json', *arguments]
+    subprocess.run(command, stderr=slave, check=True)
+    os.close(slave)
+    os.set_blocking(master, False)
+    try:
+        return os.read(master, 65536).decode()
+    except OSError:
+        return ''
+assert '--channel-name Z=Y' in told('-o', 'a/z.exr')
+assert told('-o', 'a/again.exr') == ''
+assert told('-o', 'b/z.npy') == ''
+assert told('-o', 'b/n.exr', '--channels', 'N') == ''
+assert told('-o', 'c/y.exr', '--channel-name', 'Z=Y') == ''
+assert told('-o', 'd/z.exr', '--quiet') == ''
+)");
+}
+
+TEST_F(SeveralOutputs, MapsBecomeOneCloud) {
+  expect_done(
+      {"render", pair_, "--camera", "path.json", "--channels", "Z,id,N", "-o", "{index}.exr"});
+  expect_done({"convert", "0.exr", "1.exr", "-o", "all.ply"});
+  expect_done({"convert", "0.exr", "1.exr", "--camera", "path.json", "-o", "again.ply"});
+  EXPECT_TRUE(folder_.read("again.ply") == folder_.read("all.ply"));
+  for (const char* index : {"0", "1"}) {
+    expect_done({"convert", std::string(index) + ".exr", "-o", std::string(index) + ".ply"});
+  }
+  run_python(R"(
+import numpy as np
+def read(name):
+    header, body = open(name, 'rb').read().split(b'end_header\n', 1)
+    types = {'double': '<f8', 'float': '<f4', 'uint': '<u4'}
+    fields = [line.split()[1:] for line in header.decode().splitlines()
+              if line.startswith('property')]
+    return np.frombuffer(body, [(n, types[t]) for t, n in fields])
+views, together = [read('0.ply'), read('1.ply')], read('all.ply')
+assert together.dtype.names == views[0].dtype.names + ('view',)
+assert len(together) == len(views[0]) + len(views[1]) > 100
+for k, points in enumerate(views):
+    chosen = together[together['view'] == k]
+    assert all((chosen[name] == points[name]).all() for name in points.dtype.names)
+)");
+  const auto convert = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"convert", "0.exr", "1.exr"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return fathom(arguments).err;
+  };
+  EXPECT_THAT(convert({"-o", "all.npy"}), HasSubstr("several maps make a point cloud"));
+  EXPECT_THAT(convert({"-o", "all.ply", "--frame", "camera"}),
+              HasSubstr("--frame camera is for the cloud of one map"));
+  EXPECT_THAT(convert({"-o", "all.ply", "--camera", "camera.json"}),
+              HasSubstr("--camera: 1 camera, but there are 2 maps"));
+  expect_done({"render", pair_, "--camera", "0.exr", "-o", "1.exr"});
+  EXPECT_THAT(convert({"-o", "all.ply"}), HasSubstr("1.exr: the maps of a cloud need the same"));
+}
+
+}  // namespace
+}  // namespace fathom::test
