@@ -302,6 +302,21 @@ TEST(DepthFormat, WhatMeansNothingIsRefused) {
   }
   EXPECT_THROW(mapping_named("Standard"), UsageError);
   EXPECT_THROW(storage_named("unorm8"), UsageError);
+  const auto asked_back = [](const std::string& name) -> std::string {
+    try {
+      storage_named(name);
+    } catch (const UsageError& error) {
+      const std::string text = error.what();
+      return text.substr(text.find(';', text.find(';') + 1) + 2);
+    }
+    return "";
+  };
+  for (const char* name : {"d24", "D24S8", "GL_DEPTH_COMPONENT24", "DXGI_FORMAT_D24_UNORM_S8_UINT",
+                           "VK_FORMAT_X8_D24_UNORM_PACK32", "depth24plus"})
+    EXPECT_EQ(asked_back(name), "did you mean 'unorm24'?") << name;
+  for (const char* name : {"D32F", "VK_FORMAT_D32_SFLOAT", "depth32float", "GL_DEPTH_COMPONENT32F"})
+    EXPECT_EQ(asked_back(name), "did you mean 'float32'?") << name;
+  EXPECT_EQ(asked_back("D32"), "did you mean 'unorm32' or 'float32'?");
   for (const Mapping mapping : all_mappings) EXPECT_EQ(mapping_named(name_of(mapping)), mapping);
   for (const Storage storage : all_storages) EXPECT_EQ(storage_named(name_of(storage)), storage);
 }

@@ -1,7 +1,7 @@
-#include "fathom/failures/unknown_name.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "fathom/failures/other_names.h"
 
 namespace fathom {
 namespace {
@@ -27,6 +27,17 @@ TEST(UnknownName, WhatIsFarFromAllIsLikeNone) {
   EXPECT_THAT(nearest_names("", names), IsEmpty());
   EXPECT_THAT(nearest_names("depth", names), IsEmpty());
   EXPECT_THAT(nearest_names("near", {}), IsEmpty());
+}
+
+TEST(UnknownName, NamesOfOtherProgramsAreAskedBack) {
+  constexpr OtherName others[] = {{"depth", "Z"}, {"farplane", "far"}, {"shade", "colour"}};
+  const auto text = [&](const std::string& name) {
+    return std::string(unknown_name("no", name, names, others).what());
+  };
+  EXPECT_EQ(text("depth"), "no; did you mean 'Z'?");
+  EXPECT_EQ(text("GL_Far_Plane"), "no; did you mean 'far'?");
+  EXPECT_EQ(text("fa"), "no; did you mean 'far'?");  // once
+  EXPECT_EQ(text("shade"), "no");                    // there is no colour here
 }
 
 TEST(UnknownName, TheErrorAsksAndCarriesTheNames) {

@@ -3,11 +3,12 @@
 #include <cmath>
 #include <cstdio>
 #include <ranges>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "fathom/failures/errors.h"
-#include "fathom/failures/unknown_name.h"
+#include "fathom/failures/other_names.h"
 
 namespace fathom {
 namespace {
@@ -18,14 +19,68 @@ constexpr std::string_view mapping_names[] = {
 constexpr std::string_view storage_names[] = {"unorm16", "unorm24", "unorm32",
                                               "float16", "float32", "float64"};
 
+/// What graphics interfaces and people call them.
+constexpr OtherName other_mapping_names[] = {{"direct3d", "standard"},
+                                             {"d3d", "standard"},
+                                             {"vulkan", "standard"},
+                                             {"metal", "standard"},
+                                             {"webgpu", "standard"},
+                                             {"perspective", "standard"},
+                                             {"gl", "opengl"},
+                                             {"inversez", "reversed"},
+                                             {"reverse", "reversed"},
+                                             {"infinitereversed", "reversed-infinite"},
+                                             {"wbuffer", "w"},
+                                             {"logarithmic", "log"},
+                                             {"infinitefar", "infinite"},
+                                             {"infinitereversedz", "reversed-infinite"},
+                                             {"reversedzinfinite", "reversed-infinite"}};
+constexpr OtherName other_storage_names[] = {{"d16", "unorm16"},
+                                             {"d16unorm", "unorm16"},
+                                             {"depth16", "unorm16"},
+                                             {"depth16unorm", "unorm16"},
+                                             {"depthcomponent16", "unorm16"},
+                                             {"d24", "unorm24"},
+                                             {"d24s8", "unorm24"},
+                                             {"d24x8", "unorm24"},
+                                             {"x8d24", "unorm24"},
+                                             {"d24unorms8uint", "unorm24"},
+                                             {"x8d24unormpack32", "unorm24"},
+                                             {"depth24", "unorm24"},
+                                             {"depth24plus", "unorm24"},
+                                             {"depth24stencil8", "unorm24"},
+                                             {"depth24plusstencil8", "unorm24"},
+                                             {"depthcomponent24", "unorm24"},
+                                             {"d32", "unorm32"},
+                                             {"d32", "float32"},
+                                             {"d32unorm", "unorm32"},
+                                             {"depthcomponent32", "unorm32"},
+                                             {"d32f", "float32"},
+                                             {"d32fs8", "float32"},
+                                             {"d32float", "float32"},
+                                             {"d32floats8x24uint", "float32"},
+                                             {"d32sfloat", "float32"},
+                                             {"d32sfloats8uint", "float32"},
+                                             {"depth32f", "float32"},
+                                             {"depth32float", "float32"},
+                                             {"depth32floatstencil8", "float32"},
+                                             {"depthcomponent32f", "float32"},
+                                             {"single", "float32"},
+                                             {"fp32", "float32"},
+                                             {"half", "float16"},
+                                             {"fp16", "float16"},
+                                             {"double", "float64"},
+                                             {"fp64", "float64"}};
+
 template <class Values>
 std::ranges::range_value_t<Values> required(const Values& values, std::string_view name,
-                                            const std::string& what) {
+                                            const std::string& what,
+                                            std::span<const OtherName> others) {
   if (const auto value = value_named(values, name)) return *value;
   const std::vector<std::string> names = names_of(values);
-  throw UnknownName(
+  throw unknown_name(
       "there is no " + what + " '" + std::string(name) + "'; there are " + joined(names, ", "),
-      std::string(name), names);
+      std::string(name), names, others);
 }
 
 std::string text_of(double x) {
@@ -68,11 +123,11 @@ std::string_view name_of(Storage storage) {
 }
 
 Mapping mapping_named(std::string_view name) {
-  return required(all_mappings, name, "mapping");
+  return required(all_mappings, name, "mapping", other_mapping_names);
 }
 
 Storage storage_named(std::string_view name) {
-  return required(all_storages, name, "storage");
+  return required(all_storages, name, "storage", other_storage_names);
 }
 
 }  // namespace fathom

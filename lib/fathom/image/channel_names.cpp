@@ -4,6 +4,7 @@
 #include <set>
 
 #include "fathom/failures/errors.h"
+#include "fathom/failures/other_names.h"
 #include "fathom/image/channel_table.h"
 #include "fathom/image/files/npy_array.h"
 #include "fathom/text/small_letters.h"
@@ -84,9 +85,6 @@ DepthMap with_own_channel_names(DepthMap map) {
 namespace {
 
 /// What other programs and people call a channel.
-struct OtherName {
-  std::string_view other, name;
-};
 constexpr auto other_names = std::to_array<OtherName>({{"depth", "Z"},
                                                        {"depths", "Z"},
                                                        {"planar", "Z"},
@@ -115,23 +113,11 @@ std::string name_for_users(const DepthMap& map, const std::string& name) {
   return std::ranges::all_of(parts, is_there) ? stem : name;
 }
 
-/// `message`, and behind it the names that may be meant.
-UnknownName channel_suggested(const std::string& message, const std::string& name,
-                              std::vector<std::string> names) {
-  const auto other =
-      std::ranges::find(other_names, text::in_small_letters(name), &OtherName::other);
-  const bool is_meant = nearest_names(name, names).empty() && other != other_names.end() &&
-                        std::ranges::find(names, other->name) != names.end();
-  const std::string meant =
-      is_meant ? "; " + did_you_mean({std::string(other->name)}) : std::string();
-  return {message + meant, name, std::move(names)};
-}
-
 }  // namespace
 
 UnknownName unknown_channel(const std::string& name) {
-  return channel_suggested("there is no channel '" + name + "'; there are " + channel_names(), name,
-                           names_of_channels());
+  return unknown_name("there is no channel '" + name + "'; there are " + channel_names(), name,
+                      names_of_channels(), other_names);
 }
 
 std::vector<std::string> names_of_channels(const DepthMap& map) {
@@ -157,8 +143,8 @@ UsageError missing_channel(const DepthMap& map, const std::string& name, const s
   const std::string parts = text_of_parts(map, name);
   if (!parts.empty()) return UsageError(parts + "; name one");
   const std::vector<std::string> names = names_of_channels(map);
-  return channel_suggested(which + " has no channel '" + name + "', only " + joined(names, ", "),
-                           name, names);
+  return unknown_name(which + " has no channel '" + name + "', only " + joined(names, ", "), name,
+                      names, other_names);
 }
 
 UsageError ambiguous_channel(const std::vector<std::string>& names, const std::string& refusal,
