@@ -78,7 +78,7 @@ TEST(OutputNames, PatternsThatDoNotFitAreRefused) {
 TEST(OutputNames, UnknownFieldsAreRefusedWithThoseThereAre) {
   const std::string fields =
       "; the fields are {index}, {index:04} with leading zeros, {name} and {stem}, and {{ stands "
-      "for a brace";
+      "for a brace; -o mask= also has {object}";
   // Of a single camera as of a path.
   for (const std::vector<std::string>& cameras : {std::vector<std::string>{"a"}, {"a", "b"}}) {
     const auto usage = [&](const std::string& pattern) {
