@@ -1,7 +1,7 @@
 #include "fathom/depth_format/depth_format.h"
 
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <ranges>
 #include <span>
 #include <string>
@@ -85,8 +85,7 @@ std::ranges::range_value_t<Values> required(const Values& values, std::string_vi
 
 std::string text_of(double x) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.17g", x);
-  return text;
+  return {text, std::to_chars(text, text + sizeof text, x, std::chars_format::general).ptr};
 }
 
 }  // namespace

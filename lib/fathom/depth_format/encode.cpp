@@ -1,7 +1,7 @@
 #include "fathom/depth_format/encode.h"
 
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 
@@ -113,8 +113,8 @@ bool is_beyond_far(const DepthFormat& format, const Ratio& depth) {
 
 std::string text_of(const Ratio& x) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.17g", round_to_binary64(x));
-  return text;
+  const double rounded = round_to_binary64(x);
+  return {text, std::to_chars(text, text + sizeof text, rounded, std::chars_format::general).ptr};
 }
 
 }  // namespace
