@@ -79,7 +79,7 @@ ViewMaker::ViewMaker(Scene scene, std::vector<Camera> cameras, MapPlan plan)
 }
 
 std::string ViewMaker::inputs_of(std::size_t camera) const {
-  return inputs_ + to_json(cameras_[camera]);
+  return inputs_ + to_json(cameras_[camera], Digits::seventeen);
 }
 
 std::size_t ViewMaker::memory_of(std::size_t camera) const {

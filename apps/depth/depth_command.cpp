@@ -35,7 +35,7 @@ struct DepthAnswer {
 };
 
 std::string to_text(double x) {
-  return fmt::format("{:.17g}", x);
+  return fmt::format("{}", x);
 }
 
 /// A number; where it is none, VALUE is to blame.

@@ -60,7 +60,7 @@ struct Column {
   CellKind kind = CellKind::any;
 
   Column(const char* name) : Column(std::string(name)) {}
-  Column(const std::string& name, const char* format = ".17g")
+  Column(const std::string& name, const char* format = "")
       : key(name), csv_format(format), json_key(name) {}
 
   /// Under another name in JSON: "a.b" is the member b of the object a of each row, "a[]" the next

@@ -80,8 +80,8 @@ std::string quoted(const std::string& name) {
 }
 
 std::string figures(const VisibleArea& area) {
-  return fmt::format("{:.17g},{:.17g},{}", area.visible, area.unoccluded,
-                     area.ratio ? fmt::format("{:.17g}", *area.ratio) : "");
+  return fmt::format("{},{},{}", area.visible, area.unoccluded,
+                     area.ratio ? fmt::format("{}", *area.ratio) : "");
 }
 
 std::string as_csv(const Answer& answer) {
@@ -106,7 +106,7 @@ std::string as_text(const Answer& answer) {
                   answer.camera.height, "object", "visible area", "unoccluded area", "ratio");
   for (std::size_t i = 0; i < answer.areas.objects.size(); ++i) {
     const VisibleArea& area = answer.areas.objects[i];
-    text += fmt::format("{:<32} {:>22.17g} {:>22.17g} {:>10}\n",
+    text += fmt::format("{:<32} {:>22} {:>22} {:>10}\n",
                         text::printable(answer.scene.objects[i].name), area.visible,
                         area.unoccluded, area.ratio ? fmt::format("{:.6g}", *area.ratio) : "-");
   }

@@ -43,7 +43,7 @@ int validate_render(const ValidateArguments& arguments, const Console& console) 
   if (!drawing.drawn) throw InputError(drawing.failure);
   DepthMap map = attribution::as_depth_map(drawing.drawn->map);
   const Camera camera = scene.make().camera;
-  map.texts[camera_text] = to_json(camera);
+  map.texts[camera_text] = to_json(camera, Digits::seventeen);
   map.texts[engine_text] = drawing.drawn->version;
   output.write([&](const std::filesystem::path& path) {
     write_map(map, path, *format,

@@ -311,6 +311,15 @@ TEST(CameraJson, RoundTripsBitForBit) {
     ASSERT_TRUE(same_bits(again[i], cameras[i])) << to_json(cameras[i]);
 }
 
+TEST(CameraJson, NumbersHaveAsFewDigitsAsTheyNeed) {
+  Camera camera = with("");
+  camera.near = 0.1;
+  camera.far = 100000;
+  EXPECT_THAT(to_json(camera), HasSubstr("\"near\": 0.1,\n  \"far\": 100000\n"));
+  EXPECT_THAT(to_json(camera, Digits::seventeen), HasSubstr("\"near\": 0.10000000000000001,\n"));
+  EXPECT_TRUE(same_bits(read(to_json(camera, Digits::seventeen)).at(0), camera));
+}
+
 TEST(CameraJson, ASingleCameraIsWrittenAsAnObject) {
   const Camera camera = with("");
   const std::string text = to_json(std::vector{camera});

@@ -1,7 +1,8 @@
 #include "fathom/camera/camera_files.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -127,14 +128,11 @@ Camera read_camera(const JsonValue& value) {
   return camera;
 }
 
-/// 17 significant digits: reading them back gives the same number bit for bit. A zero keeps its
-/// sign only if it is written as a fraction.
-std::string to_json(double number) {
+/// A zero keeps its sign only if it is written as a fraction.
+std::string json_number(double number, Digits digits) {
   if (std::isinf(number)) return "null";
   if (number == 0) return std::signbit(number) ? "-0.0" : "0";
-  char text[40];
-  const auto end = std::to_chars(text, text + sizeof text, number, std::chars_format::general, 17);
-  return {text, end.ptr};
+  return digits == Digits::fewest ? fmt::format("{}", number) : fmt::format("{:.17g}", number);
 }
 
 }  // namespace
@@ -174,8 +172,9 @@ std::vector<Camera> read_cameras(const std::filesystem::path& file) {
   return read_cameras(file, warnings);
 }
 
-std::string to_json(const Camera& camera) {
+std::string to_json(const Camera& camera, Digits digits) {
   const StandardArithmetic standard;
+  const auto number = [digits](double value) { return json_number(value, digits); };
   std::string text;
   const auto member = [&](const char* key, const std::string& value) {
     text += (text.empty() ? "{\n" : ",\n") + ("  \"" + std::string(key) + "\": ") + value;
@@ -185,19 +184,19 @@ std::string to_json(const Camera& camera) {
   member("height", std::to_string(camera.height));
   const Projection& projection = camera.projection;
   member("projection", json_string(name_of(projection.model)));
-  member("fx", to_json(projection.fx));
-  member("fy", to_json(projection.fy));
-  member("cx", to_json(projection.cx));
-  member("cy", to_json(projection.cy));
-  member("skew", to_json(projection.skew));
-  member("pixel_centre", to_json(projection.pixel_centre));
+  member("fx", number(projection.fx));
+  member("fy", number(projection.fy));
+  member("cx", number(projection.cx));
+  member("cy", number(projection.cy));
+  member("skew", number(projection.skew));
+  member("pixel_centre", number(projection.pixel_centre));
   std::string rows;
   for (const auto& [r0, r1, r2, t] : camera.world_to_camera)
-    rows += (rows.empty() ? "[" : ",\n    [") + to_json(r0) + ", " + to_json(r1) + ", " +
-            to_json(r2) + ", " + to_json(t) + "]";
+    rows += (rows.empty() ? "[" : ",\n    [") + number(r0) + ", " + number(r1) + ", " + number(r2) +
+            ", " + number(t) + "]";
   member("world_to_camera", "[\n    " + rows + "\n  ]");
-  member("near", to_json(camera.near));
-  member("far", to_json(camera.far));
+  member("near", number(camera.near));
+  member("far", number(camera.far));
   return text + "\n}";
 }
 

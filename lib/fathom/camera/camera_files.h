@@ -23,9 +23,13 @@ std::vector<Camera> read_cameras(std::string_view text, const std::string& name,
 std::vector<Camera> read_cameras(const std::filesystem::path& file);
 std::vector<Camera> read_cameras(std::string_view text, const std::string& name);
 
-/// The JSON of camera files with every number to 17 significant digits, so that reading it back
-/// gives the same camera bit for bit. Ends without a newline.
-std::string to_json(const Camera& camera);
+/// The digits of a number in JSON: the fewest that read back as the same number (camera files), or
+/// 17 significant ones (headers of maps, whose bytes do not change between versions).
+enum class Digits { fewest, seventeen };
+
+/// The JSON of camera files; reading it back gives the same camera bit for bit. Ends without a
+/// newline.
+std::string to_json(const Camera& camera, Digits digits = Digits::fewest);
 /// A list of cameras; a single one is written as an object.
 std::string to_json(const std::vector<Camera>& cameras);
 

@@ -72,7 +72,7 @@ std::optional<Camera> camera_of(const DepthMap& map, const std::string& name) {
 std::map<std::string, std::string> texts_of(const DepthMap& map) {
   const StandardArithmetic standard;
   std::map<std::string, std::string> texts = map.texts;
-  if (map.camera) texts[camera_text] = to_json(*map.camera);
+  if (map.camera) texts[camera_text] = to_json(*map.camera, Digits::seventeen);
   return texts;
 }
 

@@ -9,11 +9,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <sstream>
+#include <string>
 
 #include "fathom/camera/camera_import.h"
 #include "fathom/camera/camera_making.h"
 #include "fathom/failures/errors.h"
+#include "fathom/text/decimal.h"
 
 namespace fathom::vtk {
 namespace {
@@ -121,10 +122,8 @@ class Check {
  public:
   void expect(const char* what, double is, double should, double terms) {
     if (fault_ || std::abs(is - should) <= lost * terms) return;
-    std::ostringstream text;
-    text.precision(17);
-    text << what << " is " << is << " and should be " << should;
-    fault_ = text.str();
+    fault_ = std::string(what) + " is " + text::shortest_decimal(is) + " and should be " +
+             text::shortest_decimal(should);
   }
   [[nodiscard]] const std::optional<std::string>& fault() const { return fault_; }
 

@@ -297,7 +297,7 @@ class Camera:
         return _only(read_cameras(file))
 
     def to_json(self) -> str:
-        """The text of a camera file, every number with 17 digits: from_json() returns the same
+        """The text of a camera file, every number with as many digits as it needs: from_json() returns the same
         camera, bit for bit."""
         return _core.camera_to_json(self._handle)
 
