@@ -36,7 +36,7 @@ std::string info_of_deep_map(const DeepMap& deep, const std::string& file, Answe
 /// mesh file with only vertices is a point cloud; its bounds contain all vertices.
 std::string info_of_scene(Scene scene, FileKind kind, const std::string& file, AnswerForm form);
 
-/// Where each camera of the file stands and looks, and its numbers.
+/// Where the camera of the file stands and looks, and its numbers; of several cameras a table.
 std::string info_of_cameras(const std::vector<Camera>& cameras, const std::string& file,
                             AnswerForm form);
 

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -72,6 +73,48 @@ std::string describe_as_text(const Camera& camera) {
                      vector(sight.eye), vector(sight.forward), camera.near, camera.far);
 }
 
+/// Rows of texts in columns, each as wide as its longest text; a column without texts is left out.
+std::string in_columns(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::string> lines(rows.size());
+  for (std::size_t column = 0; column < rows.front().size(); ++column) {
+    std::size_t width = 0;
+    bool has_texts = false;
+    for (const auto& row : rows) {
+      width = std::max(width, row[column].size());
+      has_texts = has_texts || (&row != &rows.front() && !row[column].empty());
+    }
+    if (!has_texts) continue;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      lines[i] += fmt::format("  {:<{}}", rows[i][column], width);
+  }
+  std::string text;
+  for (std::string& line : lines) text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  return text;
+}
+
+std::string field_of_view(const Camera& camera) {
+  if (!is_perspective(camera.projection)) return std::string(name_of(camera.projection.model));
+  return fmt::format("{:.2f} x {:.2f}", degrees_of(camera.width, camera.projection.fx),
+                     degrees_of(camera.height, camera.projection.fy));
+}
+
+/// A line for each camera, below a line of headings.
+std::string table_of(const std::vector<Camera>& cameras) {
+  std::vector<std::vector<std::string>> rows{
+      {"number", "name", "size", "field of view", "eye", "looks along", "near, far"}};
+  const auto vector = [](const std::array<double, 3>& v) {
+    return fmt::format("({:.6g}, {:.6g}, {:.6g})", v[0], v[1], v[2]);
+  };
+  for (const Camera& camera : cameras) {
+    const LineOfSight sight = line_of_sight(camera);
+    rows.push_back({std::to_string(rows.size() - 1), text::printable(camera.name),
+                    fmt::format("{}x{}", camera.width, camera.height), field_of_view(camera),
+                    vector(sight.eye), vector(sight.forward),
+                    fmt::format("{}, {}", camera.near, camera.far)});
+  }
+  return in_columns(rows);
+}
+
 }  // namespace
 
 std::string info_of_cameras(const std::vector<Camera>& cameras, const std::string& file,
@@ -84,8 +127,7 @@ std::string info_of_cameras(const std::vector<Camera>& cameras, const std::strin
   std::string text = fmt::format(
       "{}: {}\n", text::printable(file),
       cameras.size() == 1 ? "a camera" : fmt::format("a path of {} cameras", cameras.size()));
-  for (const Camera& camera : cameras) text += describe_as_text(camera);
-  return text;
+  return text + (cameras.size() == 1 ? describe_as_text(cameras.front()) : table_of(cameras));
 }
 
 }  // namespace fathom::app

@@ -285,7 +285,11 @@ TEST_F(CameraCommands, MapsHaveTheNamesOfTheirImages) {
   const Outcome info = run_fathom({"info", "a.exr", "--json"}, {.folder = folder_.path()});
   EXPECT_THAT(info.out, HasSubstr("left/a.jpg"));
   const Outcome camera = run_fathom({"info", "cameras.json"}, {.folder = folder_.path()});
-  EXPECT_THAT(camera.out, HasSubstr("camera of 16x12 pixels\n    name          b.jpg\n"));
+  EXPECT_EQ(camera.out,
+            "cameras.json: a path of 2 cameras\n"
+            "  number  name        size   field of view  eye         looks along  near, far\n"
+            "  0       left/a.jpg  16x12  77.32 x 61.93  (0, 0, -3)  (0, 0, 1)    0, inf\n"
+            "  1       b.jpg       16x12  77.32 x 61.93  (0, 0, -4)  (0, 0, 1)    0, inf\n");
 }
 
 TEST_F(CameraCommands, NamesAreShownWithoutWhatMovesTheCursor) {
