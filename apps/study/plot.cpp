@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "apps/study/drawn_files.h"
 
@@ -51,12 +52,76 @@ Plot drawable(Plot plot) {
   return plot;
 }
 
+/// Where y is on its axis, from the least of all points, or 0, to the greatest.
+class VerticalAxis {
+ public:
+  explicit VerticalAxis(const Plot& plot) : logarithmic_(plot.logarithmic_y) {
+    low_ = logarithmic_ ? std::numeric_limits<double>::infinity() : 0;
+    high_ = -std::numeric_limits<double>::infinity();
+    for (const Series& series : plot.series) {
+      for (const auto& [x, y] : series.points) {
+        low_ = std::min(low_, scaled(y));
+        high_ = std::max(high_, scaled(y));
+      }
+    }
+  }
+  [[nodiscard]] double place(double y) const {
+    return high_ > low_ ? (scaled(y) - low_) / (high_ - low_) : 0;
+  }
+
+ private:
+  [[nodiscard]] double scaled(double y) const { return logarithmic_ ? std::log10(y) : y; }
+
+  bool logarithmic_;
+  double low_, high_;
+};
+
+/// Whether the lines cannot be told apart: they have the same x, and y differs by less than the
+/// width of a line.
+bool coincide(const Series& a, const Series& b, const VerticalAxis& axis) {
+  constexpr double line_width = 1.0 / 400;
+  return std::ranges::equal(a.points, b.points, [&](const auto& p, const auto& q) {
+    return p.first == q.first && std::abs(axis.place(p.second) - axis.place(q.second)) < line_width;
+  });
+}
+
+/// For each series the first one that it coincides with: itself, where it is drawn.
+std::vector<std::size_t> drawn_lines(const Plot& plot) {
+  const VerticalAxis axis(plot);
+  std::vector<std::size_t> drawn(plot.series.size());
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    drawn[i] = i;
+    for (std::size_t k = 0; k < i && drawn[i] == i; ++k)
+      if (drawn[k] == k && coincide(plot.series[i], plot.series[k], axis)) drawn[i] = k;
+  }
+  return drawn;
+}
+
+/// Colour, dashes and marks of a series.
+std::string style_of(std::size_t series) {
+  return fmt::format("lw 1.5 dt {} pt {} ps 0.8 lc rgb \"{}\"", series % 5 + 1, series % 13 + 1,
+                     colours[series % colour_count]);
+}
+
+/// The line of a series, and below its name those of the lines that it hides, as "= NAME".
+std::string line_of(const Plot& plot, std::size_t series, const std::vector<std::size_t>& drawn) {
+  const Series& line = plot.series[series];
+  std::string text = fmt::format("  $series{} with linespoints title {} pi {} {}", series,
+                                 quoted(line.label), 1 + line.points.size() / 12, style_of(series));
+  for (std::size_t i = series + 1; i < drawn.size(); ++i) {
+    if (drawn[i] == series)
+      text += fmt::format(", \\\n  keyentry with linespoints {} title {}", style_of(series),
+                          quoted("= " + plot.series[i].label));
+  }
+  return text;
+}
+
 std::string script_of(const Plot& plot) {
   std::string script;
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     script += fmt::format("$series{} << END\n", i);
     for (const auto& [x, y] : plot.series[i].points) {
-      script += fmt::format("{:.17g} {:.17g}\n", x, y);
+      script += fmt::format("{} {}\n", x, y);
     }
     script += "END\n";
   }
@@ -68,15 +133,11 @@ std::string script_of(const Plot& plot) {
   else if (std::none_of(plot.series.begin(), plot.series.end(), is_negative)) {
     script += "set yrange [0:*]\n";
   }
-  script += "plot \\\n";
-  for (std::size_t i = 0; i < plot.series.size(); ++i) {
-    const std::size_t marks = 1 + plot.series[i].points.size() / 12;
-    script += fmt::format(
-        "  $series{} with linespoints title {} lw 1.5 dt {} pt {} ps 0.8 pi {} lc rgb \"{}\"{}\n",
-        i, quoted(plot.series[i].label), i % 5 + 1, i % 13 + 1, marks, colours[i % colour_count],
-        i + 1 < plot.series.size() ? ", \\" : "");
-  }
-  return script;
+  const std::vector<std::size_t> drawn = drawn_lines(plot);
+  std::string lines;
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+    if (drawn[i] == i) lines += (lines.empty() ? "" : ", \\\n") + line_of(plot, i, drawn);
+  return script + "plot \\\n" + lines + "\n";
 }
 
 std::string script_of(const BarChart& chart) {

@@ -12,7 +12,8 @@
 namespace fathom::studies {
 
 /// A line of a plot. Lines differ by colour, dashes and point marks, so that they can be told apart
-/// in black and white too.
+/// in black and white too. A line that lies on an earlier one is not drawn: the key names it below
+/// that one, as "= LABEL".
 struct Series {
   std::string label;
   std::vector<std::pair<double, double>> points;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 
 #include "apps/study/depth_resolution/format_steps.h"
@@ -81,6 +82,52 @@ Table formats_table(const std::vector<FormatSteps>& rows) {
            {Column("greatest_relative_step_at").page("at depth", ".4g"), &Row::greatest_at}}};
 }
 
+/// The finest mapping of a storage, by its greatest relative step.
+struct FinestMapping {
+  FormatSteps finest, standard;
+};
+
+/// opengl is standard in the ideal model.
+std::vector<FinestMapping> finest_mappings(const std::vector<FormatSteps>& all) {
+  std::vector<FinestMapping> rows;
+  for (const Storage storage : all_storages) {
+    const auto of_storage = rows_where(all, [&](const FormatSteps& m) {
+      return m.format.storage == storage && m.format.mapping != Mapping::opengl;
+    });
+    const auto standard = std::ranges::find(of_storage, Mapping::standard,
+                                            [](const FormatSteps& m) { return m.format.mapping; });
+    rows.push_back(
+        {*std::ranges::min_element(of_storage, {}, &FormatSteps::greatest_relative), *standard});
+  }
+  return rows;
+}
+
+Table answer_table(const std::vector<FinestMapping>& rows) {
+  using Row = FinestMapping;
+  return {
+      rows,
+      {{heading("storage"), [](const Row& r) { return name_of(r.finest.format.storage); }},
+       {heading("finest mapping"), [](const Row& r) { return name_of(r.finest.format.mapping); }},
+       {heading("greatest step, of the depth", ".3g"),
+        [](const Row& r) { return r.finest.greatest_relative; }},
+       {heading("at depth", ".4g"), [](const Row& r) { return r.finest.greatest_at; }},
+       {heading("standard: greatest step, of the depth", ".3g"),
+        [](const Row& r) { return r.standard.greatest_relative; }},
+       {heading("at depth", ".4g"), [](const Row& r) { return r.standard.greatest_at; }}}};
+}
+
+/// The values of the page's first sentence.
+void quote_answer(Results& results, const std::vector<FinestMapping>& rows) {
+  for (const auto& [finest, standard] : rows) {
+    const Storage storage = finest.format.storage;
+    if (storage != Storage::float32 && storage != Storage::unorm24) continue;
+    const std::string name(name_of(storage));
+    results.quote("best_" + name, label_of(finest.format));
+    results.quote("best_" + name + "_step", finest.greatest_relative, ".3g");
+    results.quote("standard_" + name + "_step", standard.greatest_relative, ".3g");
+  }
+}
+
 /// Near a stored 0 the steps of float formats are subnormal numbers, which would squeeze the rest
 /// of a plot: what is finer than 10⁻¹⁷ of the depth is left out there, not in the figures.
 template <class Row>
@@ -151,6 +198,9 @@ std::vector<StudyFile> study_depth_resolution(const StudyOptions& options,
   results.figure("near", near);
   results.figure("far", far);
   results.figure("samples", depths.size());
+  const std::vector<FinestMapping> finest = finest_mappings(all);
+  quote_answer(results, finest);
+  results.table(answer_table(finest), {.page = "answer"});
   results.table(formats_table(all), {.json = "formats", .page = "formats"});
   results.table(ranges_table(best_ranges(best)), {.json = "best"});
   results.table(steps_table(all), {.csv = "steps"});

@@ -40,13 +40,11 @@ Table offsets_table(const std::vector<OffsetCount>& rows) {
 /// Of cures that leave anything to fight.
 void plot_cures(Results& results, const std::string& name, const std::string& title,
                 const std::vector<Cure>& cures) {
-  BarChart chart{.name = name,
-                 .title = title,
-                 .y_label = "share of surface pixels that fight (%)",
-                 .series = {{"fighting", {}}}};
+  BarChart chart{
+      .name = name, .title = title, .y_label = "pixels that fight", .series = {{"fighting", {}}}};
   for (const Cure& cure : cures) {
     chart.categories.push_back(cure.name);
-    chart.series[0].heights.push_back(100 * cure.fights.share());
+    chart.series[0].heights.push_back(static_cast<double>(cure.fights.fighting));
   }
   if (has_heights(chart)) results.plot(chart);
 }

@@ -29,20 +29,19 @@ BufferedScene buffer_scene(const SceneView& view, const DepthMap& visible,
 std::vector<FightPicture> pictures_of(const std::string& name, const BufferedScene& buffered,
                                       const std::string& scene, const std::string& camera) {
   const DepthFormat& format = buffered.fights.format;
+  const std::string unit = fmt::format("{}, near {:.3g}", label_of(format), format.near);
   const double end = std::max(buffered.fights.greatest_error, 1e-30);
   const std::string map = fmt::format(
       "fathom render {} --camera {} --depth-format {} --mapping {} --against-exact -o map.exr",
       scene, camera, name_of(format.storage), name_of(format.mapping));
-  return {
-      {picture("fights-" + name, buffered.map,
-               {.channel = "Zfight", .colours = ColourMap::grey, .low = 0, .high = 1}),
-       fmt::format("{} && fathom preview map.exr --channel Zfight --colormap grey --range 0,1 "
-                   "-o fights-{}.png",
-                   map, name)},
-      {picture("error-" + name, buffered.map,
-               {.channel = "Zerror", .colours = ColourMap::viridis, .low = -end, .high = end}),
-       fmt::format("{} && fathom preview map.exr --channel Zerror --range {},{} -o error-{}.png",
-                   map, -end, end, name)}};
+  return {{picture("fights-" + name, buffered.map, {.channel = "Zfight", .unit = unit}),
+           fmt::format("{} && fathom preview map.exr --channel Zfight --unit '{}' -o fights-{}.png",
+                       map, unit, name)},
+          {picture("error-" + name, buffered.map,
+                   {.channel = "Zerror", .low = -end, .high = end, .unit = unit}),
+           fmt::format("{} && fathom preview map.exr --channel Zerror --range {},{} --unit '{}' "
+                       "-o error-{}.png",
+                       map, -end, end, unit, name)}};
 }
 
 StudyFile camera_file(const std::string& name, const Camera& camera) {

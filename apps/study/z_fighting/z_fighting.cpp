@@ -1,4 +1,6 @@
+#include <functional>
 #include <limits>
+#include <optional>
 
 #include "apps/study/page_texts.h"
 #include "apps/study/results.h"
@@ -46,6 +48,45 @@ Table angles_table(const std::vector<FightByAngle>& rows) {
            {Column("wrong_pipeline_premultiplied", ".6g"), &Row::premultiplied},
            {Column("least_safe_separation", ".9g"), &Row::safe},
            {Column("predicted_safe_separation", ".9g"), &Row::predicted}}};
+}
+
+/// How far a format keeps the surfaces apart: up to the last distance before the first fight.
+struct SafeReach {
+  DepthFormat format;
+  std::optional<double> ideal, pipeline;
+};
+
+template <class Share>
+std::optional<double> reach_of(const std::vector<FightByDistance>& rows, const Share& share) {
+  std::optional<double> reach;
+  for (const FightByDistance& f : rows) {
+    const std::optional<double> wrong = std::invoke(share, f);
+    if (!wrong || *wrong > 0) break;
+    reach = f.distance;
+  }
+  return reach;
+}
+
+std::vector<SafeReach> safe_reaches(const std::vector<FightByDistance>& rows) {
+  std::vector<SafeReach> reaches;
+  for (const Storage storage : {Storage::unorm16, Storage::unorm24, Storage::float32}) {
+    for (const Mapping mapping : {Mapping::standard, Mapping::reversed, Mapping::log}) {
+      const auto of_format = rows_where(rows, [&](const FightByDistance& f) {
+        return f.format.mapping == mapping && f.format.storage == storage;
+      });
+      reaches.push_back({of_format.front().format, reach_of(of_format, &FightByDistance::ideal),
+                         reach_of(of_format, &FightByDistance::premultiplied)});
+    }
+  }
+  return reaches;
+}
+
+Table reaches_table(const std::vector<SafeReach>& rows) {
+  using Row = SafeReach;
+  return {rows,
+          {{heading("format"), [](const Row& r) { return label_of(r.format); }},
+           {heading("safe up to distance, ideal", ".3g"), &Row::ideal},
+           {heading("pipeline, premultiplied", ".3g"), &Row::pipeline}}};
 }
 
 /// `y` of the fights in one format, by distance.
@@ -178,6 +219,7 @@ std::vector<StudyFile> study_z_fighting(const StudyOptions& options,
   results.figure("separation", separation);
   results.figure("tilt_degrees", 30);
   results.figure("samples", samples);
+  results.table(reaches_table(safe_reaches(fights)), {.page = "answer"});
   results.table(fights_table(fights, separation), {.csv = "fights", .json = "fights"});
   results.table(fights_table(shown_of(fights), separation), {.page = "fights"});
   results.table(angles_table(by_angle), {.csv = "angles", .json = "by_angle"});
