@@ -26,6 +26,11 @@ ColourMap parse_colour_map(const std::string& text) {
   refuse_word(text, names_of(all_colour_maps));
 }
 
+ColourScale parse_colour_scale(const std::string& text) {
+  if (const std::optional<ColourScale> scale = colour_scale_named(text)) return *scale;
+  refuse_word(text, names_of(all_colour_scales));
+}
+
 int run_preview(const PreviewArguments& arguments) {
   const DepthMap map = read_map_or_flat_map(arguments.map);
   const RgbImage picture = draw_preview(map, arguments.options);
@@ -45,7 +50,8 @@ void add_preview(Command& program) {
       "  fathom preview spot.exr -o spot.png\n"
       "  fathom preview spot.exr --channel id -o triangles.png\n"
       "  fathom preview deep.exr --channel samples -o samples.png\n"
-      "  fathom preview spot.exr --colormap magma --range 2,5 --unit m -o spot.png");
+      "  fathom preview spot.exr --colormap magma --range 2,5 --unit m -o spot.png\n"
+      "  fathom preview room.exr --scale log -o room.png");
   command
       .argument("MAP", arguments->map,
                 "Map to draw (" + names_of_readable_maps() + ", also deep EXR)")
@@ -55,8 +61,12 @@ void add_preview(Command& program) {
       .required();
   command.option("--channel", "NAME", options.channel,
                  "Channel to draw (default Z); of a deep EXR Z, ZBack, id, A or samples");
-  command.option("--colormap", "NAME", into(options.colours, parse_colour_map),
-                 "Colours: viridis (default), magma, turbo or grey");
+  command.option(
+      "--colormap", "NAME", into(options.colours, parse_colour_map),
+      "Colours: viridis (default), magma, turbo, grey or diverging (default for Zerror)");
+  command.option("--scale", "NAME", into(options.scale, parse_colour_scale),
+                 "How the colours spread over the range: linear (default), log, inverse or "
+                 "equalised (every colour covers as many pixels)");
   command.option(
       "--range", "LOW,HIGH",
       [&options](const std::string& text) {

@@ -9,6 +9,7 @@
 #include "apps/view/map_data.h"
 #include "apps/view/web.h"
 #include "fathom/failures/errors.h"
+#include "fathom/failures/unknown_name.h"
 #include "fathom/image/preview.h"
 #include "fathom/threads/threads.h"
 
@@ -72,6 +73,7 @@ void write_page(const std::vector<ViewedMap>& maps, Questions questions, const S
   Json data{{"maps", Json::array()},
             {"tile", tile_size},
             {"colours", colour_maps()},
+            {"scales", names_of(all_colour_scales)},
             {"probes", questions == Questions::probes}};
   std::uint64_t tiles = 0;
   for (const ViewedMap& viewed : maps) tiles += tiles_of_channels(viewed.map);

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "fathom/failures/errors.h"
 #include "fathom/image/pictures/legend.h"
+#include "fathom/image/pictures/scaled_range.h"
 #include "fathom/image/surface.h"
 #include "tests/image/map_samples.h"
 
@@ -49,6 +51,48 @@ TEST(Preview, RangeCanBeGiven) {
   EXPECT_THROW(draw_preview(map, options), UsageError);
   options.channel = "N";
   EXPECT_THROW(draw_preview(map, options), UsageError);
+}
+
+Rgb of_place(double t) {
+  return colour_at(ColourMap::viridis, t);
+}
+
+TEST(Preview, ScalesPlaceValuesByRatiosInversesAndRanks) {
+  const DepthMap map = map_of(5, 1, "Z", std::vector<float>{1, 2, 4, 16, inf});
+  PreviewOptions options;
+  options.scale = ColourScale::log;
+  EXPECT_EQ(block(draw_preview(map, options), 2), of_place(0.5));
+  options.scale = ColourScale::inverse;
+  EXPECT_EQ(block(draw_preview(map, options), 1), of_place((1 - 1 / 2.0) / (1 - 1 / 16.0)));
+  options.scale = ColourScale::equalised;
+  EXPECT_EQ(block(draw_preview(map, options), 1), of_place(1 / 3.0));
+  EXPECT_EQ(block(draw_preview(map, options), 3), of_place(1));
+}
+
+TEST(Preview, LogarithmsAndInversesNeedARangeAboveZero) {
+  const DepthMap map = map_of(5, 1, "Z", std::vector<float>{0, 2, 4, 16, inf});
+  PreviewOptions options;
+  for (const ColourScale scale : {ColourScale::log, ColourScale::inverse}) {
+    options.scale = scale;
+    options.low.reset();
+    EXPECT_THROW(draw_preview(map, options), UsageError);
+    options.low = 2;
+    EXPECT_EQ(block(draw_preview(map, options), 0), of_place(0));
+    EXPECT_EQ(block(draw_preview(map, options), 3), of_place(1));
+    EXPECT_NO_THROW(
+        draw_preview(map_of(5, 1, "Z", std::vector<float>{inf, inf, inf, inf, inf})));
+  }
+}
+
+TEST(ScaledRange, MarksLieWhereTheirNumbersAre) {
+  for (const ColourScale scale : all_colour_scales) {
+    const ScaledRange range(scale, 0.1, 1000, {0.1, 1, 7, 8, 9, 100, 1000});
+    const auto marks = range.marks();
+    EXPECT_GT(marks.size(), 4U) << name_of(scale);
+    EXPECT_EQ(marks[0].text, "0.1");
+    EXPECT_EQ(marks[1].text, "1000");
+    for (const auto& [t, text] : marks) EXPECT_NEAR(range.place(std::stod(text)), t, 1e-12) << text;
+  }
 }
 
 TEST(Preview, OddMapsAreDrawn) {

@@ -74,7 +74,7 @@ nlohmann::json depth_colours() {
   constexpr int count = 256;
   nlohmann::json colours = nlohmann::json::array();
   for (int k = 0; k < count; ++k) {
-    colours.push_back(colour_at(PreviewOptions{}.colours, static_cast<double>(k) / (count - 1)));
+    colours.push_back(colour_at(ColourMap::viridis, static_cast<double>(k) / (count - 1)));
   }
   return colours;
 }

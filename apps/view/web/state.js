@@ -1,4 +1,5 @@
 /// What is shown, and its link: all of it stands in the fragment of the page's address.
+import { page } from "./channels.js";
 
 export const defaults = {
   map: 0, other: -1, mode: "single", measure: "relative", channel: "", scale: "linear", colours: "viridis",
@@ -6,7 +7,7 @@ export const defaults = {
 
 const words = {
   mode: ["single", "slider", "flicker", "difference"], measure: ["absolute", "relative", "ulps"],
-  scale: ["linear", "log", "inverse", "equalised"], colours: ["viridis", "magma", "turbo", "grey"] };
+  scale: page.scales, colours: Object.keys(page.colours) };
 
 const listOf = (length) => (text) => {
   const numbers = text.split(",").map(Number);

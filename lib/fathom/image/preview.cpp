@@ -4,12 +4,16 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
+#include <utility>
 
 #include "fathom/failures/errors.h"
 #include "fathom/image/channel_names.h"
 #include "fathom/image/compare_internal.h"
 #include "fathom/image/files/name_tables.h"
+#include "fathom/image/pictures/fights_picture.h"
 #include "fathom/image/pictures/legend.h"
+#include "fathom/image/pictures/scaled_range.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
@@ -23,12 +27,23 @@ constexpr Rgb plus_infinity_colour{230, 25, 120}, minus_infinity_colour{120, 40,
 
 /// A neutral colour that is not in the colour map.
 Rgb background_colour(ColourMap colours) {
-  return colours == ColourMap::grey ? Rgb{74, 92, 122} : Rgb{206, 210, 216};
+  if (colours == ColourMap::grey) return {74, 92, 122};
+  return colours == ColourMap::diverging ? Rgb{150, 156, 164} : Rgb{206, 210, 216};
 }
+
+/// What the channels of a depth buffer mean.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 5> buffer_channels{
+    {{"Zwindow", "stored depth"},
+     {"Zdecoded", "depth decoded from the buffer"},
+     {"Zerror", "decoded minus exact depth"},
+     {"Zwinner", "triangle that wins in the buffer"},
+     {"Zfight", "where the wrong surface wins"}}};
 
 /// What is written above the picture of a channel.
 std::string title_of(const DepthMap& map, const ImageChannel& channel) {
   std::string text = channel.name;
+  for (const auto& [name, meaning] : buffer_channels)
+    if (name == channel.name) text += " – " + std::string(meaning);
   if (const auto ours = channel_named(channel.name)) {
     text += " – " + std::string(description_of(*ours).meaning);
   } else if (channel.name == "disparity") {
@@ -70,11 +85,17 @@ struct Range {
   bool any = false;
 };
 
-Range range_of(const Reading& values, const std::vector<std::uint8_t>& mask) {
+/// Of the surface.
+std::vector<double> finite_values(const Reading& values, const std::vector<std::uint8_t>& mask) {
+  std::vector<double> finite;
+  for (std::size_t k = 0; k < mask.size(); ++k)
+    if (mask[k] && std::isfinite(values.value(k))) finite.push_back(values.value(k));
+  return finite;
+}
+
+Range range_of(const std::vector<double>& values) {
   Range range;
-  for (std::size_t k = 0; k < mask.size(); ++k) {
-    const double value = values.value(k);
-    if (!mask[k] || !std::isfinite(value)) continue;
+  for (const double value : values) {
     range.low = range.any ? std::min(range.low, value) : value;
     range.high = range.any ? std::max(range.high, value) : value;
     range.any = true;
@@ -82,15 +103,13 @@ Range range_of(const Reading& values, const std::vector<std::uint8_t>& mask) {
   return range;
 }
 
-/// How far `value` is from the low end to the high one; halves, so that no difference overflows.
-double share(double value, const Range& range) {
-  if (range.low == range.high) return 0.5;
-  return (value / 2 - range.low / 2) / (range.high / 2 - range.low / 2);
-}
-
-Range bar_range(const Reading& values, const std::vector<std::uint8_t>& mask,
-                const ImageChannel& channel, const PreviewOptions& options) {
-  Range range = channel.name == "A" ? Range{0, 1, true} : range_of(values, mask);
+Range bar_range(const std::vector<double>& values, const ImageChannel& channel,
+                const PreviewOptions& options) {
+  Range range = channel.name == "A" ? Range{0, 1, true} : range_of(values);
+  if (channel.name == "Zerror" && options.colours == ColourMap::diverging && range.any) {
+    range.high = std::max(std::abs(range.low), std::abs(range.high));
+    range.low = -range.high;
+  }
   if (options.low) range.low = *options.low;
   if (options.high) range.high = *options.high;
   if (options.low || options.high) {
@@ -105,7 +124,10 @@ void draw_numbers(Sheet& sheet, const DepthMap& map, const ImageChannel& channel
                   const PreviewOptions& options) {
   const Reading values(channel, map.png_scale);
   const std::vector<std::uint8_t> mask = surface_mask(map, channel);
-  const Range range = bar_range(values, mask, channel, options);
+  const std::vector<double> finite = finite_values(values, mask);
+  const Range range = bar_range(finite, channel, options);
+  const ScaledRange scaled(range.any ? options.scale : ColourScale::linear, range.low, range.high,
+                           finite);
   Specials specials;
   for (std::size_t k = 0; k < mask.size(); ++k) {
     Rgb& pixel = sheet.picture.pixels[k];
@@ -115,21 +137,23 @@ void draw_numbers(Sheet& sheet, const DepthMap& map, const ImageChannel& channel
       pixel = colour;
     };
     if (!mask[k])
-      special("no surface", background_colour(options.colours));
+      special("no surface", background_colour(*options.colours));
     else if (std::isnan(value))
       special("not a number", nan_colour);
     else if (std::isinf(value))
       value > 0 ? special("+∞", plus_infinity_colour) : special("−∞", minus_infinity_colour);
     else
-      pixel = colour_at(options.colours, share(value, range));
+      pixel = colour_at(*options.colours, scaled.place(value));
   }
   if (range.any && range.low < range.high) {
-    sheet.bar = ColourBar{[&options](double t) { return colour_at(options.colours, t); },
-                          linear_marks(range.low, range.high)};
+    if (options.scale != ColourScale::linear)
+      sheet.subtitle = std::string(name_of(options.scale)) + " scale, ";
+    sheet.bar =
+        ColourBar{[&options](double t) { return colour_at(*options.colours, t); }, scaled.marks()};
   } else if (range.any) {
     std::array<char, 40> text{};
     std::snprintf(text.data(), text.size(), "%.9g everywhere", range.low);
-    sheet.entries.push_back({colour_at(options.colours, 0.5), text.data()});
+    sheet.entries.push_back({colour_at(*options.colours, 0.5), text.data()});
   }
   specials.add_to(sheet, mask.size());
 }
@@ -150,7 +174,7 @@ void draw_identifiers(Sheet& sheet, const DepthMap& map, const ImageChannel& cha
       continue;
     }
     const bool none = ids[k] == no_surface;
-    pixel = none ? background_colour(options.colours) : none_colour;
+    pixel = none ? background_colour(*options.colours) : none_colour;
     specials.count(none ? "no surface" : "none", pixel);
   }
   std::vector<std::uint32_t> distinct(ids.begin(), ids.end());
@@ -183,7 +207,7 @@ void draw_normals(Sheet& sheet, const DepthMap& map, const PreviewOptions& optio
   const std::vector<std::uint8_t> mask = surface_mask(map, *map.find(name + ".X"));
   Specials specials;
   for (std::size_t k = 0; k < mask.size(); ++k) {
-    const Rgb background = background_colour(options.colours);
+    const Rgb background = background_colour(*options.colours);
     if (!mask[k]) specials.count("no surface", background);
     for (std::size_t c = 0; c < 3; ++c) {
       const double n = std::clamp(double{(*parts[c])[k]}, -1.0, 1.0);
@@ -199,9 +223,12 @@ void draw_normals(Sheet& sheet, const DepthMap& map, const PreviewOptions& optio
 
 }  // namespace
 
-RgbImage draw_preview(const DepthMap& map, const PreviewOptions& options) {
+RgbImage draw_preview(const DepthMap& map, const PreviewOptions& asked) {
   const StandardArithmetic standard;
   require_valid(map);
+  PreviewOptions options = asked;
+  if (!options.colours)
+    options.colours = options.channel == "Zerror" ? ColourMap::diverging : ColourMap::viridis;
   Sheet sheet;
   sheet.picture = RgbImage(map.width, map.height);
   const std::optional<Channel> asked = channel_named(options.channel);
@@ -215,12 +242,15 @@ RgbImage draw_preview(const DepthMap& map, const PreviewOptions& options) {
     if (!channel) throw missing_channel(map, options.channel.empty() ? "Z" : options.channel);
     sheet.title = title_of(map, *channel);
     if (!options.unit.empty()) sheet.title += " [" + options.unit + "]";
-    if (kind_of(*channel) == ChannelKind::identifier)
+    if (channel->name == "Zfight" &&
+        std::holds_alternative<Samples<std::uint32_t>>(channel->values))
+      draw_fights(sheet, map, *channel, background_colour(*options.colours));
+    else if (kind_of(*channel) == ChannelKind::identifier)
       draw_identifiers(sheet, map, *channel, options);
     else
       draw_numbers(sheet, map, *channel, options);
   }
-  sheet.subtitle = std::to_string(map.width) + " × " + std::to_string(map.height) + " pixels";
+  sheet.subtitle += std::to_string(map.width) + " × " + std::to_string(map.height) + " pixels";
   FittedPicture fitted = fit_to_screen(std::move(sheet.picture));
   if (!fitted.remark.empty()) sheet.subtitle += ", " + fitted.remark;
   sheet.picture = std::move(fitted.image);

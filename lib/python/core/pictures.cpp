@@ -32,11 +32,13 @@ RgbImage image_of(const Picture& array) {
   return image;
 }
 
-py::array draw(const SharedMap& map, const std::string& channel, const std::string& colours,
+py::array draw(const SharedMap& map, const std::string& channel,
+               const std::optional<std::string>& colours, const std::string& scale,
                std::optional<double> low, std::optional<double> high, const std::string& unit) {
   PreviewOptions options;
   options.channel = channel;
-  options.colours = named_value("colormap", all_colour_maps, colours);
+  if (colours) options.colours = named_value("colormap", all_colour_maps, *colours);
+  options.scale = named_value("scale", all_colour_scales, scale);
   options.low = low;
   options.high = high;
   options.unit = unit;
@@ -55,6 +57,7 @@ py::array array_of(const RgbImage& picture) {
 
 void bind_pictures(Module& core) {
   core.attr("color_maps") = names_of(all_colour_maps);
+  core.attr("color_scales") = names_of(all_colour_scales);
   core.def("draw_preview", &draw);
   core.def("write_png", [](const Picture& picture, const std::filesystem::path& path) {
     const RgbImage image = image_of(picture);

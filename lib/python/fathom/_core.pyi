@@ -18,6 +18,7 @@ camera_text: str
 normals_text: str
 compressions: list[str]
 color_maps: list[str]
+color_scales: list[str]
 point_frames: list[str]
 quantities: list[str]
 culls: list[str]
@@ -251,7 +252,7 @@ class CompareOptions:
 def compare_maps(truth: Map, other: Map, options: CompareOptions) -> MapComparison: ...
 def draw_differences(truth: Map, other: Map, options: CompareOptions, by: str) -> npt.NDArray[np.uint8]: ...
 def draw_preview(
-    map: Map, channel: str, colours: str, low: float | None, high: float | None, unit: str
+    map: Map, channel: str, colours: str | None, scale: str, low: float | None, high: float | None, unit: str
 ) -> npt.NDArray[np.uint8]: ...
 def write_png(picture: npt.NDArray[np.uint8], file: str) -> None: ...
 def encode_png(picture: npt.NDArray[np.uint8]) -> bytes: ...

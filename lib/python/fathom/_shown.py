@@ -22,8 +22,10 @@ _font = os.path.join(os.path.dirname(__file__), "DejaVuSans.ttf")
 if os.path.exists(_font):
     os.environ.setdefault("FATHOM_FONT", _font)
 
-ColorMap = Literal["viridis", "magma", "turbo", "grey"]
+ColorMap = Literal["viridis", "magma", "turbo", "grey", "diverging"]
 color_maps = tuple(_core.color_maps)
+ColorScale = Literal["linear", "log", "inverse", "equalised"]
+color_scales = tuple(_core.color_scales)
 
 
 def saved(picture: Picture, path: Path | None) -> Picture:

@@ -24,7 +24,7 @@ from ._arguments import (
     scene_handle,
 )
 from ._files import Path, make_folder_of, path_of
-from ._shown import ColorMap, color_maps, html_of, png_of, saved, share_of
+from ._shown import ColorMap, ColorScale, color_maps, color_scales, html_of, png_of, saved, share_of
 from ._render import rendered
 from .camera import Camera, cameras_from_json
 
@@ -345,7 +345,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         path: Path | None = None,
         *,
         channel: str = "",
-        colormap: ColorMap = "viridis",
+        colormap: ColorMap | None = None,
+        scale: ColorScale = "linear",
         range: tuple[float, float] | None = None,
         unit: str = "",
     ) -> Picture:
@@ -353,13 +354,14 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         Writes it as PNG if a path is given.
 
         channel   default: Z, or else the first channel; N, Nc and Ns are drawn as RGB
-        colormap  "viridis", "magma", "turbo" or "grey"
+        colormap  "viridis" (default), "magma", "turbo", "grey" or "diverging" (default for Zerror)
+        scale     how the colours spread over the range: "linear", "log", "inverse" or "equalised"
         range     (low, high), the ends of the colour bar (default: the least and greatest value)
         unit      written after the channel's name, such as "m"
         """
         low, high = (None, None) if range is None else _ends_of(range)
-        return saved(_core.draw_preview(self._handle(), as_text("channel", channel), one_of("colormap", colormap, color_maps),
-                                        low, high, as_text("unit", unit)), path)
+        return saved(_core.draw_preview(self._handle(), as_text("channel", channel), None if colormap is None else one_of("colormap", colormap, color_maps),
+                                        one_of("scale", scale, color_scales), low, high, as_text("unit", unit)), path)
 
     def _repr_png_(self) -> bytes | None:
         first = self if self._views is None else self.view(0)

@@ -51,6 +51,15 @@ Rgb evaluate(const std::array<Colour, count>& coefficients, double t) {
   return result;
 }
 
+/// From −1, blue, by white to 1, orange.
+Rgb diverging(double t) {
+  const Colour end = t < 0 ? Colour{35, 105, 215} : Colour{215, 75, 40};
+  Rgb result{};
+  for (std::size_t c = 0; c < 3; ++c)
+    result[c] = static_cast<std::uint8_t>(std::lround(255 + std::abs(t) * (end[c] - 255)));
+  return result;
+}
+
 }  // namespace
 
 std::string_view name_of(ColourMap map) {
@@ -62,9 +71,11 @@ std::string_view name_of(ColourMap map) {
     case ColourMap::turbo:
       return "turbo";
     case ColourMap::grey:
+      return "grey";
+    case ColourMap::diverging:
       break;
   }
-  return "grey";
+  return "diverging";
 }
 
 std::optional<ColourMap> colour_map_named(const std::string& name) {
@@ -82,6 +93,8 @@ Rgb colour_at(ColourMap map, double t) {
       return evaluate(turbo, t);
     case ColourMap::grey:
       return {to_byte(t), to_byte(t), to_byte(t)};
+    case ColourMap::diverging:
+      return diverging(2 * t - 1);
   }
   return {};
 }
