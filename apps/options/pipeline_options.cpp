@@ -63,6 +63,10 @@ void PipelineArguments::add_triangle_options(Command& command) {
                      "vertex (summed over the triangles at each vertex) or place (summed where "
                      "vertices coincide, so that no seam shows)"));
   declared_.push_back(
+      command.option("--colours", "NAME", into(stages_.colours, parse_surface_colours),
+                     "Colours of triangles: file (default; those of the vertices, else white), "
+                     "object or triangle (a colour for each number)"));
+  declared_.push_back(
       command.option("--light", "WHERE", into(stages_.light, parse_light),
                      "Direction of the light: X,Y,Z in the world; headlight, from the camera; or "
                      "shoulder (default), from above the camera's left shoulder"));

@@ -61,6 +61,12 @@ FrontFace parse_front_face(const std::string& text) {
       text, {{"ccw", FrontFace::counter_clockwise}, {"cw", FrontFace::clockwise}});
 }
 
+SurfaceColours parse_surface_colours(const std::string& text) {
+  return parse_word<SurfaceColours>(text, {{"file", SurfaceColours::file},
+                                           {"object", SurfaceColours::object},
+                                           {"triangle", SurfaceColours::triangle}});
+}
+
 NormalSource parse_normal_source(const std::string& text) {
   return parse_enumerator(text, all_normal_sources);
 }

@@ -19,6 +19,7 @@ pipeline::ScanConversion parse_scan(const std::string& text);
 pipeline::HiddenSurface parse_hidden_surface(const std::string& text);
 pipeline::Precision parse_precision(const std::string& text);
 pipeline::FrontFace parse_front_face(const std::string& text);
+pipeline::SurfaceColours parse_surface_colours(const std::string& text);
 pipeline::NormalSource parse_normal_source(const std::string& text);
 
 pipeline::SpecularModel parse_specular_model(const std::string& text);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fathom/failures/errors.h"
+#include "fathom/image/preview.h"
 #include "fathom/pipeline/geometry/window_triangle.h"
 #include "fathom/pipeline/output/draw_rules.h"
 #include "fathom/pipeline/render_pipeline.h"
@@ -303,6 +304,29 @@ TEST(Trace, ObeysTheScissorBox) {
   EXPECT_TRUE(traced(0, {2, 0}).sample->drawable);
   options.scissor = WindowRectangle{100, 100, 2, 3};
   EXPECT_EQ(traced(0, {5, 0}).fragments, 0U);
+}
+
+Colour colour_of_number(std::uint32_t number) {
+  const Rgb rgb = colour_of_identifier(number);
+  return {rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0};
+}
+
+/// Narrowed as the frame buffer stores it.
+void expect_near(const Colour& is, const Colour& should) {
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(is[k], should[k], 1e-6);
+}
+
+TEST(SurfaceColours, AreThoseOfTheNumbersOfObjectsOrTriangles) {
+  PipelineOptions options = unlit();
+  const std::vector<Layer> list{{.depth = 3}, {.depth = 2}};
+  options.colours = SurfaceColours::object;
+  const PipelineFrame by_object = drawn(list, options);
+  options.colours = SurfaceColours::triangle;
+  const PipelineFrame by_triangle = drawn(list, options);
+  for (std::size_t i = 0; i < by_object.id.size(); ++i) {
+    expect_near(by_object.picture.pixels[i], colour_of_number(1));
+    expect_near(by_triangle.picture.pixels[i], colour_of_number(by_triangle.id[i]));
+  }
 }
 
 }  // namespace

@@ -30,6 +30,9 @@ enum class Shading { none, points, wireframe, flat, gouraud, phong };
 /// ([Pho75]).
 enum class SpecularModel { blinn, phong };
 using fathom::NormalSource;
+/// Colours of triangles: those of their vertices in the file, else white; or the colours that
+/// previews give to the numbers of objects or triangles.
+enum class SurfaceColours { file, object, triangle };
 enum class TextureFilter { nearest, bilinear, trilinear, anisotropic };
 enum class HiddenSurface { z_buffer, painter };
 enum class WireLine { explicit_equation, dda, bresenham, midpoint, diamond_exit };
@@ -109,6 +112,7 @@ struct PipelineOptions {
   Interpolation interpolation = Interpolation::perspective;
   Shading shading = Shading::flat;
   NormalSource normals_from = NormalSource::file;
+  SurfaceColours colours = SurfaceColours::file;
   LightSource light;
   Material material;
   WireLine wire_line = WireLine::bresenham;

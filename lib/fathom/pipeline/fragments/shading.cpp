@@ -8,6 +8,7 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/geometry/eigen_arrays.h"
+#include "fathom/image/preview.h"
 #include "fathom/pipeline/geometry/primitive_assembly.h"
 
 namespace fathom::pipeline {
@@ -93,6 +94,11 @@ Shader<Real>::Shader(const Camera& camera, const PipelineOptions& options,
 template <class Real>
 void Shader<Real>::begin(const WindowTriangle<Real>& t) {
   shows_normals_ = pipeline::shows_normals(t.front, lighting_);
+  if (options_.colours != SurfaceColours::file) {
+    const Rgb rgb =
+        colour_of_identifier(options_.colours == SurfaceColours::object ? t.object : t.number);
+    number_colour_ = {rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0};
+  }
   if (options_.shading == Shading::flat) {
     const Vector a = vector_at(t.face[0], 0), b = vector_at(t.face[1], 0),
                  c = vector_at(t.face[2], 0);
@@ -134,7 +140,8 @@ Light Shader<Real>::light(const Fragment& f, const std::array<Real, 3>& weights)
 
 template <class Real>
 Colour Shader<Real>::shade(const Fragment& f, const std::array<Real, 3>& weights) const {
-  Colour colour = as_array(vector_at(f.attributes, attribute::colour));
+  Colour colour =
+      number_colour_ ? *number_colour_ : as_array(vector_at(f.attributes, attribute::colour));
   if (texture_) {
     const Colour texel = texture_->sample(
         {{f.attributes[attribute::uv], f.attributes[attribute::uv + 1]}, f.duv_dx, f.duv_dy},

@@ -54,7 +54,7 @@ class Shader {
  public:
   Shader(const Camera& camera, const PipelineOptions& options, std::optional<Texture> texture);
 
-  /// What is found once per triangle: the side that is seen, the face's light (flat: at the centre
+  /// What is found once per triangle: the colour of its number, the side that is seen, the face's light (flat: at the centre
   /// of the whole triangle, with the normal of its plane), the corners' light (Gouraud).
   void begin(const WindowTriangle<Real>& triangle);
   [[nodiscard]] Colour shade(const Fragment& fragment, const std::array<Real, 3>& weights) const;
@@ -67,6 +67,7 @@ class Shader {
   Lighting lighting_;
   std::optional<Texture> texture_;
   std::array<Light, 3> light_{};
+  std::optional<Colour> number_colour_;  ///< instead of that of the vertices
   bool shows_normals_ = true;
 };
 
