@@ -91,7 +91,10 @@ void judge(const std::string& model, ValidationCase& c) {
 }
 
 void judge_all(std::vector<ValidationCase>& cases, const std::vector<SceneToMake>& scenes,
-               const std::string& model) {
+               const std::string& model, const Console& console) {
+  Progress progress(console, "judging");
+  const auto report = progress.reporter();
+  std::size_t judged = 0;
   for (const SceneToMake& scene : scenes) {
     const ValidationScene made = scene.make();
     const auto truth = std::make_shared<Truth>(attribution::make_truth(made.scene, made.camera));
@@ -102,6 +105,7 @@ void judge_all(std::vector<ValidationCase>& cases, const std::vector<SceneToMake
       judge(model, c);
       c.predicted_fights = validation::predicted_fights(made.scene, *c.truth, c.model);
       c.seconds = c.seconds.value_or(0) + watch.lap();
+      if (report) report(static_cast<double>(++judged) / static_cast<double>(cases.size()));
     }
   }
 }
@@ -122,7 +126,7 @@ int validate_against(const ValidateArguments& arguments, const Console& console)
     Progress progress(console, "drawing");
     cases = draw_all(scenes, peers, arguments.time_limit(), progress.reporter());
   }
-  judge_all(cases, scenes, arguments.model);
+  judge_all(cases, scenes, arguments.model, console);
   return report.finish(cases);
 }
 

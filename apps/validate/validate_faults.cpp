@@ -182,7 +182,13 @@ int validate_faults(const ValidateArguments& arguments, const Console& console) 
     }
   }
   FaultStudy study;
-  for (const SpoiledMaps& m : maps) judge(m, study);
+  {
+    Progress progress(console, "judging");
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+      judge(maps[i], study);
+      if (const auto report = progress.reporter(i, maps.size())) report(1);
+    }
+  }
   print(lines_of(study));
   if (!arguments.output.empty()) write_files(study, arguments.output);
   if (!study.is_good()) return answer_is_no;

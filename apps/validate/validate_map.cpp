@@ -9,6 +9,7 @@
 
 #include "apps/options/map_arguments.h"
 #include "apps/shell/console.h"
+#include "apps/shell/elapsed_time.h"
 #include "apps/validate/validate_input.h"
 #include "apps/validate/validate_modes.h"
 #include "apps/validate/validate_report.h"
@@ -58,6 +59,7 @@ ValidationCase judge_brought(const ValidateArguments& arguments, const Console& 
                       .renderer = "map",
                       .variant = name,
                       .file = arguments.map};
+  const ElapsedTime elapsed(console, "judging");
   set_judgement(made, attribution::judge_map(arguments.map, other, scene, camera, model));
   return made;
 }

@@ -12,6 +12,7 @@
 #include "apps/render/render_arguments.h"
 #include "apps/render/render_outputs.h"
 #include "apps/shell/console.h"
+#include "apps/shell/elapsed_time.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
 #include "apps/textbook/pipeline/pipeline_report.h"
@@ -187,7 +188,7 @@ int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const 
 
   std::vector<PipelineReport> reports;
   std::vector<Camera> used;
-  const Progress progress(console, "rendering");
+  const ElapsedTime elapsed(console, "rendering");
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     PipelineRendering rendering = rendering_of(drawn, cameras[i], plan);
     arguments.motion.describe(rendering.map, time);
