@@ -122,6 +122,8 @@ int run_study(const StudyArguments& arguments, const Console& console) {
   const std::vector<StudyFile> files = run_with_progress(study, options, console);
   make_folder(arguments.out);
   write_files(arguments.out, files);
+  if (console.shows_progress())
+    console.note((std::filesystem::path(arguments.out) / "index.html").string() + " is the page");
   return done;
 }
 

@@ -82,48 +82,56 @@ Table formats_table(const std::vector<FormatSteps>& rows) {
            {Column("greatest_relative_step_at").page("at depth", ".4g"), &Row::greatest_at}}};
 }
 
-/// The finest mapping of a storage, by its greatest relative step.
+/// The finest mappings of a storage, by their greatest relative step.
 struct FinestMapping {
-  FormatSteps finest, standard;
+  FormatSteps of_projections, of_all, standard;
 };
 
 /// opengl is standard in the ideal model.
 std::vector<FinestMapping> finest_mappings(const std::vector<FormatSteps>& all) {
+  const auto finest = [](const std::vector<FormatSteps>& some) {
+    return *std::ranges::min_element(some, {}, &FormatSteps::greatest_relative);
+  };
   std::vector<FinestMapping> rows;
   for (const Storage storage : all_storages) {
     const auto of_storage = rows_where(all, [&](const FormatSteps& m) {
       return m.format.storage == storage && m.format.mapping != Mapping::opengl;
     });
-    const auto standard = std::ranges::find(of_storage, Mapping::standard,
-                                            [](const FormatSteps& m) { return m.format.mapping; });
-    rows.push_back(
-        {*std::ranges::min_element(of_storage, {}, &FormatSteps::greatest_relative), *standard});
+    const auto projections = rows_where(
+        of_storage, [](const FormatSteps& m) { return is_projection(m.format.mapping); });
+    const auto standard = rows_where(
+        of_storage, [](const FormatSteps& m) { return m.format.mapping == Mapping::standard; });
+    rows.push_back({finest(projections), finest(of_storage), standard.front()});
   }
   return rows;
 }
 
 Table answer_table(const std::vector<FinestMapping>& rows) {
   using Row = FinestMapping;
+  const auto storage = [](const Row& r) { return name_of(r.standard.format.storage); };
   return {
       rows,
-      {{heading("storage"), [](const Row& r) { return name_of(r.finest.format.storage); }},
-       {heading("finest mapping"), [](const Row& r) { return name_of(r.finest.format.mapping); }},
-       {heading("greatest step, of the depth", ".3g"),
-        [](const Row& r) { return r.finest.greatest_relative; }},
-       {heading("at depth", ".4g"), [](const Row& r) { return r.finest.greatest_at; }},
-       {heading("standard: greatest step, of the depth", ".3g"),
+      {{heading("storage"), storage},
+       {heading("finest projection"),
+        [](const Row& r) { return name_of(r.of_projections.format.mapping); }},
+       {heading("step ÷ depth", ".3g"),
+        [](const Row& r) { return r.of_projections.greatest_relative; }},
+       {heading("finest mapping"), [](const Row& r) { return name_of(r.of_all.format.mapping); }},
+       {heading("step ÷ depth", ".3g"), [](const Row& r) { return r.of_all.greatest_relative; }},
+       {heading("standard: step ÷ depth", ".3g"),
         [](const Row& r) { return r.standard.greatest_relative; }},
        {heading("at depth", ".4g"), [](const Row& r) { return r.standard.greatest_at; }}}};
 }
 
-/// The values of the page's first sentence.
+/// The values of the page's first sentences.
 void quote_answer(Results& results, const std::vector<FinestMapping>& rows) {
-  for (const auto& [finest, standard] : rows) {
-    const Storage storage = finest.format.storage;
-    if (storage != Storage::float32 && storage != Storage::unorm24) continue;
-    const std::string name(name_of(storage));
-    results.quote("best_" + name, label_of(finest.format));
-    results.quote("best_" + name + "_step", finest.greatest_relative, ".3g");
+  for (const auto& [of_projections, of_all, standard] : rows) {
+    const std::string name(name_of(standard.format.storage));
+    if (name != "float32" && name != "unorm24") continue;
+    results.quote("projection_" + name, label_of(of_projections.format));
+    results.quote("projection_" + name + "_step", of_projections.greatest_relative, ".3g");
+    results.quote("best_" + name, label_of(of_all.format));
+    results.quote("best_" + name + "_step", of_all.greatest_relative, ".3g");
     results.quote("standard_" + name + "_step", standard.greatest_relative, ".3g");
   }
 }
