@@ -30,17 +30,17 @@ struct CoplanarArguments {
   bool json = false;
 };
 
-/// "TRIANGLE (face FACE of OBJECT)"
+/// "triangle NUMBER (face FACE of OBJECT)"
 std::string in_words(const Scene& scene, std::uint32_t number) {
   const TriangleOrigin origin = origin_of(scene, number);
-  return fmt::format("{} (face {} of {})", number, origin.face,
+  return fmt::format("triangle {} (face {} of {})", number, origin.face,
                      text::printable(scene.objects[origin.object].name));
 }
 
 std::string as_text(const Scene& scene, const std::vector<CoplanarPair>& pairs, double within) {
   std::string text;
   for (const CoplanarPair& pair : pairs) {
-    text += fmt::format("{} before {}: {} behind, {}", in_words(scene, pair.visible),
+    text += fmt::format("{} before {}: least distance {}, {}", in_words(scene, pair.visible),
                         in_words(scene, pair.behind), pair.separation,
                         text::counted(pair.pixels, "pixel"));
     text += fmt::format(", columns {} to {}, rows {} to {}\n", pair.box.first_column,

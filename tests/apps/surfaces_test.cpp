@@ -174,7 +174,8 @@ TEST_F(Surfaces, CoplanarTellsWhatLiesCloseBehind) {
   std::vector<std::string> within = coplanar;
   within.insert(within.end(), {"--within", "0.25"});
   EXPECT_EQ(answer(within),
-            "0 (face 0 of two) before 1 (face 1 of two): 0.25 behind, 3 pixels, columns 3 to 4, "
+            "triangle 0 (face 0 of two) before triangle 1 (face 1 of two): least distance 0.25, 3 "
+            "pixels, columns 3 to 4, "
             "rows 2 to 3\n1 coplanar pair within 0.25\n");
   within.push_back("--json");
   const Json json = Json::parse(answer(within));
