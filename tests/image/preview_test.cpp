@@ -79,8 +79,7 @@ TEST(Preview, LogarithmsAndInversesNeedARangeAboveZero) {
     options.low = 2;
     EXPECT_EQ(block(draw_preview(map, options), 0), of_place(0));
     EXPECT_EQ(block(draw_preview(map, options), 3), of_place(1));
-    EXPECT_NO_THROW(
-        draw_preview(map_of(5, 1, "Z", std::vector<float>{inf, inf, inf, inf, inf})));
+    EXPECT_NO_THROW(draw_preview(map_of(5, 1, "Z", std::vector<float>{inf, inf, inf, inf, inf})));
   }
 }
 
@@ -93,6 +92,48 @@ TEST(ScaledRange, MarksLieWhereTheirNumbersAre) {
     EXPECT_EQ(marks[1].text, "1000");
     for (const auto& [t, text] : marks) EXPECT_NEAR(range.place(std::stod(text)), t, 1e-12) << text;
   }
+}
+
+constexpr Rgb wrong{215, 25, 28}, right{146, 154, 164};
+
+DepthMap fights_in(std::uint32_t width, std::uint32_t height, const std::vector<std::size_t>& at) {
+  DepthMap map = map_of(width, height, "Z", std::vector<float>(width * height, 2));
+  std::get<Samples<float>>(map.channels[0].values)[0] = inf;
+  std::vector<std::uint32_t> fights(width * height, 0);
+  for (const std::size_t k : at) fights[k] = 1;
+  map.channels.push_back({"Zfight", fights});
+  return map;
+}
+
+TEST(Preview, WrongPixelsStandOutFromNeutralOnes) {
+  const RgbImage image = draw_preview(fights_in(5, 1, {2}), {.channel = "Zfight"});
+  EXPECT_EQ(block(image, 0), neutral);
+  EXPECT_EQ(block(image, 1), right);
+  EXPECT_EQ(block(image, 2), wrong);
+}
+
+TEST(Preview, FewWrongPixelsOfALargeMapAreDrawnLarger) {
+  // The picture lies at (20, 72) of the sheet.
+  const RgbImage image = draw_preview(fights_in(300, 200, {100 * 300 + 50}), {.channel = "Zfight"});
+  EXPECT_EQ(image.at(20 + 48, 72 + 102), wrong);
+  EXPECT_EQ(image.at(20 + 47, 72 + 100), right);
+  std::vector<std::size_t> many(300 * 100);
+  for (std::size_t k = 0; k < many.size(); ++k) many[k] = 2 * k + 1;
+  const RgbImage crowded = draw_preview(fights_in(300, 200, many), {.channel = "Zfight"});
+  EXPECT_EQ(crowded.at(20 + 50, 72 + 100), right);
+  EXPECT_EQ(crowded.at(20 + 51, 72 + 100), wrong);
+}
+
+TEST(Preview, ErrorsAreWhiteAtZero) {
+  DepthMap map = map_of(5, 1, "Z", std::vector<float>{2, 2, 2, 2, inf});
+  map.channels.push_back({"Zerror", std::vector<float>{0, -1, 0.5, -0.5, 0}});
+  const RgbImage image = draw_preview(map, {.channel = "Zerror"});
+  EXPECT_EQ(block(image, 0), (Rgb{255, 255, 255}));
+  EXPECT_EQ(block(image, 1), colour_at(ColourMap::diverging, 0));
+  EXPECT_EQ(block(image, 2), colour_at(ColourMap::diverging, 0.75));
+  const RgbImage viridis = draw_preview(map, {.channel = "Zerror", .colours = ColourMap::viridis});
+  EXPECT_EQ(block(viridis, 1), of_place(0));
+  EXPECT_EQ(block(viridis, 2), of_place(1));
 }
 
 TEST(Preview, OddMapsAreDrawn) {

@@ -110,7 +110,10 @@ def test_a_preview_is_what_the_program_draws(spot, run_program, tmp_path):
     maps.write(tmp_path / "map.exr")
     for options, arguments in (({}, ()), ({"channel": "id"}, ("--channel", "id")), ({"channel": "N"}, ("--channel", "N")),
                                ({"colormap": "turbo", "range": (1, 9), "unit": "m"},
-                                ("--colormap", "turbo", "--range", "1,9", "--unit", "m"))):
+                                ("--colormap", "turbo", "--range", "1,9", "--unit", "m")),
+                               ({"scale": "log"}, ("--scale", "log")),
+                               ({"colormap": "diverging", "scale": "equalised"},
+                                ("--colormap", "diverging", "--scale", "equalised"))):
         run_program("preview", tmp_path / "map.exr", "-o", tmp_path / "program.png", *arguments)
         picture = maps.preview(tmp_path / "new" / "python.png", **options)
         written = (tmp_path / "new" / "python.png").read_bytes()

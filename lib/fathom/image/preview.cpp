@@ -158,6 +158,23 @@ void draw_numbers(Sheet& sheet, const DepthMap& map, const ImageChannel& channel
   specials.add_to(sheet, mask.size());
 }
 
+/// The distinct identifiers, those of the most pixels first, else in ascending order.
+std::vector<std::uint32_t> by_pixels(const Samples<std::uint32_t>& ids) {
+  std::vector<std::uint32_t> sorted(ids.begin(), ids.end());
+  std::ranges::sort(sorted);
+  std::vector<std::pair<std::ptrdiff_t, std::uint32_t>> counted;  // minus the number of pixels
+  for (auto at = sorted.begin(); at != sorted.end();) {
+    const auto end = std::upper_bound(at, sorted.end(), *at);
+    counted.emplace_back(at - end, *at);
+    at = end;
+  }
+  std::ranges::sort(counted);
+  std::vector<std::uint32_t> distinct;
+  distinct.reserve(counted.size());
+  for (const auto& [pixels, id] : counted) distinct.push_back(id);
+  return distinct;
+}
+
 void draw_identifiers(Sheet& sheet, const DepthMap& map, const ImageChannel& channel,
                       const PreviewOptions& options) {
   const auto& ids = std::get<Samples<std::uint32_t>>(channel.values);
@@ -177,11 +194,9 @@ void draw_identifiers(Sheet& sheet, const DepthMap& map, const ImageChannel& cha
     pixel = none ? background_colour(*options.colours) : none_colour;
     specials.count(none ? "no surface" : "none", pixel);
   }
-  std::vector<std::uint32_t> distinct(ids.begin(), ids.end());
-  std::sort(distinct.begin(), distinct.end());
-  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-  while (!distinct.empty() && !is_plain(distinct.back())) distinct.pop_back();
   constexpr std::size_t most_listed = 12;
+  std::vector<std::uint32_t> distinct = by_pixels(ids);
+  std::erase_if(distinct, [&](std::uint32_t id) { return !is_plain(id); });
   for (std::size_t k = 0; k < std::min(distinct.size(), most_listed); ++k) {
     const std::uint32_t id = distinct[k];
     std::string text = std::to_string(id);
@@ -223,10 +238,10 @@ void draw_normals(Sheet& sheet, const DepthMap& map, const PreviewOptions& optio
 
 }  // namespace
 
-RgbImage draw_preview(const DepthMap& map, const PreviewOptions& asked) {
+RgbImage draw_preview(const DepthMap& map, const PreviewOptions& given) {
   const StandardArithmetic standard;
   require_valid(map);
-  PreviewOptions options = asked;
+  PreviewOptions options = given;
   if (!options.colours)
     options.colours = options.channel == "Zerror" ? ColourMap::diverging : ColourMap::viridis;
   Sheet sheet;

@@ -360,7 +360,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         unit      written after the channel's name, such as "m"
         """
         low, high = (None, None) if range is None else _ends_of(range)
-        return saved(_core.draw_preview(self._handle(), as_text("channel", channel), None if colormap is None else one_of("colormap", colormap, color_maps),
+        colours = None if colormap is None else one_of("colormap", colormap, color_maps)
+        return saved(_core.draw_preview(self._handle(), as_text("channel", channel), colours,
                                         one_of("scale", scale, color_scales), low, high, as_text("unit", unit)), path)
 
     def _repr_png_(self) -> bytes | None:

@@ -37,7 +37,7 @@ std::uint32_t reach_of_squares(const RgbImage& picture, std::size_t wrong) {
 
 std::string share_text(const char* what, std::size_t part, std::size_t whole) {
   std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "%s: %zu (%.2g %%)", what, part,
+  std::snprintf(text.data(), text.size(), "%s: %zu (%.3g %%)", what, part,
                 100 * static_cast<double>(part) / static_cast<double>(whole));
   return text.data();
 }
