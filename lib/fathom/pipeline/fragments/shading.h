@@ -54,8 +54,9 @@ class Shader {
  public:
   Shader(const Camera& camera, const PipelineOptions& options, std::optional<Texture> texture);
 
-  /// What is found once per triangle: the colour of its number, the side that is seen, the face's light (flat: at the centre
-  /// of the whole triangle, with the normal of its plane), the corners' light (Gouraud).
+  /// What is found once per triangle: the colour of its number, the side that is seen, the face's
+  /// light (flat: at the centre of the whole triangle, with the normal of its plane), the corners'
+  /// light (Gouraud).
   void begin(const WindowTriangle<Real>& triangle);
   [[nodiscard]] Colour shade(const Fragment& fragment, const std::array<Real, 3>& weights) const;
   /// The light that shade() gives the surface.
