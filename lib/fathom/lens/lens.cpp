@@ -1,0 +1,43 @@
+#include "fathom/lens/lens.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fathom/numeric/standard_arithmetic.h"
+
+namespace fathom {
+namespace {
+
+bool is_tilt(std::string_view parameter) {
+  return parameter == "tauX" || parameter == "tauY";
+}
+
+}  // namespace
+
+// The binary64 number nearest to π/2 is less than π/2, so the greatest angle is that number.
+std::optional<std::string> find_fault(const Lens& lens) {
+  const StandardArithmetic standard;
+  const auto names = entry_of(lens.model).distortion;
+  for (std::size_t i = 0; i < lens.distortion.size(); ++i) {
+    const double value = lens.distortion[i];
+    if (i >= names.size()) {
+      if (value != 0) return "more numbers of distortion than the lens model has parameters";
+      continue;
+    }
+    if (!std::isfinite(value)) return std::string(names[i]) + " is not a finite number";
+    if (is_tilt(names[i]) && std::abs(value) > std::numbers::pi / 2)
+      return std::string(names[i]) + " is not between -pi/2 and pi/2";
+  }
+  if (!(lens.max_radius > 0)) return "max_radius is not greater than 0";
+  return std::nullopt;
+}
+
+bool is_pinhole(const Lens& lens) {
+  const StandardArithmetic standard;
+  return entry_of(lens.model).is_plane && std::isinf(lens.max_radius) &&
+         std::all_of(lens.distortion.begin(), lens.distortion.end(),
+                     [](double value) { return value == 0; });
+}
+
+}  // namespace fathom

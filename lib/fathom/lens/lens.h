@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "fathom/lens/lens_model.h"
+
+namespace fathom {
+
+/// What a camera has beside fx, fy, cx, cy and skew (specification, section 2): how its lens bends
+/// rays. Every number is the real number that it denotes. Valid if find_fault() finds nothing.
+struct Lens {
+  LensModel model = LensModel::pinhole;
+  /// The numbers of entry_of(model).distortion, in this order; those that a model lacks are 0.
+  std::array<double, 14> distortion{};
+  /// Rays end there: |m| of a model of the plane, else the angle to the z axis in radians.
+  double max_radius = std::numeric_limits<double>::infinity();
+
+  friend bool operator==(const Lens&, const Lens&) = default;
+};
+
+/// The fault of a lens, in one line, or nothing if all numbers are finite (max_radius may be +∞),
+/// those that the model lacks are 0, |tauX| and |tauY| are less than π/2, and max_radius > 0.
+std::optional<std::string> find_fault(const Lens& lens);
+
+/// Whether the lens bends nothing and ends nowhere: a pinhole.
+bool is_pinhole(const Lens& lens);
+
+}  // namespace fathom
