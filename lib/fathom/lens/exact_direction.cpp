@@ -19,10 +19,14 @@ Sign ExactDirection::sign(const QuadraticForm& form) const {
   return std::visit([&](const auto& direction) { return direction.sign(form); }, direction_);
 }
 
-std::array<Enclosure, 3> ExactDirection::enclosure(long bits) const {
-  const StandardArithmetic standard;
-  return std::visit([bits](const auto& direction) { return direction.enclosure(bits); },
-                    direction_);
+const ExactVector3* ExactDirection::rational() const {
+  const auto* const direction = std::get_if<RationalDirection>(&direction_);
+  return direction ? &direction->vector() : nullptr;
+}
+
+std::array<DyadicInterval, 3> ExactDirection::enclosure(long /*bits*/) const {
+  const ExactVector3& d = *rational();
+  return {DyadicInterval{d[0], d[0]}, DyadicInterval{d[1], d[1]}, DyadicInterval{d[2], d[2]}};
 }
 
 }  // namespace fathom

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "fathom/lens/rational_direction.h"
+#include "fathom/numeric/dyadic_interval.h"
 
 namespace fathom {
 
@@ -26,11 +27,13 @@ class ExactDirection {
   /// The sign of a quadratic form at d.
   [[nodiscard]] Sign sign(const QuadraticForm& form) const;
 
-  /// Enclosures of the components of d, scaled as the specification (section 2) defines the model:
-  /// z = 1 for models of the plane. Their widths go to zero as `bits` grows; `bits` is about their
-  /// relative precision.
-  [[nodiscard]] std::array<Enclosure, 3> enclosure(long bits) const;
-  /// Binary64 intervals that contain these components, for filters.
+  /// d times a positive number where that is a vector of dyadic numbers, else nullptr.
+  [[nodiscard]] const ExactVector3* rational() const;
+  /// Intervals that contain d times a positive number. Their widths go to zero as `bits` grows;
+  /// `bits` is about their relative precision.
+  [[nodiscard]] std::array<DyadicInterval, 3> enclosure(long bits) const;
+  /// Binary64 intervals that contain d, scaled as the specification (section 2) defines the model:
+  /// z = 1 for models of the plane. For filters.
   [[nodiscard]] const std::array<Interval, 3>& box() const { return box_; }
 
  private:

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "fathom/lens/exact_direction.h"
-#include "fathom/lens/lens.h"
+#include "fathom/camera/lens.h"
 #include "fathom/lens/sample_plane.h"
 
 namespace fathom {

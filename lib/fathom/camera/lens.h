@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "fathom/lens/lens_model.h"
+#include "fathom/camera/lens_model.h"
 
 namespace fathom {
 

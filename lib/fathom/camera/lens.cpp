@@ -1,4 +1,4 @@
-#include "fathom/lens/lens.h"
+#include "fathom/camera/lens.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fathom/lens/lens_model.h"
+#include "fathom/camera/lens_model.h"
 
 #include <algorithm>
 #include <array>
