@@ -4,29 +4,35 @@
 
 #include "fathom/numeric/standard_arithmetic.h"
 
-namespace fathom {
+namespace fathom::lens {
 
-ExactDirection::ExactDirection(RationalDirection direction)
-    : box_(direction.box()), direction_(std::move(direction)) {}
+ExactDirection::ExactDirection(RationalDirection direction) : direction_(std::move(direction)) {}
 
-Sign ExactDirection::sign(const ExactVector3& form) const {
-  const StandardArithmetic standard;
-  return std::visit([&](const auto& direction) { return direction.sign(form); }, direction_);
+ExactDirection::ExactDirection(PolynomialDirection direction) : direction_(std::move(direction)) {}
+
+const std::array<Interval, 3>& ExactDirection::box() const {
+  return std::visit(
+      [](const auto& d) -> const auto& { return d.box(); }, direction_);
 }
 
-Sign ExactDirection::sign(const QuadraticForm& form) const {
+Sign ExactDirection::sign_of(const ExactVector3& form) const {
   const StandardArithmetic standard;
-  return std::visit([&](const auto& direction) { return direction.sign(form); }, direction_);
+  return std::visit([&](const auto& d) { return d.sign_of(form); }, direction_);
+}
+
+Sign ExactDirection::sign_of(const QuadraticForm& form) const {
+  const StandardArithmetic standard;
+  return std::visit([&](const auto& d) { return d.sign_of(form); }, direction_);
+}
+
+std::array<DyadicInterval, 3> ExactDirection::enclosure(long bits) const {
+  const StandardArithmetic standard;
+  return std::visit([bits](const auto& d) { return d.enclosure(bits); }, direction_);
 }
 
 const ExactVector3* ExactDirection::rational() const {
-  const auto* const direction = std::get_if<RationalDirection>(&direction_);
-  return direction ? &direction->vector() : nullptr;
+  const auto* const rational = std::get_if<RationalDirection>(&direction_);
+  return rational == nullptr ? nullptr : &rational->vector();
 }
 
-std::array<DyadicInterval, 3> ExactDirection::enclosure(long /*bits*/) const {
-  const ExactVector3& d = *rational();
-  return {DyadicInterval{d[0], d[0]}, DyadicInterval{d[1], d[1]}, DyadicInterval{d[2], d[2]}};
-}
-
-}  // namespace fathom
+}  // namespace fathom::lens

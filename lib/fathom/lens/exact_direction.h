@@ -3,13 +3,13 @@
 #include <array>
 #include <variant>
 
+#include "fathom/lens/polynomial_direction.h"
 #include "fathom/lens/rational_direction.h"
-#include "fathom/numeric/dyadic_interval.h"
 
-namespace fathom {
+namespace fathom::lens {
 
 /// The direction d ≠ 0 of a ray in the camera frame, exactly: the preimage of a sample, never a
-/// rounded vector. Where a lens is in use it belongs to a LensField, which must outlive it.
+/// rounded vector. It belongs to the Preimages that it is from, which must outlive it.
 ///
 /// It answers what a renderer asks: on which side of a plane the ray lies, which of two surfaces
 /// is nearer, on which side of a limit or of a midpoint between two numbers a value lies. Each is
@@ -21,24 +21,26 @@ namespace fathom {
 class ExactDirection {
  public:
   explicit ExactDirection(RationalDirection direction);
+  explicit ExactDirection(PolynomialDirection direction);
 
-  /// The sign of form·d.
-  [[nodiscard]] Sign sign(const ExactVector3& form) const;
+  /// Binary64 intervals that contain d as the specification (section 2) scales it, z = 1 for models
+  /// of the plane: the filter that should be asked first. An end may be infinite.
+  [[nodiscard]] const std::array<Interval, 3>& box() const;
+
+  /// The sign of form·d. Does not try the box.
+  [[nodiscard]] Sign sign_of(const ExactVector3& form) const;
   /// The sign of a quadratic form at d.
-  [[nodiscard]] Sign sign(const QuadraticForm& form) const;
+  [[nodiscard]] Sign sign_of(const QuadraticForm& form) const;
 
-  /// d times a positive number where that is a vector of dyadic numbers, else nullptr.
-  [[nodiscard]] const ExactVector3* rational() const;
-  /// Intervals that contain d times a positive number. Their widths go to zero as `bits` grows;
-  /// `bits` is about their relative precision.
+  /// Encloses the same d as the box; its widths go to zero as `bits` grows. `bits` is about the
+  /// precision relative to d, of x and y relative to the greater of them.
   [[nodiscard]] std::array<DyadicInterval, 3> enclosure(long bits) const;
-  /// Binary64 intervals that contain d, scaled as the specification (section 2) defines the model:
-  /// z = 1 for models of the plane. For filters.
-  [[nodiscard]] const std::array<Interval, 3>& box() const { return box_; }
+
+  /// d times a positive number, if d is known to be rational; otherwise nullptr.
+  [[nodiscard]] const ExactVector3* rational() const;
 
  private:
-  std::array<Interval, 3> box_;
-  std::variant<RationalDirection> direction_;
+  std::variant<RationalDirection, PolynomialDirection> direction_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::lens

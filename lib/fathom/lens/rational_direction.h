@@ -3,9 +3,10 @@
 #include <array>
 
 #include "fathom/numeric/certified.h"
+#include "fathom/numeric/dyadic_interval.h"
 #include "fathom/numeric/quadratic_form.h"
 
-namespace fathom {
+namespace fathom::lens {
 
 /// A direction with rational components: a ray of the pinhole, of the division model, of a table.
 ///
@@ -14,16 +15,19 @@ class RationalDirection {
  public:
   explicit RationalDirection(ExactVector3 vector, Dyadic scale = 1.0);
 
-  [[nodiscard]] Sign sign(const ExactVector3& form) const { return dot(form, vector_).sign(); }
-  [[nodiscard]] Sign sign(const QuadraticForm& form) const { return form.at(vector_).sign(); }
-  /// d times scale.
+  /// d, times a positive number.
   [[nodiscard]] const ExactVector3& vector() const { return vector_; }
+  [[nodiscard]] Sign sign_of(const ExactVector3& form) const { return dot(form, vector_).sign(); }
+  [[nodiscard]] Sign sign_of(const QuadraticForm& form) const { return form.at(vector_).sign(); }
+  /// Encloses the components of d, each with a relative precision of about `bits`.
+  [[nodiscard]] std::array<DyadicInterval, 3> enclosure(long bits) const;
   /// Intervals that contain the components of d.
-  [[nodiscard]] std::array<Interval, 3> box() const;
+  [[nodiscard]] const std::array<Interval, 3>& box() const { return box_; }
 
  private:
   ExactVector3 vector_;
   Dyadic scale_;
+  std::array<Interval, 3> box_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::lens

@@ -2,7 +2,7 @@
 
 #include "fathom/numeric/standard_arithmetic.h"
 
-namespace fathom {
+namespace fathom::lens {
 
 SamplePlane::SamplePlane(const Projection& projection)
     : centre_(exact_principal_point(projection)),
@@ -19,4 +19,4 @@ DistortedPoint SamplePlane::at(const Dyadic& u, const Dyadic& v) const {
   return point;
 }
 
-}  // namespace fathom
+}  // namespace fathom::lens

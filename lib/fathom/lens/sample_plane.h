@@ -3,7 +3,7 @@
 #include "fathom/camera/projection.h"
 #include "fathom/numeric/certified.h"
 
-namespace fathom {
+namespace fathom::lens {
 
 /// The plane in which lenses distort: (x_d, y_d) = K⁻¹·(u, v), of a sample (u, v) of the image.
 ///
@@ -28,4 +28,4 @@ class SamplePlane {
   Dyadic c_;
 };
 
-}  // namespace fathom
+}  // namespace fathom::lens

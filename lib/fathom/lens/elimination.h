@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+
+#include "fathom/lens/stage.h"
+
+/// The preimages of a point under a stage as roots of one polynomial, over any arithmetic.
+///
+/// With p = (p2, p1) and b(q) = p + (s1 + s2·q, s3 + s4·q) the stage is G(m) = m·(L + 2p·m) + q·b.
+/// If G(m) = y and q = |m|², then w = y − q·b(q) is known, and m is w/A with A = L + 2p·m. With
+/// W = |w|², elimination of A gives
+///   F(q) = q·N²·W − D²·(W − 2q·p·w)² = 0,   m = q·N·w / (D·(W − 2q·p·w)).
+/// For y ≠ 0, F is negative at 0. In the disc (disc.h) it changes its sign once at most, at the
+/// preimage: A is positive there, which makes other zeroes (where w = 0) minima with the value 0,
+/// beyond the preimage.
+namespace fathom::lens {
+
+/// y = (a/c, b/c), c > 0.
+template <class T>
+struct HomogeneousPoint {
+  T a, b, c;
+};
+
+template <class T>
+struct Elimination {
+  /// c⁴·F(q).
+  T f;
+  /// At the root: a positive multiple of (m, 1). Its third component is c²·D·(W − 2q·p·w).
+  std::array<T, 3> direction;
+};
+
+template <class T>
+Elimination<T> eliminate(const StageNumbers<T>& n, const HomogeneousPoint<T>& y, const T& q) {
+  const T N = horner(n.numerator, q), D = horner(n.denominator, q), qc = q * y.c;
+  // c·w, c²·W and c²·(W − 2q·p·w)
+  const T wx = y.a - qc * (n.p2 + n.s1 + n.s2 * q);
+  const T wy = y.b - qc * (n.p1 + n.s3 + n.s4 * q);
+  const T W = wx * wx + wy * wy;
+  const T rest = W - (qc + qc) * (n.p2 * wx + n.p1 * wy);
+  const T D_rest = D * rest, Nqc = N * qc;
+  return {Nqc * N * y.c * W - D_rest * D_rest, {Nqc * wx, Nqc * wy, D_rest}};
+}
+
+}  // namespace fathom::lens

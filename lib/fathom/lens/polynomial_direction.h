@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "fathom/lens/polynomial_stage.h"
+#include "fathom/lens/sample_plane.h"
+#include "fathom/numeric/certified.h"
+#include "fathom/numeric/dyadic_interval.h"
+#include "fathom/numeric/quadratic_form.h"
+
+namespace fathom::lens {
+
+/// The preimage m of a point under a stage, as the direction (m, 1). |m|² is the root of a
+/// polynomial (elimination.h), and a form at the direction is the value of another polynomial
+/// there.
+///
+/// Exact    signs are found in intervals of more and more bits. A form that 128 bits do not settle
+///          is 0 if its polynomial is, or if it is known to be smaller than such a value can be
+///          without being 0 (zero_bound_bits()).
+class PolynomialDirection {
+ public:
+  /// The preimage in the disc of y ≠ 0; nullopt if there is none. `stage` must outlive it.
+  static std::optional<PolynomialDirection> find(const PolynomialStage& stage,
+                                                 const DistortedPoint& y);
+
+  [[nodiscard]] Sign sign_of(const ExactVector3& form) const;
+  [[nodiscard]] Sign sign_of(const QuadraticForm& form) const;
+  /// Encloses (m, 1) with a relative precision of about `bits`; m relative to |m|.
+  [[nodiscard]] std::array<DyadicInterval, 3> enclosure(long bits) const;
+  /// Binary64 intervals that contain (m, 1).
+  [[nodiscard]] const std::array<Interval, 3>& box() const { return box_; }
+
+  /// Encloses |m|². The upper end is at most 1 + 2^−bits times the lower one.
+  [[nodiscard]] DyadicInterval squared_radius(long bits) const;
+
+ private:
+  PolynomialDirection(const PolynomialStage& stage, const DistortedPoint& y, DyadicInterval q,
+                      const std::array<Interval, 3>& box);
+
+  template <class Form>
+  Sign sign_of_form(const Form& form) const;
+
+  const PolynomialStage* stage_;
+  DistortedPoint y_;
+  /// Contains |m|²; F is negative at the lower end and not negative at the upper one.
+  DyadicInterval q_;
+  std::array<Interval, 3> box_;
+};
+
+}  // namespace fathom::lens

@@ -1,0 +1,81 @@
+#include "fathom/lens/preimages.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "fathom/numeric/big_interval.h"
+#include "fathom/numeric/standard_arithmetic.h"
+
+namespace fathom::lens {
+namespace {
+
+bool is_division(LensModel model) {
+  return model == LensModel::simple_division || model == LensModel::division ||
+         model == LensModel::fisheye_stereographic;
+}
+
+/// The k of d = (x_d, y_d, 1 + k·r²).
+double division_term(const Lens& lens) {
+  return lens.model == LensModel::fisheye_stereographic ? -0.25 : lens.distortion[0];
+}
+
+// With y = (a, b)/c: d·c² = (a·c, b·c, c² + k·(a² + b²)), and there is a ray where k·r² < 1.
+std::optional<RationalDirection> divide(const DistortedPoint& y, const Dyadic& k) {
+  const Dyadic c_squared = y.c * y.c, term = k * (y.a * y.a + y.b * y.b);
+  if (!(term < c_squared)) return std::nullopt;
+  return RationalDirection({y.a * y.c, y.b * y.c, c_squared + term}, c_squared);
+}
+
+/// Whether the angle between d and the z axis is at most `radius` > 0: the sign of z − |d|·cos(radius). The
+/// cosine of a rational number other than 0 is transcendental, so it is never 0.
+bool is_within_angle(const ExactVector3& d, double radius) {
+  if (radius > std::numbers::pi) return true;  // the next number after π's nearest is above π
+  const Dyadic squared_length = dot(d, d);
+  for (long bits = 128;; bits *= 2) {
+    const BigInterval length = sqrt(BigInterval(squared_length, bits));
+    const Sign sign = (BigInterval(d[2], bits) - length * cos(BigInterval(radius, bits))).sign();
+    if (sign != Sign::zero) return sign == Sign::positive;
+  }
+}
+
+/// Whether |m| ≤ radius.
+bool is_within_radius(const DistortedPoint& m, double radius) {
+  if (std::isinf(radius)) return true;
+  const Dyadic bound = radius * m.c;
+  return m.a * m.a + m.b * m.b <= bound * bound;
+}
+
+PolynomialStage prepared_stage(const Lens& lens) {
+  constexpr double no_bound = std::numeric_limits<double>::infinity();
+  if (is_division(lens.model)) return {stage_of(Lens()), no_bound};
+  return {stage_of(lens), lens.max_radius};
+}
+
+}  // namespace
+
+Preimages::Preimages(const Projection& projection, const Lens& lens)
+    : plane_(projection), lens_(lens), tilt_(Tilt::of(lens)), stage_(prepared_stage(lens)) {}
+
+std::optional<ExactDirection> Preimages::of(const Dyadic& u, const Dyadic& v) const {
+  const StandardArithmetic standard;
+  std::optional<DistortedPoint> y = plane_.at(u, v);
+  if (is_division(lens_.model)) {
+    std::optional<RationalDirection> d = divide(*y, division_term(lens_));
+    if (!d || !is_within_angle(d->vector(), lens_.max_radius)) return std::nullopt;
+    return ExactDirection(std::move(*d));
+  }
+  if (tilt_) y = tilt_->undone(*y);
+  if (!y) return std::nullopt;
+  const bool is_on_axis = y->a.is_zero() && y->b.is_zero();
+  if (is_on_axis || is_identity(stage_.numbers)) {
+    if (!is_within_radius(*y, lens_.max_radius)) return std::nullopt;
+    return ExactDirection(RationalDirection({y->a, y->b, y->c}, y->c));
+  }
+  std::optional<PolynomialDirection> d = PolynomialDirection::find(stage_, *y);
+  if (!d) return std::nullopt;
+  return ExactDirection(std::move(*d));
+}
+
+}  // namespace fathom::lens

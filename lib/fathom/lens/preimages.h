@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+
+#include "fathom/camera/lens.h"
+#include "fathom/geometry/frames.h"
+#include "fathom/lens/exact_direction.h"
+#include "fathom/lens/tilt.h"
+
+namespace fathom::lens {
+
+/// A lens in front of a camera: which direction each sample of its image sees (specification,
+/// section 2).
+///
+/// Threads  immutable; any number of threads may ask at once.
+class Preimages {
+ public:
+  /// Of a valid perspective projection and a valid lens. Finds the disc on which the lens is used,
+  /// which may take milliseconds.
+  Preimages(const Projection& projection, const Lens& lens);
+
+  /// The direction that the sample (u, v) sees; nullopt if it sees none. u and v in pixels from
+  /// the top left corner of the image: the centre of the top left pixel is (½, ½), whatever the
+  /// camera's pixel_centre is.
+  [[nodiscard]] std::optional<ExactDirection> of(const Dyadic& u, const Dyadic& v) const;
+  [[nodiscard]] std::optional<ExactDirection> of(const ImagePoint& sample) const {
+    return of(sample.u, sample.v);
+  }
+
+  /// Q: rays of a model with a stage have |m|² ≤ Q, and max_radius may narrow that. +∞ if there is
+  /// no bound, or no stage.
+  [[nodiscard]] double disc() const { return stage_.disc; }
+
+ private:
+  SamplePlane plane_;
+  Lens lens_;
+  std::optional<Tilt> tilt_;
+  PolynomialStage stage_;
+};
+
+}  // namespace fathom::lens

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "fathom/camera/lens.h"
+#include "fathom/numeric/exact_polynomial.h"
+
+/// The stage S of the specification (section 2), over any arithmetic T:
+///   (x, y) ↦ (x·L + 2p1·xy + p2·(q + 2x²) + s1·q + s2·q²,
+///             y·L + p1·(q + 2y²) + 2p2·xy + s3·q + s4·q²),  q = x² + y², L = N(q)/D(q)
+namespace fathom::lens {
+
+/// The numbers of a stage.
+template <class T>
+struct StageNumbers {
+  /// N and D by ascending powers of q: 1, k1, k2, … and 1, l1, l2, …
+  std::vector<T> numerator, denominator;
+  T p1, p2, s1, s2, s3, s4;
+
+  /// The same numbers in another arithmetic.
+  template <class Convert>
+  [[nodiscard]] auto in(const Convert& convert) const {
+    using Other = decltype(convert(p1));
+    const auto all = [&convert](const std::vector<T>& numbers) {
+      std::vector<Other> converted;
+      converted.reserve(numbers.size());
+      for (const T& number : numbers) converted.push_back(convert(number));
+      return converted;
+    };
+    return StageNumbers<Other>{all(numerator), all(denominator), convert(p1), convert(p2),
+                               convert(s1),    convert(s2),      convert(s3), convert(s4)};
+  }
+};
+
+/// The stage of a model of the class DirectionClass::polynomial. Leading zeroes of N and D are left
+/// out.
+StageNumbers<double> stage_of(const Lens& lens);
+
+/// Whether L is all that there is.
+bool is_radial(const StageNumbers<double>& numbers);
+/// Whether the stage changes nothing.
+bool is_identity(const StageNumbers<double>& numbers);
+
+template <class T>
+struct StagePoint {
+  T x, y;
+};
+
+/// A matrix [[xx, xy], [yx, yy]]; xy is the derivative of x by y.
+template <class T>
+struct StageJacobian {
+  T xx, xy, yx, yy;
+};
+
+template <class T>
+StagePoint<T> stage_value(const StageNumbers<T>& n, const T& x, const T& y) {
+  const T xx = x * x, yy = y * y, xy = x * y, q = xx + yy;
+  const T L = horner(n.numerator, q) / horner(n.denominator, q);
+  return {x * L + (n.p1 + n.p1) * xy + n.p2 * (q + xx + xx) + q * (n.s1 + n.s2 * q),
+          y * L + n.p1 * (q + yy + yy) + (n.p2 + n.p2) * xy + q * (n.s3 + n.s4 * q)};
+}
+
+/// p'(x), with the derivative of the scheme of Horner.
+template <class T>
+T horner_derivative(const std::vector<T>& coefficients, const T& x) {
+  T value = coefficients.back(), derivative = value - value;
+  for (std::size_t i = coefficients.size() - 1; i-- > 0;) {
+    derivative = derivative * x + value;
+    value = value * x + coefficients[i];
+  }
+  return derivative;
+}
+
+/// With ∇q = 2m: J = L·I + m·(2L'm + 2p)ᵀ + (2p·m)·I + (b + q·b')·2mᵀ, p = (p2, p1),
+/// b = p + (s1 + s2·q, s3 + s4·q).
+template <class T>
+StageJacobian<T> stage_jacobian(const StageNumbers<T>& n, const T& x, const T& y) {
+  const T q = x * x + y * y;
+  const T N = horner(n.numerator, q), D = horner(n.denominator, q), L = N / D;
+  const T slope = (horner_derivative(n.numerator, q) - L * horner_derivative(n.denominator, q)) / D;
+  const T A = L + (n.p2 + n.p2) * x + (n.p1 + n.p1) * y;
+  const T gx = slope * x + n.p2, gy = slope * y + n.p1;
+  const T two_q = q + q;
+  const T bx = n.p2 + n.s1 + two_q * n.s2, by = n.p1 + n.s3 + two_q * n.s4;
+  const T x2 = x + x, y2 = y + y;
+  return {A + x2 * (gx + bx), x2 * gy + y2 * bx, y2 * gx + x2 * by, A + y2 * (gy + by)};
+}
+
+/// The terms of stage_value() with their magnitudes: the result of binary64 arithmetic errs by at
+/// most a small number of units of roundoff times these. T is a type with abs().
+template <class T>
+StagePoint<T> stage_magnitudes(const StageNumbers<T>& n, const T& x, const T& y) {
+  using std::abs;
+  const StageNumbers<T> sizes = n.in([](const T& number) -> T { return abs(number); });
+  const T q = x * x + y * y, D = abs(horner(n.denominator, q));
+  const T growth = horner(sizes.denominator, q) / D;  // ≥ 1: how much of D cancels
+  StageNumbers<T> without_denominator = sizes;
+  without_denominator.denominator = {D / growth};
+  return stage_value<T>(without_denominator, abs(x), abs(y));
+}
+
+}  // namespace fathom::lens
