@@ -1,6 +1,7 @@
 #include "fathom/lens/definiteness.h"
 
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <utility>
 
@@ -87,6 +88,7 @@ double square_of_power(long j) {
 Definiteness::Definiteness(const StageNumbers<ExactPolynomial>& stage) {
   const ExactPolynomial q = ExactPolynomial::variable();
   const ExactPolynomial N = horner(stage.numerator, q), D = horner(stage.denominator, q);
+  numerator_ = N;
   denominator_ = D;
   radial_slope_ = N * D + twice(q * (N.derivative() * D - N * D.derivative()));
   determinant_ = determinant_of(stage, N, D, radial_slope_);
@@ -120,8 +122,10 @@ std::optional<double> Definiteness::outer_bound() const {
 // With a unit vector e the determinant at r·e, times D³, is even(e) + r·odd(e), and at −r·e it is
 // even(e) − r·odd(e). Both are positive for all e if even(e)² − q·odd(e)² is, and even(e) for one
 // e. In e = (1, τ)/√(1 + τ²) that is, times (1 + τ²)², a polynomial of degree 4 in τ; the
-// direction (0, 1) is its leading coefficient.
+// direction (0, 1) is its leading coefficient. Then A has one sign on the circle, since A = 0 would
+// make the determinant negative or 0, and it is the sign of its mean, L.
 bool Definiteness::holds_on_circle(const Dyadic& q) const {
+  if (numerator_.at(q).sign() != Sign::positive) return false;
   const PlaneFunction& f = determinant_;
   const Dyadic constant = f.constant.at(q);
   const ExactPolynomial even(
@@ -143,39 +147,68 @@ BigInterval number(const Dyadic& x) {
   return {x, ring_bits};
 }
 
-/// A plane function in intervals.
-class EnclosedFunction {
- public:
-  explicit EnclosedFunction(const PlaneFunction& f)
-      : constant_(enclosed(f.constant)),
-        x_(enclosed(f.linear[0])),
-        y_(enclosed(f.linear[1])),
-        xx_(enclosed(f.xx)),
-        xy_(enclosed(f.xy)),
-        yy_(enclosed(f.yy)) {}
-
-  [[nodiscard]] BigInterval at(const BigInterval& x, const BigInterval& y,
-                               const BigInterval& q) const {
-    return horner(constant_, q) + x * horner(x_, q) + y * horner(y_, q) +
-           square(x) * horner(xx_, q) + x * y * horner(xy_, q) + square(y) * horner(yy_, q);
-  }
-
- private:
-  using Coefficients = std::vector<BigInterval>;
-
-  static Coefficients enclosed(const ExactPolynomial& p) {
-    Coefficients coefficients;
-    for (const Dyadic& c : p.coefficients()) coefficients.push_back(number(c));
-    if (coefficients.empty()) coefficients.push_back(number(Dyadic()));
-    return coefficients;
-  }
-
-  Coefficients constant_, x_, y_, xx_, xy_, yy_;
-};
-
 /// A square [x, x + size] × [y, y + size].
 struct Square {
   Dyadic x, y, size;
+};
+
+/// The values of a plane function on a square.
+class EnclosedFunction {
+ public:
+  explicit EnclosedFunction(const PlaneFunction& f)
+      : constant_(f.constant), x_(f.linear[0]), y_(f.linear[1]), xx_(f.xx), xy_(f.xy), yy_(f.yy) {}
+
+  [[nodiscard]] BigInterval at(const Dyadic& x, const Dyadic& y) const {
+    return value(number(x), number(y), number(x * x + y * y));
+  }
+
+  /// The sign of all values where the square meets the ring inner ≤ |m|² ≤ outer; Sign::zero if
+  /// they differ or if that is not seen.
+  [[nodiscard]] Sign sign_on(const Square& s, const DyadicInterval& ring) const {
+    const BigInterval x(s.x, s.x + s.size, ring_bits), y(s.y, s.y + s.size, ring_bits);
+    const BigInterval q = square(x) + square(y);
+    const auto [low, high] = q.ends();
+    const BigInterval within(std::max(low, ring.low), std::min(high, ring.high), ring_bits);
+    const Sign sign = value(x, y, within).sign();
+    return sign != Sign::zero ? sign : from_the_middle(s, x, y, q).sign();
+  }
+
+ private:
+  /// A polynomial and its derivative.
+  struct Coefficient {
+    Coefficient(const ExactPolynomial& p) : value(in(p)), slope(in(p.derivative())) {}
+    static std::vector<BigInterval> in(const ExactPolynomial& p) {
+      std::vector<BigInterval> coefficients;
+      for (const Dyadic& c : p.coefficients()) coefficients.push_back(number(c));
+      if (coefficients.empty()) coefficients.push_back(number(Dyadic()));
+      return coefficients;
+    }
+    std::vector<BigInterval> value, slope;
+  };
+
+  [[nodiscard]] BigInterval value(const BigInterval& x, const BigInterval& y,
+                                  const BigInterval& q) const {
+    const auto of = [&q](const Coefficient& c) { return horner(c.value, q); };
+    return of(constant_) + x * of(x_) + y * of(y_) + square(x) * of(xx_) + x * y * of(xy_) +
+           square(y) * of(yy_);
+  }
+
+  /// The mean value theorem: the value in the middle, and the slopes times the distances.
+  [[nodiscard]] BigInterval from_the_middle(const Square& s, const BigInterval& x,
+                                            const BigInterval& y, const BigInterval& q) const {
+    const auto slope = [&q](const Coefficient& c) { return horner(c.slope, q); };
+    const auto of = [&q](const Coefficient& c) { return horner(c.value, q); };
+    const BigInterval by_q = slope(constant_) + x * slope(x_) + y * slope(y_) +
+                             square(x) * slope(xx_) + x * y * slope(xy_) + square(y) * slope(yy_);
+    const BigInterval two_x = x + x, two_y = y + y, xy = of(xy_);
+    const BigInterval by_x = two_x * by_q + of(x_) + two_x * of(xx_) + y * xy;
+    const BigInterval by_y = two_y * by_q + of(y_) + two_y * of(yy_) + x * xy;
+    const Dyadic half = s.size.scaled(-1);
+    const BigInterval distance(-half, half, ring_bits);
+    return at(s.x + half, s.y + half) + distance * (by_x + by_y);
+  }
+
+  Coefficient constant_, x_, y_, xx_, xy_, yy_;
 };
 
 using Verdict = Definiteness::Verdict;
@@ -184,11 +217,12 @@ using RingVerdict = Definiteness::RingVerdict;
 /// A ring and the proof that a function is positive on it. Of a square that meets the ring it is
 /// enough that the function is positive there, or that it falls there along every ray from 0: then
 /// it is at least as great as where the ray leaves the square, which is in another such square, or
-/// on the outer circle.
+/// on the outer circle. The largest squares come first: a counterexample lies in the middle of one
+/// of them, unless the function is negative in very small places alone.
 class RingProof {
  public:
   RingProof(const PlaneFunction& f, const PlaneFunction& growth, double inner, double outer)
-      : f_(f), growth_(growth), inner_(inner), outer_(outer) {
+      : f_(f), growth_(growth), ring_{inner, outer} {
     const auto j = static_cast<long>(std::ilogb(outer)) / 2 + 1;
     const Dyadic radius = Dyadic(1.0).scaled(j);
     waiting_.push_back({-radius, -radius, radius.scaled(1)});
@@ -197,8 +231,8 @@ class RingProof {
   RingVerdict run() {
     for (int count = 0; !waiting_.empty(); ++count) {
       if (count == most_squares) return {Verdict::unknown, {}};
-      const Square square = std::move(waiting_.back());
-      waiting_.pop_back();
+      const Square square = std::move(waiting_.front());
+      waiting_.pop_front();
       if (is_settled(square)) continue;
       if (std::optional<Dyadic> q = counterexample(square)) return {Verdict::fails, *q};
       divide(square);
@@ -210,19 +244,17 @@ class RingProof {
   static constexpr int most_squares = 1 << 15;
 
   [[nodiscard]] bool is_settled(const Square& s) const {
-    const BigInterval x(s.x, s.x + s.size, ring_bits), y(s.y, s.y + s.size, ring_bits);
-    auto [low, high] = (square(x) + square(y)).ends();
-    if (high < inner_ || low > outer_) return true;
-    const BigInterval q(std::max(low, inner_), std::min(high, outer_), ring_bits);
-    return f_.at(x, y, q).sign() == Sign::positive || growth_.at(x, y, q).sign() == Sign::negative;
+    const auto squared = [&s](const Dyadic& x) { return square(DyadicInterval{x, x + s.size}); };
+    const DyadicInterval q = squared(s.x) + squared(s.y);
+    return q.high < ring_.low || q.low > ring_.high || f_.sign_on(s, ring_) == Sign::positive ||
+           growth_.sign_on(s, ring_) == Sign::negative;
   }
 
   /// |m|² of the middle of a square, if it lies in the ring and the function is negative there.
   [[nodiscard]] std::optional<Dyadic> counterexample(const Square& s) const {
     const Dyadic half = s.size.scaled(-1), x = s.x + half, y = s.y + half, q = x * x + y * y;
-    if (q < inner_ || q > outer_) return std::nullopt;
-    const Sign sign = f_.at(number(x), number(y), number(q)).sign();
-    return sign == Sign::negative ? std::optional(q) : std::nullopt;
+    if (q < ring_.low || q > ring_.high) return std::nullopt;
+    return f_.at(x, y).sign() == Sign::negative ? std::optional(q) : std::nullopt;
   }
 
   void divide(const Square& s) {
@@ -233,8 +265,8 @@ class RingProof {
   }
 
   EnclosedFunction f_, growth_;
-  Dyadic inner_, outer_;
-  std::vector<Square> waiting_;
+  DyadicInterval ring_;
+  std::deque<Square> waiting_;
 };
 
 }  // namespace

@@ -37,7 +37,7 @@ class Definiteness {
   /// The same where |m|² ≥ q. nullopt also if the determinant is negative far outside.
   [[nodiscard]] std::optional<double> outer_bound() const;
 
-  /// Whether the determinant is positive where |m|² = q. Decided exactly.
+  /// Whether the symmetric part is positive definite where |m|² = q. Decided exactly.
   [[nodiscard]] bool holds_on_circle(const Dyadic& q) const;
 
   enum class Verdict { holds, fails, unknown };
@@ -50,7 +50,7 @@ class Definiteness {
   [[nodiscard]] RingVerdict holds_on_ring(double inner, double outer) const;
 
  private:
-  ExactPolynomial denominator_, radial_slope_;
+  ExactPolynomial numerator_, denominator_, radial_slope_;
   /// D³ times the determinant, and its derivative along m: r·∂/∂r.
   PlaneFunction determinant_, growth_;
 };
