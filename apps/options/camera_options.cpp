@@ -149,7 +149,7 @@ void CameraOptions::add_to(Command& command) {
 }
 
 std::vector<Camera> CameraOptions::get(const Scene& scene, const Console& console) const {
-  if (from_file()) return changes_.applied(read_camera_file(file_, console));
+  if (from_file()) return changes_.applied(read_cameras_with_lenses(file_, console));
   return changes_.applied({framing_camera(scene, view_, changes_.applied(lens_))});
 }
 
@@ -164,6 +164,12 @@ Camera CameraOptions::get_one(const Scene& scene, const char* command,
 }
 
 std::vector<Camera> read_camera_file(const std::string& file, const Console& console) {
+  std::vector<Camera> cameras = read_cameras_with_lenses(file, console);
+  for (const Camera& camera : cameras) require_straight(camera);
+  return cameras;
+}
+
+std::vector<Camera> read_cameras_with_lenses(const std::string& file, const Console& console) {
   note_input(file);
   if (is_colmap_model(file)) {
     throw InputError(fmt::format(

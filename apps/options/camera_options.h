@@ -61,7 +61,9 @@ class CameraOptions {
 };
 
 /// The cameras of a camera file, or the camera that a map carries, each without fault; warnings go
-/// to the console. Fails with InputError.
+/// to the console. Fails with InputError, and with UsageError for a lens that bends rays.
 std::vector<Camera> read_camera_file(const std::string& file, const Console& console);
+/// The same for a command that takes lenses, or calls functions that refuse them.
+std::vector<Camera> read_cameras_with_lenses(const std::string& file, const Console& console);
 
 }  // namespace fathom::app

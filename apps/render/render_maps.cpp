@@ -103,7 +103,10 @@ DepthMap part_for(const OutputPlan& output, const DepthMap& map) {
   DepthMap part = map;
   part.channels.clear();
   for (const Channel channel : output.plan.rendering.channels) {
-    for (const std::string& name : part_names(channel)) part.channels.push_back(*map.find(name));
+    for (const std::string& name : part_names(channel)) {
+      // Of a lens the default channels are fewer.
+      if (const ImageChannel* const found = map.find(name)) part.channels.push_back(*found);
+    }
   }
   if (output.plan.rendering.depth_encoding.type != DepthEncoding::Type::scaled_unorm16) {
     part.png_scale.reset();
@@ -132,7 +135,7 @@ MapReport make_map(const RenderPass& pass, const RenderInput& scene, const Motio
   const MapPlan& plan = pass.plan;
   const std::string& name = outputs.map_name(number, pass.outputs.front().number);
   MapReport report{.map = name, .engine = plan.rendering.engine};
-  const RenderOptions& options = plan.rendering;
+  const RenderOptions options = plan.rendering_for(camera);
   Stopwatch stopwatch;
   // The message about a depth that the file cannot hold names the map.
   Rendered rendered = about_output(name, [&] { return scene.render(camera, options, context); });

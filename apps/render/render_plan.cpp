@@ -159,6 +159,7 @@ MapPlan plan_of_output(const RenderArguments& a) {
   plan.storage = a.storage;
   plan.rendering = rendering_of(a);
   plan.rendering.channels = channels;
+  plan.channels_by_default = !a.channels;
   plan.rendering.depth_encoding = a.storage.encoding_for(plan.format);
   plan.is_mask = a.is_mask;
   plan.object = a.object;
@@ -215,6 +216,7 @@ void add_to_passes(std::vector<RenderPass>& passes, OutputPlan output) {
     passes.push_back({output.plan, {std::move(output)}});
     return;
   }
+  if (!output.plan.channels_by_default) pass->plan.channels_by_default = false;
   RenderOptions& whole = pass->plan.rendering;
   if (!has_depths(pass->plan)) whole.depth_encoding = output.plan.rendering.depth_encoding;
   for (const Channel channel : output.plan.rendering.channels) {
@@ -227,6 +229,15 @@ void add_to_passes(std::vector<RenderPass>& passes, OutputPlan output) {
 
 DepthFormat format_for(const DepthBufferPlan& plan, const Camera& camera) {
   return depth_format_of(camera, plan.mapping, plan.storage, plan.c);
+}
+
+RenderOptions MapPlan::rendering_for(const Camera& camera) const {
+  RenderOptions options = rendering;
+  if (!channels_by_default || !bends_rays(camera.projection)) return options;
+  std::erase(options.channels, Channel::A);
+  if (keeps_all_channels(format) && counts_distance(camera.projection))
+    options.channels.push_back(Channel::distance);
+  return options;
 }
 
 bool MapPlan::needs_normals() const {

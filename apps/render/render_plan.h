@@ -35,11 +35,16 @@ struct MapPlan {
   bool is_mask = false;
   /// The mask is that of one object.
   std::optional<std::uint32_t> object;
+  /// Whether nobody asked for channels, so that they are those that suit the camera.
+  bool channels_by_default = false;
   std::vector<MatteKind> mattes;
   std::optional<SamplePattern> samples;
   std::optional<DepthBufferPlan> depth_buffer;
   std::optional<std::uint64_t> verified_pixels;
 
+  /// `rendering`, with the default channels of a camera: with a lens, Z without A, and also the ray
+  /// distance where its rays need not all go forwards.
+  [[nodiscard]] RenderOptions rendering_for(const Camera& camera) const;
   /// Whether the normals of files are interpolated.
   [[nodiscard]] bool needs_normals() const;
   /// Whether the map shows what triangles are called.

@@ -67,6 +67,8 @@ std::vector<ViewedMap> read_viewed(const std::string& file) {
       viewed.map = read_map_argument(input.bytes(), file);
     }
     viewed.camera = camera_of(viewed.map, file);
+    // The page computes world points itself, on straight rays.
+    if (viewed.camera && bends_rays(viewed.camera->projection)) viewed.camera.reset();
   }
   input.expect_unchanged();
   for (const ViewedMap& viewed : maps) require_valid(viewed.map);

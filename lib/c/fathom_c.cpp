@@ -322,6 +322,7 @@ fathom_status fathom_camera_read(const char* file, fathom_camera* camera) {
     require(file, "file: NULL");
     const std::vector<Camera> cameras = read_cameras(std::filesystem::path(file));
     if (cameras.size() != 1) throw InputError(std::string(file) + ": expected one camera");
+    require_straight(cameras.front(), "C has no lenses; render with the command fathom render");
     give(cameras.front(), camera);
   });
 }

@@ -29,6 +29,7 @@ DepthAgreement compare_depths(const Scene& reconstruction, const Scene& truth,
   const double step = end / (2 * static_cast<double>(cameras.size()));
   double done = 0;
   for (const Camera& camera : cameras) {
+    require_straight(camera);
     render_into(true_map, truth, camera, rendering,
                 {.kept = &of_truth, .progress = part_of(progress, done, done + step)});
     render_into(

@@ -24,9 +24,14 @@ using namespace rendering;
 
 namespace {
 
+/// Both engines compute the same bits, and the fast engine has no lenses.
+Engine engine_for(const Camera& camera, const RenderOptions& options) {
+  return bends_rays(camera.projection) ? Engine::reference : options.engine;
+}
+
 void describe(const Scene& scene, const Camera& camera, const RenderOptions& options,
               DepthMap& map) {
-  describe_map(scene, camera, name_of(options.engine), map);
+  describe_map(scene, camera, name_of(engine_for(camera, options)), map);
   if (options.cull != Cull::none) {
     map.texts[cull_text] = name_of(options.cull);
   }
@@ -112,7 +117,7 @@ void render_into(Rendered& rendered, const Scene& scene, const Camera& camera,
                  const RenderOptions& options, const RenderContext& context) {
   const StandardArithmetic standard;
   DepthMap before = std::exchange(rendered, {}).map;
-  Rendered now = options.engine == Engine::fast
+  Rendered now = engine_for(camera, options) == Engine::fast
                      ? render_fast(scene, camera, options, context, std::move(before))
                      : render_reference(scene, camera, options, context, std::move(before));
   finish_map(now.map, scene, camera, options, now.statistics);

@@ -44,7 +44,7 @@ TEST(CoveredRegion, IsWhatCoversAndCounts) {
           const ImagePoint s{static_cast<double>(random() % 6144) / 1024,
                              static_cast<double>(random() % 5120) / 1024};
           bool on_rim = false, is_inside = region.has_value();
-          for (const ImageForm& form : region.value_or(std::vector<ImageForm>())) {
+          for (const LinearForm& form : region.value_or(std::vector<LinearForm>())) {
             const Sign sign = form.at(s.u, s.v).sign();
             on_rim = on_rim || sign == Sign::zero;
             is_inside = is_inside && sign == Sign::positive;
@@ -64,7 +64,7 @@ TEST(CoveredRegion, IsWhatCoversAndCounts) {
 
 TEST(ImageCell, FormsAreTakenToItsOwnCorner) {
   const ImageCell cell(7, 2000000, 3, 2);
-  const ImageForm form({0.5, -3.0, 11.0});
+  const LinearForm form({0.5, -3.0, 11.0});
   const ExactVector3 l = cell.localised(form);
   for (const double x : {0.0, 1.25, 3.0}) {
     for (const double y : {0.0, 0.5, 2.0}) {
@@ -133,7 +133,7 @@ TEST(ImageCell, HalvesAreHalves) {
 TEST(ImageCell, SignsAreThoseOfTheWholePart) {
   ImageCell pixel(2, 3);
   const auto sign = [&](double a, double b, double c) {
-    return pixel.sign_in_cell(ImageForm({a, b, c}));
+    return pixel.sign_in_cell(LinearForm({a, b, c}));
   };
   EXPECT_EQ(sign(0, 0, 1), Sign::positive);
   EXPECT_EQ(sign(1, 1, -4.75), Sign::positive);  // least value 0.25
@@ -141,8 +141,8 @@ TEST(ImageCell, SignsAreThoseOfTheWholePart) {
   EXPECT_EQ(sign(1, 0, -2.5), std::nullopt);  // u = 2.5 divides the pixel
   const auto halves = pixel.halves(pixel.all());
   ASSERT_EQ(halves.size(), 2U);
-  EXPECT_EQ(halves[0].part.sign_of(ImageForm({1.0, 0.0, -2.75})), Sign::negative);
-  EXPECT_EQ(halves[1].part.sign_of(ImageForm({1.0, 0.0, -2.25})), Sign::positive);
+  EXPECT_EQ(halves[0].part.sign_of(LinearForm({1.0, 0.0, -2.75})), Sign::negative);
+  EXPECT_EQ(halves[1].part.sign_of(LinearForm({1.0, 0.0, -2.25})), Sign::positive);
 }
 
 TEST(CellCoverage, IsCompleteOnceOneCoversAll) {

@@ -101,7 +101,7 @@ TEST(Separation, InPerspectiveIsThatOfQuotients) {
   TierCounts counts;
   // The strip of the pixel with u ≤ 1/2, in which the second lies behind the first:
   // 2/(1 + u) − 4/(4 − u) falls from 1 to 4/3 − 8/7 = 4/21.
-  const auto half = cell.clip(cell.whole(), ImageForm({-2.0, 0.0, 1.0}), counts);
+  const auto half = cell.clip(cell.whole(), LinearForm({-2.0, 0.0, 1.0}), counts);
   ASSERT_TRUE(half);
   const Boundary boundary = boundary_of_union(std::span(&*half, 1), counts);
   EXPECT_EQ(separation.least(boundary), 4.0 / 21);

@@ -75,7 +75,7 @@ TEST(Orientation, IsExactForCollinearPointsAndTheirNeighbours) {
   EXPECT_EQ(orientation({0, 0}, {12, 12}, {0.5, std::nextafter(0.5, 0)}), Sign::negative);
 }
 
-TEST(ImageForm, SignsAreExactAndEnclosuresContain) {
+TEST(LinearForm, SignsAreExactAndEnclosuresContain) {
   std::mt19937_64 random(22);
   TierCounts counts;
   for (int i = 0; i < 30000; ++i) {
@@ -85,7 +85,7 @@ TEST(ImageForm, SignsAreExactAndEnclosuresContain) {
     Dyadic l_u = number(), l_v = number(), l_w = number();
     if (i % 3 == 0) l_w = -(l_u * Dyadic(u) + l_v * Dyadic(v));  // exactly on the line
     if (i % 9 == 0) l_w += Dyadic(5e-324);                       // and just off it
-    const ImageForm form({l_u, l_v, l_w});
+    const LinearForm form({l_u, l_v, l_w});
     const Dyadic exact = l_u * Dyadic(u) + l_v * Dyadic(v) + l_w;
     ASSERT_EQ(form.at(u, v), exact);
     ASSERT_EQ(form.sign_at(u, v, counts), exact.sign());

@@ -77,7 +77,7 @@ bool is_explained(const Scene& scene, const Camera& camera, double u, double v, 
   for (std::uint32_t i = 0; i < scene.meshes[0].triangles.size(); ++i) {
     const auto t = project(world_corners(scene.objects[0], scene.meshes[0], i), i, camera, counts);
     if (t.orientation == Sign::zero) continue;
-    for (const ImageForm& e : t.edges)
+    for (const LinearForm& e : t.edges)
       if (passes_within(e.coefficients(), u, v, distance)) return true;
     for (const double limit : {camera.near, camera.far}) {
       ExactVector3 l;

@@ -148,7 +148,7 @@ template <class Arithmetic>
 void add_shares_of_parts(const Seen& x, const ProjectedTriangle& t, Shares& shares) {
   using Real = typename Arithmetic::Real;
   const Dyadic det = determinant_of(x.object, t);
-  const auto over_det = [&](const ImageForm& form) { return Ratio(form.at(x.s.u, x.s.v), det); };
+  const auto over_det = [&](const LinearForm& form) { return Ratio(form.at(x.s.u, x.s.v), det); };
   const DepthForms<Real> forms = Arithmetic::forms(x);
   const auto& [varying, constant] = x.image.perspective ? std::pair{t.weight, t.depth_numerator}
                                                         : std::pair{t.depth_numerator, t.weight};

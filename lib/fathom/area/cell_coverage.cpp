@@ -68,7 +68,7 @@ bool CoveredParts::add(const ConvexPolygon& part) {
   return true;
 }
 
-void CellCoverage::add(const std::vector<ImageForm>& region) {
+void CellCoverage::add(const std::vector<LinearForm>& region) {
   if (is_complete()) return;
   if (const auto piece = cell_.clip(region, counts_)) covered_.add(piece->polygon);
 }

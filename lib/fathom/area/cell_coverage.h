@@ -60,7 +60,7 @@ class CoveredParts {
 class CellCoverage {
  public:
   explicit CellCoverage(ImageCell& cell) : cell_(cell), covered_(cell, cell.whole()) {}
-  void add(const std::vector<ImageForm>& region);
+  void add(const std::vector<LinearForm>& region);
   /// Whether the whole cell is covered: what is added then changes nothing.
   [[nodiscard]] bool is_complete() const { return covered_.is_all(); }
   [[nodiscard]] Ratio area();

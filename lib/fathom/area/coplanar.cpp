@@ -51,7 +51,7 @@ class VisibleTriangle {
   /// Where both are and this one is visible, in convex polygons. Empty if the other is nowhere
   /// behind it, or certainly farther than `within`. Where they are equally deep, the other must
   /// have the higher number; `other_in_front` is in_front() of both.
-  std::vector<ConvexPolygon> visible_before(std::uint32_t other, const ImageForm& other_in_front,
+  std::vector<ConvexPolygon> visible_before(std::uint32_t other, const LinearForm& other_in_front,
                                             double within) {
     const auto both = before(other, other_in_front);
     if (!both || is_certainly_apart(*both, other, within)) return {};
@@ -73,7 +73,7 @@ class VisibleTriangle {
 
  private:
   /// The points that both cover, with this one in front or equally deep.
-  std::optional<ConvexPolygon> before(std::uint32_t other, const ImageForm& other_in_front) {
+  std::optional<ConvexPolygon> before(std::uint32_t other, const LinearForm& other_in_front) {
     if (!is_in_cell_) return std::nullopt;
     const auto piece = cell_.clip(surfaces_.surface(other)->region, counts_);
     ConvexPolygon part = visibility_.polygon(0);
@@ -169,7 +169,7 @@ class PairFinder {
     for (const std::uint32_t s : surfaces_.near(t)) {
       const SurfaceRegion& other = *surfaces_.surface(s);
       if (are_certainly_apart(triangle.surface(), other)) continue;
-      const ImageForm other_in_front = in_front(other, triangle.surface());
+      const LinearForm other_in_front = in_front(other, triangle.surface());
       if (within_ == 0 && !other_in_front.is_zero()) continue;
       // Equally deep, but hidden by the other.
       if (other_in_front.is_zero() && s < t) continue;

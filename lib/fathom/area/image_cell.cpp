@@ -11,30 +11,30 @@ using namespace triangle;
 namespace {
 
 /// n − limit·w
-ImageForm above(const ImageForm& n, const Dyadic& limit, const ImageForm& w) {
+LinearForm above(const LinearForm& n, const Dyadic& limit, const LinearForm& w) {
   ExactVector3 l;
   for (std::size_t k = 0; k < 3; ++k) l[k] = n.coefficients()[k] - limit * w.coefficients()[k];
-  return ImageForm(l);
+  return LinearForm(l);
 }
 
-bool is_constant(const ImageForm& form) {
+bool is_constant(const LinearForm& form) {
   return form.coefficients()[0].is_zero() && form.coefficients()[1].is_zero();
 }
 
 }  // namespace
 
-std::optional<std::vector<ImageForm>> covered_region(const ProjectedTriangle& t,
+std::optional<std::vector<LinearForm>> covered_region(const ProjectedTriangle& t,
                                                      const Camera& camera) {
   if (t.orientation == Sign::zero) return std::nullopt;
-  std::vector<ImageForm> region(t.edges.begin(), t.edges.end());
+  std::vector<LinearForm> region(t.edges.begin(), t.edges.end());
   // D > 0: if D is 0 everywhere, nothing is left.
-  const ImageForm& depth = t.depth_numerator;
+  const LinearForm& depth = t.depth_numerator;
   if (!is_constant(depth)) {
     region.push_back(depth);
   } else if (depth.coefficients()[2].sign() != Sign::positive) {
     return std::nullopt;
   }
-  const auto add = [&](ImageForm form) {
+  const auto add = [&](LinearForm form) {
     if (is_constant(form)) return form.coefficients()[2].sign() != Sign::negative;
     region.push_back(std::move(form));
     return true;
@@ -77,7 +77,7 @@ ImageCell::ImageCell(std::uint32_t column, std::uint32_t row, std::uint32_t widt
   all_.emplace(CellPart{ConvexPolygon(std::move(edges)), left, top, left + width, top + height});
 }
 
-std::optional<Sign> CellPart::sign_of(const ImageForm& form) const {
+std::optional<Sign> CellPart::sign_of(const LinearForm& form) const {
   // The form is affine: the signs at the corners decide.
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -149,16 +149,16 @@ std::vector<ImageCell::Half> ImageCell::halves_along(const CellPart& part, const
   return result;
 }
 
-ExactVector3 ImageCell::localised(const ImageForm& form) const {
+ExactVector3 ImageCell::localised(const LinearForm& form) const {
   const auto& l = form.coefficients();
   return {l[0], l[1], form.at(all_->left, all_->top)};
 }
 
-std::optional<ImageCell::Piece> ImageCell::clip(const std::vector<ImageForm>& region,
+std::optional<ImageCell::Piece> ImageCell::clip(const std::vector<LinearForm>& region,
                                                 TierCounts& counts) {
-  std::array<const ImageForm*, 6> undecided{};
+  std::array<const LinearForm*, 6> undecided{};
   std::size_t count = 0;
-  for (const ImageForm& form : region) {
+  for (const LinearForm& form : region) {
     const std::optional<Sign> sign = sign_in_cell(form);
     if (sign == Sign::negative) return std::nullopt;
     if (!sign) undecided.at(count++) = &form;
@@ -173,7 +173,7 @@ std::optional<ImageCell::Piece> ImageCell::clip(const std::vector<ImageForm>& re
   return piece;
 }
 
-std::optional<ConvexPolygon> ImageCell::clip(const ConvexPolygon& polygon, const ImageForm& form,
+std::optional<ConvexPolygon> ImageCell::clip(const ConvexPolygon& polygon, const LinearForm& form,
                                              const CellPart& part, TierCounts& counts) {
   const std::optional<Sign> sign = part.sign_of(form);
   if (sign == Sign::negative) return std::nullopt;
@@ -199,7 +199,7 @@ bool are_same(const SurfaceCorner& a, const SurfaceCorner& b) {
 
 /// Whether no corner of s is inside an edge of t. Edge k is opposite corner k.
 bool lies_outside(const SurfaceRegion& s, const SurfaceRegion& t, std::size_t k) {
-  const ImageForm& edge = t.region[k];
+  const LinearForm& edge = t.region[k];
   return std::all_of(s.corners.begin(), s.corners.end(), [&](const SurfaceCorner& corner) {
     const Interval value = edge.enclose_at(corner.enclosure);
     if (value.upper <= 0) return true;

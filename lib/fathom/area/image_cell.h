@@ -20,7 +20,7 @@ namespace fathom::area {
 /// The points of the triangle with W > 0 project to where no edge function is negative, with signs
 /// as in section 4 of the specification: s = Σ (eᵢ/Δ)·cornerᵢ has the weight 1. D = n/w with w > 0
 /// there, so D ≥ near ⇔ n − near·w ≥ 0.
-std::optional<std::vector<ImageForm>> covered_region(const triangle::ProjectedTriangle& t,
+std::optional<std::vector<LinearForm>> covered_region(const triangle::ProjectedTriangle& t,
                                                      const Camera& camera);
 
 /// The homogeneous image point of a corner, exactly, and an enclosure of it.
@@ -33,8 +33,8 @@ struct SurfaceCorner {
 struct SurfaceRegion {
   std::uint32_t number = 0;
   /// From covered_region(): first the edge functions, each positive at the corner of its number.
-  std::vector<ImageForm> region;
-  ImageForm depth_numerator, weight;
+  std::vector<LinearForm> region;
+  LinearForm depth_numerator, weight;
   std::array<SurfaceCorner, 3> corners;
   /// D at any point of the triangle lies in it.
   Interval depths;
@@ -79,7 +79,7 @@ struct CellPart {
            });
   }
   /// The sign of the form if it is certainly the same in the whole part (0 allowed on the rim).
-  [[nodiscard]] std::optional<Sign> sign_of(const ImageForm& form) const;
+  [[nodiscard]] std::optional<Sign> sign_of(const LinearForm& form) const;
 };
 
 /// A rectangle of the image whose corners are integers, for instance a pixel, and the convex pieces
@@ -120,26 +120,26 @@ class ImageCell {
     bool is_whole = false;
   };
   /// The part of the cell in which no form is negative, if it has an area.
-  std::optional<Piece> clip(const std::vector<ImageForm>& region, TierCounts& counts);
+  std::optional<Piece> clip(const std::vector<LinearForm>& region, TierCounts& counts);
   /// The part of a polygon in which a form is not negative, if it has an area. The polygon lies in
   /// a part of this cell, the whole unless given.
-  std::optional<ConvexPolygon> clip(const ConvexPolygon& polygon, const ImageForm& form,
+  std::optional<ConvexPolygon> clip(const ConvexPolygon& polygon, const LinearForm& form,
                                     TierCounts& counts) {
     return clip(polygon, form, all(), counts);
   }
-  std::optional<ConvexPolygon> clip(const ConvexPolygon& polygon, const ImageForm& form,
+  std::optional<ConvexPolygon> clip(const ConvexPolygon& polygon, const LinearForm& form,
                                     const CellPart& part, TierCounts& counts);
 
-  [[nodiscard]] std::optional<Sign> sign_in_cell(const ImageForm& form) const {
+  [[nodiscard]] std::optional<Sign> sign_in_cell(const LinearForm& form) const {
     return all_->sign_of(form);
   }
 
   /// The half-plane in which a form that is not constant is not negative.
-  const HalfPlane& add(const ImageForm& form) { return keep(HalfPlane(localised(form))); }
+  const HalfPlane& add(const LinearForm& form) { return keep(HalfPlane(localised(form))); }
   /// The half-plane on the other side of a line.
   const HalfPlane& opposite(const HalfPlane& line);
   /// The coefficients of a form in the cell's coordinates.
-  [[nodiscard]] ExactVector3 localised(const ImageForm& form) const;
+  [[nodiscard]] ExactVector3 localised(const LinearForm& form) const;
 
  private:
   const HalfPlane& keep(HalfPlane line);

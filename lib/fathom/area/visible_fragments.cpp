@@ -16,7 +16,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// a·b, one of which is a constant form.
-ExactVector3 product(const ImageForm& a, const ImageForm& b) {
+ExactVector3 product(const LinearForm& a, const LinearForm& b) {
   const bool a_is_constant = a.coefficients()[0].is_zero() && a.coefficients()[1].is_zero();
   const Dyadic& factor = a_is_constant ? a.coefficients()[2] : b.coefficients()[2];
   const auto& l = a_is_constant ? b.coefficients() : a.coefficients();
@@ -28,10 +28,10 @@ ExactVector3 product(const ImageForm& a, const ImageForm& b) {
 // n_s/w_s < n_t/w_t ⇔ n_t·w_s − n_s·w_t > 0, as both weights are positive where s and t cover. For
 // a perspective camera D is the W of the corners, so n is |Δ|, a constant; for an orthographic one
 // W = 1, and w is.
-ImageForm in_front(const SurfaceRegion& s, const SurfaceRegion& t) {
+LinearForm in_front(const SurfaceRegion& s, const SurfaceRegion& t) {
   const ExactVector3 a = product(t.depth_numerator, s.weight);
   const ExactVector3 b = product(s.depth_numerator, t.weight);
-  return ImageForm({a[0] - b[0], a[1] - b[1], a[2] - b[2]});
+  return LinearForm({a[0] - b[0], a[1] - b[1], a[2] - b[2]});
 }
 
 CellVisibility::CornerDepths CellVisibility::depths_of(const SurfaceRegion& surface) const {
@@ -104,7 +104,7 @@ CellVisibility::Order CellVisibility::quick_order(const CornerDepths& s, const C
 bool CellVisibility::is_in_front(const PieceOfSurface& s, const PieceOfSurface& t) const {
   const Order order = quick_order(s.depths, t.depths);
   if (order != Order::unknown) return order == Order::in_front;
-  const ImageForm form = area::in_front(*s.surface, *t.surface);
+  const LinearForm form = area::in_front(*s.surface, *t.surface);
   if (form.is_zero()) return s.surface->number < t.surface->number;
   if (const auto sign = part_.sign_of(form)) return sign == Sign::positive;
   if (!is_merged_) return false;
@@ -200,7 +200,7 @@ std::vector<CellVisibility> CellVisibility::halves_along_edge() {
   drop_hidden();
   if (const HalfPlane* edge = edge_in_front()) return divided(cell_->halves_along(part_, *edge));
   if (pieces_.size() < 2) return {};
-  const ImageForm form = area::in_front(*pieces_[0].surface, *pieces_[1].surface);
+  const LinearForm form = area::in_front(*pieces_[0].surface, *pieces_[1].surface);
   return divided(cell_->halves_along(part_, cell_->add(form)));
 }
 
@@ -212,7 +212,7 @@ std::optional<ConvexPolygon> CellVisibility::hidden_part(const ConvexPolygon& po
   ConvexPolygon part = polygon;
   if (!part_.clip(part, before.polygon, counts_)) return std::nullopt;
   if (order == Order::in_front) return part;
-  const ImageForm form = area::in_front(*before.surface, *behind.surface);
+  const LinearForm form = area::in_front(*before.surface, *behind.surface);
   if (form.is_zero()) {
     if (before.surface->number < behind.surface->number) return part;
     return std::nullopt;

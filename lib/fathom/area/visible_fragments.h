@@ -23,7 +23,7 @@ namespace fathom::area {
 
 /// The form that, at points covered by both triangles, is positive where s is in front of t and
 /// zero where they are equally deep.
-ImageForm in_front(const SurfaceRegion& s, const SurfaceRegion& t);
+LinearForm in_front(const SurfaceRegion& s, const SurfaceRegion& t);
 
 /// The pieces of a cell, or of a part of it, that triangles cover, and what of each is visible.
 class CellVisibility {

@@ -28,4 +28,10 @@ void require_valid(const Camera& camera) {
   if (const auto fault = find_fault(camera)) throw InputError("camera: " + *fault);
 }
 
+void require_straight(const Camera& camera, std::string_view why) {
+  if (!bends_rays(camera.projection)) return;
+  throw UsageError("the lens " + std::string(name_of(camera.projection.lens->model)) + ": " +
+                   std::string(why));
+}
+
 }  // namespace fathom

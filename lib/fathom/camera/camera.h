@@ -4,11 +4,17 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "fathom/camera/pose.h"
 #include "fathom/camera/projection.h"
 
 namespace fathom {
+
+/// Why most computations take no lens.
+inline constexpr std::string_view computes_on_straight_edges =
+    "computed only where edges are straight in the image; leave the lens out of the camera, or "
+    "undistort the images";
 
 /// A camera as the specification (section 2) defines it: where it stands, how it projects, and
 /// which part of space it shows. Every number is the real number that it denotes. Valid if
@@ -35,5 +41,10 @@ std::optional<std::string> find_fault(const Camera& camera);
 /// Refuses a camera that is not valid.
 /// Fails    InputError: "camera: " and the fault from find_fault().
 void require_valid(const Camera& camera);
+
+/// Refuses a camera whose lens bends rays. `why` completes the message: what needs straight edges,
+/// and what to do instead.
+/// Fails    UsageError: "the lens OPENCV: " and `why`.
+void require_straight(const Camera& camera, std::string_view why = computes_on_straight_edges);
 
 }  // namespace fathom

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "fathom/camera/camera_keys.h"
 #include "fathom/camera/rounded_poses.h"
 #include "fathom/files/input_file.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -59,41 +60,15 @@ Pose read_inverse_pose(const JsonValue& value) {
   return *pose;
 }
 
-/// Refuses an object with both keys.
-void expect_either(const JsonValue& value, const char* one, const char* other) {
-  if (value.find(one) && value.find(other)) {
-    value.fail("has both \"" + std::string(one) + "\" and \"" + other + "\", expected one of them");
-  }
-}
-
-void read_intrinsic_matrix(const JsonValue& value, Projection& projection) {
-  const std::vector<JsonValue> rows = value.elements(3);
-  const std::vector<double> u = rows[0].numbers(3), v = rows[1].numbers(3), w = rows[2].numbers(3);
-  if (v[0] != 0) rows[1].fail("expected 0 in the first place of K's second row");
-  if (w != std::vector<double>{0, 0, 1}) rows[2].fail("expected the last row of K to be 0 0 1");
-  projection.fx = u[0], projection.skew = u[1], projection.cx = u[2];
-  projection.fy = v[1], projection.cy = v[2];
-}
-
-void read_number(const JsonValue& value, const char* key, double& number) {
-  if (const auto member = value.find(key)) number = member->number();
-}
-
-/// fx, fy, cx, cy and skew, or all of them as the matrix K.
-void read_intrinsics_or_matrix(const JsonValue& value, Projection& projection) {
-  for (const char* number : {"fx", "fy", "cx", "cy", "skew"}) expect_either(value, "K", number);
-  if (const auto K = value.find("K")) return read_intrinsic_matrix(*K, projection);
-  projection.fx = value.at("fx").number();
-  projection.fy = value.at("fy").number();
-  projection.cx = value.at("cx").number();
-  projection.cy = value.at("cy").number();
-  read_number(value, "skew", projection.skew);
-}
-
 Projection read_projection(const JsonValue& value) {
   Projection projection;
   if (const auto model = value.find("projection")) projection.model = read_model(*model);
-  read_intrinsics_or_matrix(value, projection);
+  if (value.find("model")) {
+    if (is_orthographic(projection)) value.at("projection").fail("an orthographic camera has no lens");
+    read_lens(value, projection);
+  } else {
+    read_intrinsics(value, projection);
+  }
   expect_either(value, "pixel_centre", "pixel_center");
   read_number(value, "pixel_centre", projection.pixel_centre);
   read_number(value, "pixel_center", projection.pixel_centre);
@@ -107,14 +82,26 @@ void read_world_to_camera(const JsonValue& value, Camera& camera) {
       inverse ? read_inverse_pose(*inverse) : read_pose(value.at("world_to_camera"));
 }
 
+/// The keys of a pinhole and an orthographic camera, or those of a lens.
+void expect_known_keys(const JsonValue& value) {
+  std::vector<std::string_view> known{"width", "height", "projection"};
+  if (value.find("model")) {
+    const std::vector<std::string_view> of_lens = keys_of_lens(value);
+    known.insert(known.end(), of_lens.begin(), of_lens.end());
+  } else {
+    known.insert(known.end(), {"fx", "fy", "cx", "cy", "skew", "K"});
+  }
+  known.insert(known.end(), {"pixel_centre", "pixel_center", "world_to_camera", "camera_to_world",
+                             "near", "far", "name"});
+  value.expect_only(known);
+}
+
 bool says_pixel_centre(const JsonValue& value) {
   return value.find("pixel_centre") || value.find("pixel_center");
 }
 
 Camera read_camera(const JsonValue& value) {
-  value.expect_only({"width", "height", "projection", "fx", "fy", "cx", "cy", "skew", "K",
-                     "pixel_centre", "pixel_center", "world_to_camera", "camera_to_world", "near",
-                     "far", "name"});
+  expect_known_keys(value);
   constexpr auto largest_size = std::numeric_limits<std::uint32_t>::max();
   Camera camera;
   camera.width = static_cast<std::uint32_t>(value.at("width").integer(1, largest_size));
@@ -133,6 +120,33 @@ std::string json_number(double number, Digits digits) {
   if (std::isinf(number)) return "null";
   if (number == 0) return std::signbit(number) ? "-0.0" : "0";
   return digits == Digits::fewest ? fmt::format("{}", number) : fmt::format("{:.17g}", number);
+}
+
+struct Intrinsic {
+  const char* key;
+  double Projection::*number;
+};
+constexpr std::array intrinsics{Intrinsic{"fx", &Projection::fx}, Intrinsic{"fy", &Projection::fy},
+                                Intrinsic{"cx", &Projection::cx}, Intrinsic{"cy", &Projection::cy},
+                                Intrinsic{"skew", &Projection::skew}};
+
+/// The model, its parameters by their names, and where it ends.
+template <class Member, class Number>
+void write_lens(const Projection& projection, const Member& member, const Number& number) {
+  const Lens& lens = *projection.lens;
+  const LensModelEntry& model = entry_of(lens.model);
+  member("model", json_string(model.name));
+  const bool one_focal_length = model.intrinsics.front() == "f";
+  if (one_focal_length) member("f", number(projection.fx));
+  for (const auto& [key, value] : intrinsics) {
+    const std::string_view name(key);
+    if (one_focal_length && name != "cx" && name != "cy") continue;
+    member(key, number(projection.*value));
+  }
+  for (std::size_t i = 0; i < model.distortion.size(); ++i) {
+    member(model.distortion[i], number(lens.distortion[i]));
+  }
+  if (std::isfinite(lens.max_radius)) member("max_radius", number(lens.max_radius));
 }
 
 }  // namespace
@@ -176,19 +190,19 @@ std::string to_json(const Camera& camera, Digits digits) {
   const StandardArithmetic standard;
   const auto number = [digits](double value) { return json_number(value, digits); };
   std::string text;
-  const auto member = [&](const char* key, const std::string& value) {
+  const auto member = [&](std::string_view key, const std::string& value) {
     text += (text.empty() ? "{\n" : ",\n") + ("  \"" + std::string(key) + "\": ") + value;
   };
   if (!camera.name.empty()) member("name", json_string(camera.name));
   member("width", std::to_string(camera.width));
   member("height", std::to_string(camera.height));
   const Projection& projection = camera.projection;
-  member("projection", json_string(name_of(projection.model)));
-  member("fx", number(projection.fx));
-  member("fy", number(projection.fy));
-  member("cx", number(projection.cx));
-  member("cy", number(projection.cy));
-  member("skew", number(projection.skew));
+  if (projection.lens) {
+    write_lens(projection, member, number);
+  } else {
+    member("projection", json_string(name_of(projection.model)));
+    for (const auto& [key, value] : intrinsics) member(key, number(projection.*value));
+  }
   member("pixel_centre", number(projection.pixel_centre));
   std::string rows;
   for (const auto& [r0, r1, r2, t] : camera.world_to_camera)

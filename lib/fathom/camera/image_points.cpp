@@ -33,6 +33,7 @@ WordPair words_of(const Ratio& x) {
 }  // namespace
 
 ImageOfPoint project(const Camera& camera, const std::array<double, 3>& world) {
+  require_straight(camera);
   const StandardArithmetic standard;
   const CameraPoint p = to_camera(camera.world_to_camera, {world[0], world[1], world[2]});
   const double depth = round_to_binary64(Ratio(p.z));
@@ -52,6 +53,7 @@ ImageRays::ImageRays(const Camera& camera, PointFrame frame)
     : cx_(camera.projection.cx),
       cy_(camera.projection.cy),
       perspective_(is_perspective(camera.projection)) {
+  require_straight(camera);
   const StandardArithmetic standard;
   const Projection& projection = camera.projection;
   const Dyadic fx = projection.fx, fy = projection.fy, skew = projection.skew, zero = 0.0;

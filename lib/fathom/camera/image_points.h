@@ -24,6 +24,7 @@ struct ImageOfPoint {
 
 /// Source   docs/specification.md, section 2.
 /// Needs    a valid camera and finite numbers.
+/// Fails    UsageError for a lens that bends rays.
 ImageOfPoint project(const Camera& camera, const std::array<double, 3>& world);
 
 /// The rays of a camera's image and their points: what does not depend on the point is computed
@@ -31,6 +32,7 @@ ImageOfPoint project(const Camera& camera, const std::array<double, 3>& world);
 class ImageRays {
  public:
   /// Needs    a valid camera.
+  /// Fails    UsageError for a lens that bends rays.
   ImageRays(const Camera& camera, PointFrame frame);
 
   /// The point at (u, v) with this planar depth, in scene units.

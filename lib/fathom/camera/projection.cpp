@@ -23,7 +23,17 @@ std::optional<std::string> find_fault(const Projection& projection) {
     if (!std::isfinite(value)) return std::string(name) + " is not a finite number";
   if (projection.fx == 0) return "fx is 0, expected any other number";
   if (projection.fy == 0) return "fy is 0, expected any other number";
-  return std::nullopt;
+  if (!projection.lens) return std::nullopt;
+  if (is_orthographic(projection)) return "an orthographic camera has no lens";
+  return find_fault(*projection.lens);
+}
+
+bool bends_rays(const Projection& projection) {
+  return projection.lens && !is_pinhole(*projection.lens);
+}
+
+bool counts_distance(const Projection& projection) {
+  return bends_rays(projection) && !entry_of(projection.lens->model).is_plane;
 }
 
 HomogeneousImagePoint to_image(const Projection& projection, const CameraPoint& p) {

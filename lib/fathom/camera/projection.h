@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "fathom/camera/lens.h"
 #include "fathom/geometry/frames.h"
 
 namespace fathom {
@@ -26,6 +27,9 @@ struct Projection {
   /// The image coordinate of the top left pixel's centre, as cx and cy count: ½ (COLMAP, OpenGL) or
   /// 0 (OpenCV).
   double pixel_centre = 0.5;
+  /// Of a perspective camera: how its lens bends rays. Without a lens, and with one that bends
+  /// nothing and ends nowhere, the camera is a pinhole.
+  std::optional<Lens> lens;
 
   friend bool operator==(const Projection&, const Projection&) = default;
 };
@@ -37,16 +41,23 @@ struct Projection {
   return projection.model == ProjectionModel::orthographic;
 }
 
+/// Whether a lens bends the rays of the camera: edges of triangles are then curves in its image.
+[[nodiscard]] bool bends_rays(const Projection& projection);
+/// Whether near and far bound ray distances rather than planar depths, because the rays need not
+/// all go forwards.
+[[nodiscard]] bool counts_distance(const Projection& projection);
+
 /// Whether the image is mirrored: whether fx and fy differ in sign.
 [[nodiscard]] constexpr bool is_mirrored(const Projection& projection) {
   return (projection.fx < 0) != (projection.fy < 0);
 }
 
-/// What is wrong with a projection, in one line, or nothing if all numbers are finite, and fx and
-/// fy ≠ 0.
+/// What is wrong with a projection, in one line, or nothing if all numbers are finite, fx and
+/// fy ≠ 0, and a lens is valid and that of a perspective camera.
 std::optional<std::string> find_fault(const Projection& projection);
 
 /// The homogeneous image point of a camera point in pixels, exactly; accounts for `pixel_centre`.
+/// Needs    a projection that bends no rays.
 HomogeneousImagePoint to_image(const Projection& projection, const CameraPoint& p);
 
 /// The image of a camera's z axis: pixels from the top left corner of the image, y downwards.

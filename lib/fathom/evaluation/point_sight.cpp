@@ -223,7 +223,7 @@ bool PointSight::hides_exactly(std::uint32_t number, const PlacedPoint& p) const
   if (t.orientation == Sign::zero || !triangle::is_kept(t, cull_)) return false;
   const CameraPoint at = to_camera(camera_.world_to_camera, p.exact);
   const ExactVector3 q = to_vector(to_image(camera_.projection, at));
-  for (const ImageForm& edge : t.edges)
+  for (const LinearForm& edge : t.edges)
     if (dot(edge.coefficients(), q).sign() == Sign::negative) return false;
   const Ratio depth(dot(t.depth_numerator.coefficients(), q), dot(t.weight.coefficients(), q));
   return depth.sign() == Sign::positive && !(depth < Ratio(Dyadic(camera_.near))) &&

@@ -27,7 +27,8 @@ enum class Channel {
   P,
   bary,
   Nc,
-  Ns
+  Ns,
+  valid
 };
 
 /// Quantity of a channel, which decides its value for "no surface".
@@ -44,7 +45,7 @@ enum class ChannelKind {
 enum class ChannelType {
   encoded,    ///< binary32, binary64 or 16-bit codes, as asked for (DepthEncoding)
   binary32,   ///< binary32
-  identifier  ///< a 32-bit integer
+  identifier  ///< a 32-bit integer, as `valid` is, too
 };
 
 /// How depths are stored. Identifiers keep their 32 bits.
@@ -85,6 +86,8 @@ inline constexpr auto channel_table = std::to_array<ChannelDescription>({
      "normal in the camera frame"},
     {Channel::Ns, "Ns", "XYZ", ChannelType::binary32, ChannelKind::direction,
      "interpolated normal in the world"},
+    {Channel::valid, "valid", "", ChannelType::identifier, ChannelKind::quantity,
+     "1 where the lens has a ray"},
 });
 
 inline const ChannelDescription& description_of(Channel channel) {

@@ -117,6 +117,7 @@ DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity
   const StandardArithmetic standard;
   require_valid(map);
   require_valid(camera);
+  require_straight(camera, "a map is not converted with it; render the channel distance instead");
   const std::string name(name_of(from));
   const ImageChannel* source = map.find(name);
   if (!source) throw missing_channel(map, name);

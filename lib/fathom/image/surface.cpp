@@ -86,9 +86,10 @@ std::vector<std::uint8_t> group_mask(const DepthMap& map, const ImageChannel& ch
 
 ChannelKind kind_of(const ImageChannel& channel) {
   if (std::holds_alternative<Samples<std::uint32_t>>(channel.values)) {
-    // Of a depth buffer: codes, halves of binary64 numbers, and 1 where another surface wins.
-    static constexpr std::array<std::string_view, 4> numbers{"Zwindow", "Zwindow.high",
-                                                             "Zwindow.low", "Zfight"};
+    // Of a depth buffer: codes, halves of binary64 numbers, and 1 where another surface wins; 1
+    // where a lens has a ray.
+    static constexpr std::array<std::string_view, 5> numbers{"Zwindow", "Zwindow.high",
+                                                             "Zwindow.low", "Zfight", "valid"};
     const bool is_number = std::ranges::find(numbers, channel.name) != numbers.end();
     return is_number ? ChannelKind::quantity : ChannelKind::identifier;
   }

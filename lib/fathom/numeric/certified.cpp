@@ -27,7 +27,7 @@ bool is_below(const Interval& x, double bound) {
 }
 
 // The filters are used only where nothing can overflow, so that ∞ − ∞ and 0·∞ never arise:
-// a determinant of entries below 2³⁰⁰ has products below 2⁹⁰⁰ and six terms; an image form has
+// a determinant of entries below 2³⁰⁰ has products below 2⁹⁰⁰ and six terms; a linear form has
 // coefficients below 2⁹⁰⁰ and is evaluated at |u|, |v| < 2¹⁰⁰.
 constexpr double greatest_determinant_entry = 0x1p300;
 constexpr double greatest_coefficient = 0x1p900;
@@ -105,32 +105,32 @@ bool is_simple_ring(const std::vector<std::array<double, 2>>& corners) {
   return CGAL::is_simple_2(points.begin(), points.end(), Kernel());
 }
 
-ImageForm::ImageForm(ExactVector3 coefficients) : coefficients_(std::move(coefficients)) {
+LinearForm::LinearForm(ExactVector3 coefficients) : coefficients_(std::move(coefficients)) {
   for (std::size_t i = 0; i < 3; ++i) enclosures_[i] = enclose(coefficients_[i]);
   filterable_ = std::all_of(enclosures_.begin(), enclosures_.end(),
                             [](const Interval& x) { return is_below(x, greatest_coefficient); });
 }
 
-bool ImageForm::is_zero() const {
+bool LinearForm::is_zero() const {
   return coefficients_[0].is_zero() && coefficients_[1].is_zero() && coefficients_[2].is_zero();
 }
 
-ImageForm ImageForm::operator-() const {
-  return ImageForm({-coefficients_[0], -coefficients_[1], -coefficients_[2]});
+LinearForm LinearForm::operator-() const {
+  return LinearForm({-coefficients_[0], -coefficients_[1], -coefficients_[2]});
 }
 
-Dyadic ImageForm::at(double u, double v) const {
+Dyadic LinearForm::at(double u, double v) const {
   return coefficients_[0] * Dyadic(u) + coefficients_[1] * Dyadic(v) + coefficients_[2];
 }
 
-Interval ImageForm::enclose_at(double u, double v) const {
+Interval LinearForm::enclose_at(double u, double v) const {
   if (!may_filter(filterable_, u, v)) return enclose(at(u, v));
   const Rounding upwards;
   const FilterNumber value = filter_value(enclosures_, u, v);
   return {value.inf(), value.sup()};
 }
 
-Interval ImageForm::enclose_at(const std::array<Interval, 3>& box) const {
+Interval LinearForm::enclose_at(const std::array<Interval, 3>& box) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const bool is_near = std::all_of(box.begin(), box.end(), [](const Interval& x) {
     return is_below(x, greatest_sample_coordinate);
@@ -144,7 +144,7 @@ Interval ImageForm::enclose_at(const std::array<Interval, 3>& box) const {
   return {value.inf(), value.sup()};
 }
 
-Sign ImageForm::sign_at(double u, double v, TierCounts& counts) const {
+Sign LinearForm::sign_at(double u, double v, TierCounts& counts) const {
   std::optional<Sign> sign;
   if (may_filter(filterable_, u, v)) {
     const Rounding upwards;

@@ -44,18 +44,19 @@ Sign orientation(const std::array<double, 2>& a, const std::array<double, 2>& b,
 /// Cost     n log n of n corners
 bool is_simple_ring(const std::vector<std::array<double, 2>>& corners);
 
-/// An affine function l_u·u + l_v·v + l_w on the image (u, v in pixels), with exact coefficients
-/// and an enclosure of them for the filter. Edge functions, and the numerators and denominators of
-/// everything that is interpolated over a triangle, have this form.
-class ImageForm {
+/// A linear form with exact coefficients and an enclosure of them for the filter. Its value at a
+/// sample of an image of straight edges is l_u·u + l_v·v + l_w (u, v in pixels); at a ray it is
+/// l·d with the direction d. Edge functions, and the numerators and denominators of everything that
+/// is interpolated over a triangle, have this form.
+class LinearForm {
  public:
-  ImageForm() : ImageForm(ExactVector3{}) {}
-  explicit ImageForm(ExactVector3 coefficients);
+  LinearForm() : LinearForm(ExactVector3{}) {}
+  explicit LinearForm(ExactVector3 coefficients);
 
   [[nodiscard]] const ExactVector3& coefficients() const { return coefficients_; }
   /// Whether the value is 0 everywhere.
   [[nodiscard]] bool is_zero() const;
-  ImageForm operator-() const;
+  LinearForm operator-() const;
   /// The exact value at the sample (u, v); u and v finite.
   [[nodiscard]] Dyadic at(double u, double v) const;
   /// An interval that contains the value at (u, v).

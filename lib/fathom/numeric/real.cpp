@@ -14,6 +14,47 @@ Enclosure Real::enclose(long bits) const {
   return rational_ ? Enclosure{*rational_, *rational_} : enclose_(bits);
 }
 
+namespace {
+
+/// ⌊|x|·2^power⌋
+void floor_of_magnitude(mpz_ptr result, const Ratio& x, long power) {
+  const Fraction f = magnitude_as_fraction(x);
+  Integer numerator, denominator;
+  const auto shift = static_cast<mp_bitcnt_t>(power < 0 ? -power : power);
+  mpz_mul_2exp(numerator, f.numerator, power < 0 ? 0 : shift);
+  mpz_mul_2exp(denominator, f.denominator, power < 0 ? shift : 0);
+  mpz_fdiv_q(result, numerator, denominator);
+}
+
+/// The greatest integer below |x|·2^power.
+void integer_below(mpz_ptr result, const Ratio& x, long power) {
+  floor_of_magnitude(result, x, power);
+  const Ratio floor(Dyadic::of(result, -power));
+  const Ratio size = x.sign() == Sign::negative ? Ratio(-x.numerator, x.denominator) : x;
+  if (floor == size) mpz_sub_ui(result, result, 1);
+}
+
+}  // namespace
+
+// Integers in [a, b] have as many trailing zeros as b without the bits below the highest one in
+// which it differs from a − 1.
+std::optional<Dyadic> shortest_within(const Enclosure& e) {
+  const bool negative = e.high.sign() == Sign::negative;
+  const Ratio& near = negative ? e.high : e.low;
+  const Ratio& far = negative ? e.low : e.high;
+  constexpr long bits = 160;
+  const long power = bits - (far.numerator.top() - far.denominator.top());
+  Integer below, last, differing;
+  integer_below(below, near, power);
+  floor_of_magnitude(last, far, power);
+  if (mpz_cmp(below.get(), last.get()) == 0) return std::nullopt;
+  mpz_xor(differing, below, last);
+  const std::size_t highest = mpz_sizeinbase(differing.get(), 2) - 1;
+  mpz_fdiv_q_2exp(last, last, highest);
+  const Dyadic size = Dyadic::of(last, static_cast<long>(highest) - power);
+  return negative ? -size : size;
+}
+
 // The ends of an enclosure are compared as bits: where a thread takes subnormal numbers for 0, two
 // different ones are equal.
 float round_to_binary32(const Real& x) {

@@ -17,21 +17,23 @@ struct Enclosure {
 /// asked for and of which it can be decided whether it is a quotient.
 ///
 /// Rounding follows Ziv: enclose, round both ends, and go on with twice the bits while they differ.
-/// That ends for an irrational number, which lies on no boundary of rounding. So a number that is
-/// rational after all has to be recognised, and is, before the bits are raised for the first time.
+/// That ends for a number that lies on no boundary of rounding, as no irrational number does. So a
+/// number that is rational after all has to be recognised, and is, before the bits are raised for
+/// the first time.
 /// Not in it: arithmetic. Irrational numbers are made where it is proved that they are irrational.
 /// Source   [Ziv91]
 class Real {
  public:
   /// An enclosure whose width goes to zero as `bits` grows; `bits` is about its relative precision.
   using Enclose = std::function<Enclosure(long bits)>;
-  /// The value if it is rational; nullopt only if it is proved not to be.
+  /// The value if it is a rational number at which rounding may step; nullopt only if it is proved
+  /// not to be.
   using Decide = std::function<std::optional<Ratio>()>;
 
   Real(Ratio value) : rational_(std::move(value)) {}
   Real(Enclose enclose, Decide decide) : enclose_(std::move(enclose)), decide_(std::move(decide)) {}
 
-  /// The value if it is rational, else nullopt. Decides that if it has not been done.
+  /// The value if `decide` knows it, else nullopt. Decides that if it has not been done.
   [[nodiscard]] std::optional<Ratio> rational() const;
   [[nodiscard]] Enclosure enclose(long bits) const;
 
@@ -56,6 +58,13 @@ class Real {
   Enclose enclose_;
   Decide decide_;
 };
+
+/// Of the numbers m·2^k in an enclosure, one with the greatest k, if it has at most 160 bits.
+/// Where the enclosure is narrower than 2⁻¹²⁸ of its numbers, the only number in it at which
+/// rounding to binary32, to binary64 or to an integer below 2⁵³ can step, or the square of such a
+/// number: those have at most 108 bits.
+/// Needs    ends of the same sign, not 0.
+std::optional<Dyadic> shortest_within(const Enclosure& e);
 
 /// Correct rounding, as in rounding.h.
 float round_to_binary32(const Real& x);

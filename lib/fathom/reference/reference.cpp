@@ -6,7 +6,10 @@
 #include <optional>
 
 #include "fathom/area/coverage_image.h"
+#include "fathom/lens/preimages.h"
+#include "fathom/numeric/quadratic_form.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/reference/ray_groups.h"
 #include "fathom/rendering/map_of_camera.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
@@ -16,15 +19,36 @@
 
 // How to read this file: render_reference() at the end is the whole story. The image is cut into
 // bands of rows. For each band, every triangle whose box meets it is tested at every sample of its
-// box, in the order of the triangles' numbers, and the nearest is kept.
+// box, in the order of the triangles' numbers, and the nearest is kept. Where the camera bends rays,
+// a sample is the exact direction of its ray, and some samples have none.
 namespace fathom {
 using namespace area;
+using namespace reference;
 using namespace rendering;
 using namespace triangle;
 
 namespace {
 
-constexpr std::uint32_t rows_per_band = 16;
+constexpr std::uint32_t rows_per_band = RayGroups::pixels;
+
+/// How the samples of an image see.
+struct View {
+  explicit View(const Camera& the_camera) : camera(the_camera) {
+    if (!bends_rays(camera.projection)) return;
+    preimages.emplace(camera.projection, *camera.projection.lens);
+    groups.emplace(*preimages, camera.width, camera.height);
+  }
+
+  /// A box that contains every pixel whose sample the triangle covers.
+  [[nodiscard]] PixelBox box_of(const ProjectedTriangle& t) const {
+    return groups ? groups->box_of(t) : bounding_box(t, camera);
+  }
+
+  const Camera& camera;
+  /// Where the camera bends rays.
+  std::optional<lens::Preimages> preimages;
+  std::optional<RayGroups> groups;
+};
 
 /// A triangle that can be visible, with the pixels where it can be.
 struct Candidate {
@@ -37,7 +61,7 @@ struct Candidate {
 /// What the depth test knows about the nearest surface so far at a sample.
 struct Nearest {
   const ProjectedTriangle* triangle = nullptr;
-  Interval depth;  // contains D(s)
+  Interval depth;  // contains D(s), or t along a ray
 };
 
 ProjectedTriangle project(const Scene& scene, const Camera& camera, const Candidate& c,
@@ -47,55 +71,111 @@ ProjectedTriangle project(const Scene& scene, const Camera& camera, const Candid
                            camera, counts);
 }
 
-/// D > 0 and near ≤ D ≤ far (specification, section 5) as signs of forms on the image, for one
-/// triangle: D = n / w with w > 0 at covered samples, so D ≥ near ⇔ n − near·w ≥ 0.
-class DepthRange {
+/// a·of_a − b·of_b. area/ has the same text; this one is the reference's own, as it decides ranges
+/// and the nearer of two surfaces for itself.
+LinearForm minus(const LinearForm& a, const Dyadic& of_a, const LinearForm& b, const Dyadic& of_b) {
+  ExactVector3 l;
+  for (std::size_t k = 0; k < 3; ++k) {
+    l[k] = of_a * a.coefficients()[k] - of_b * b.coefficients()[k];
+  }
+  return LinearForm(l);
+}
+
+/// near ≤ |T|·|d|/w ≤ far, of the ray distances of one triangle: signs of quadratic forms.
+class DistanceRange {
  public:
-  DepthRange(const ProjectedTriangle& t, const Camera& camera) : depth_(t.depth_numerator) {
-    if (camera.near > 0) above_near_ = minus(t.depth_numerator, camera.near, t.weight);
-    if (camera.far < std::numeric_limits<double>::infinity()) {
-      above_far_ = minus(t.depth_numerator, camera.far, t.weight);
-    }
+  DistanceRange(const ProjectedTriangle& t, const Camera& camera) {
+    const QuadraticForm squared = (t.volume * t.volume) * squared_length();
+    const auto less = [&](double limit) {
+      QuadraticForm form = squared;
+      form -= (Dyadic(limit) * limit) * square_of(t.weight.coefficients());
+      return form;
+    };
+    if (camera.near > 0) above_near_ = less(camera.near);
+    if (camera.far < std::numeric_limits<double>::infinity()) above_far_ = less(camera.far);
   }
 
-  bool contains(const ImagePoint& s, TierCounts& counts) const {
-    if (depth_.sign_at(s.u, s.v, counts) != Sign::positive) return false;
-    if (above_near_ && above_near_->sign_at(s.u, s.v, counts) == Sign::negative) return false;
-    return !above_far_ || above_far_->sign_at(s.u, s.v, counts) != Sign::positive;
+  bool contains(const Sample& s, TierCounts& counts) const {
+    if (!above_near_ && !above_far_) return true;
+    ++counts.exact;
+    if (above_near_ && s.direction()->sign_of(*above_near_) == Sign::negative) return false;
+    return !above_far_ || s.direction()->sign_of(*above_far_) != Sign::positive;
   }
 
  private:
-  /// n − limit·w. area/ has the same text; this one is the reference's own, as it decides the range
-  /// of depths for itself.
-  static ImageForm minus(const ImageForm& n, const Dyadic& limit, const ImageForm& w) {
-    ExactVector3 l;
-    for (std::size_t k = 0; k < 3; ++k) l[k] = n.coefficients()[k] - limit * w.coefficients()[k];
-    return ImageForm(l);
+  std::optional<QuadraticForm> above_near_, above_far_;
+};
+
+/// D > 0 and near ≤ D ≤ far (specification, section 5) as signs of forms, for one triangle: D = n/w
+/// with w > 0 at covered samples, so D ≥ near ⇔ n − near·w ≥ 0. Of a lens whose rays need not all
+/// go forwards, the ray distance takes the place of D.
+class DepthRange {
+ public:
+  DepthRange(const ProjectedTriangle& t, const Camera& camera) : depth_(t.depth_numerator) {
+    if (counts_distance(camera.projection)) {
+      distance_.emplace(t, camera);
+      return;
+    }
+    if (camera.near > 0) above_near_ = minus(t.depth_numerator, 1.0, t.weight, camera.near);
+    if (camera.far < std::numeric_limits<double>::infinity()) {
+      above_far_ = minus(t.depth_numerator, 1.0, t.weight, camera.far);
+    }
   }
 
-  const ImageForm& depth_;
-  std::optional<ImageForm> above_near_, above_far_;
+  bool contains(const Sample& s, TierCounts& counts) const {
+    if (distance_) return distance_->contains(s, counts);
+    if (s.sign_of(depth_, counts) != Sign::positive) return false;
+    if (above_near_ && s.sign_of(*above_near_, counts) == Sign::negative) return false;
+    return !above_far_ || s.sign_of(*above_far_, counts) != Sign::positive;
+  }
+
+ private:
+  const LinearForm& depth_;
+  std::optional<LinearForm> above_near_, above_far_;
+  std::optional<DistanceRange> distance_;
 };
+
+/// An interval that contains D of `t` at s, or t along a ray.
+Interval enclose_depth(const ProjectedTriangle& t, const Sample& s) {
+  const Interval numerator = s.direction() ? enclose(t.volume) : s.enclose(t.depth_numerator);
+  return quotient(numerator, s.enclose(t.weight));
+}
+
+/// Whether D of `a` at s, or t along a ray, is strictly less than D of `b`, exactly.
+bool is_less_deep(const ProjectedTriangle& a, const ProjectedTriangle& b, const Sample& s) {
+  if (!s.direction()) return depth_at(a, s.point()) < depth_at(b, s.point());
+  // |T_a|/w_a < |T_b|/w_b
+  const LinearForm difference = minus(a.weight, b.volume, b.weight, a.volume);
+  return s.direction()->sign_of(difference.coefficients()) == Sign::positive;
+}
 
 /// Whether D of `t` at s is strictly less than D of the nearest surface so far. Triangles come in
 /// the order of their numbers, so that among equals the lowest number stays.
 bool is_nearer(const ProjectedTriangle& t, const Interval& depth, const Nearest& nearest,
-               const ImagePoint& s, TierCounts& counts) {
+               const Sample& s, TierCounts& counts) {
   if (depth.upper < nearest.depth.lower || depth.lower > nearest.depth.upper) {
     ++counts.interval;
     return depth.upper < nearest.depth.lower;
   }
   ++counts.exact;
-  return depth_at(t, s) < depth_at(*nearest.triangle, s);
+  return is_less_deep(t, *nearest.triangle, s);
 }
 
 class Band {
  public:
-  Band(const Camera& camera, std::uint32_t first_row)
-      : width_(camera.width),
+  Band(const View& view, std::uint32_t first_row)
+      : width_(view.camera.width),
         first_row_(first_row),
-        last_row_(std::min(first_row + rows_per_band, camera.height) - 1),
-        nearest_(static_cast<std::size_t>(width_) * (last_row_ - first_row_ + 1)) {}
+        last_row_(std::min(first_row + rows_per_band, view.camera.height) - 1),
+        nearest_(static_cast<std::size_t>(width_) * (last_row_ - first_row_ + 1)) {
+    if (!view.preimages) return;
+    rays_.reserve(nearest_.size());
+    for (std::uint32_t row = first_row_; row <= last_row_; ++row) {
+      for (std::uint32_t column = 0; column < width_; ++column) {
+        rays_.push_back(view.preimages->of(centre_of_pixel(column, row)));
+      }
+    }
+  }
 
   [[nodiscard]] bool meets(const PixelBox& box) const {
     return box.first_row <= last_row_ && box.last_row >= first_row_;
@@ -113,6 +193,12 @@ class Band {
     }
   }
 
+  /// Writes which samples have a ray, of a camera that bends rays.
+  void write_valid(std::uint32_t* valid) const {
+    const std::size_t first_pixel = static_cast<std::size_t>(first_row_) * width_;
+    for (std::size_t i = 0; i < rays_.size(); ++i) valid[first_pixel + i] = rays_[i] ? 1 : 0;
+  }
+
   /// Writes the visible surface at every pixel; stops at the first fault in row order.
   std::optional<EncodingFault> resolve(ChannelWriter& writer, RenderStatistics& statistics) const {
     for (std::uint32_t row = first_row_; row <= last_row_; ++row) {
@@ -121,9 +207,11 @@ class Band {
         if (!nearest.triangle) continue;
         ++statistics.pixels_with_surface;
         const std::size_t pixel = static_cast<std::size_t>(row) * width_ + column;
-        if (auto fault = writer.write(pixel, *nearest.triangle, centre_of_pixel(column, row))) {
-          return fault;
-        }
+        const auto fault =
+            rays_.empty()
+                ? writer.write(pixel, *nearest.triangle, centre_of_pixel(column, row))
+                : writer.write(pixel, *nearest.triangle, *rays_[index(row, column)]);
+        if (fault) return fault;
       }
     }
     return std::nullopt;
@@ -136,14 +224,15 @@ class Band {
 
   void test(const ProjectedTriangle& t, std::uint32_t row, std::uint32_t column,
             const DepthRange& range, RenderStatistics& statistics) {
-    const ImagePoint s = centre_of_pixel(column, row);
+    const std::size_t i = index(row, column);
+    if (!rays_.empty() && !rays_[i]) return;
+    const Sample s = rays_.empty() ? Sample(centre_of_pixel(column, row)) : Sample(*rays_[i]);
     ++statistics.samples_tested;
     if (!covers(t, s, statistics.edges)) return;
     if (!range.contains(s, statistics.range)) return;
     ++statistics.samples_covered;
-    const Interval depth =
-        quotient(t.depth_numerator.enclose_at(s.u, s.v), t.weight.enclose_at(s.u, s.v));
-    Nearest& nearest = nearest_[index(row, column)];
+    const Interval depth = enclose_depth(t, s);
+    Nearest& nearest = nearest_[i];
     if (!nearest.triangle || is_nearer(t, depth, nearest, s, statistics.visibility)) {
       nearest = {&t, depth};
     }
@@ -153,10 +242,12 @@ class Band {
   std::uint32_t first_row_;
   std::uint32_t last_row_;
   std::vector<Nearest> nearest_;
+  /// Of each sample; empty if the camera bends no rays.
+  std::vector<std::optional<lens::ExactDirection>> rays_;
 };
 
 /// The candidates among the triangles of one object, in the order of their numbers.
-std::vector<Candidate> find_candidates(const Scene& scene, const Camera& camera, Cull cull,
+std::vector<Candidate> find_candidates(const Scene& scene, const View& view, Cull cull,
                                        std::uint32_t object, std::uint32_t first_number,
                                        RenderStatistics& statistics) {
   constexpr std::uint32_t chunk = 4096;
@@ -169,12 +260,12 @@ std::vector<Candidate> find_candidates(const Scene& scene, const Camera& camera,
     const std::uint32_t end = count - k * chunk < chunk ? count : (k + 1) * chunk;
     for (std::uint32_t i = k * chunk; i < end; ++i) {
       Candidate c{first_number + i, object, i, {}};
-      const ProjectedTriangle t = project(scene, camera, c, parts[k].facing);
+      const ProjectedTriangle t = project(scene, view.camera, c, parts[k].facing);
       if (t.orientation == Sign::zero) {
         ++parts[k].degenerate_triangles;
       } else if (!is_kept(t, cull)) {
         ++parts[k].culled_triangles;
-      } else if (c.box = bounding_box(t, camera); !c.box.is_empty()) {
+      } else if (c.box = view.box_of(t); !c.box.is_empty()) {
         found[k].push_back(c);
       }
     }
@@ -187,12 +278,12 @@ std::vector<Candidate> find_candidates(const Scene& scene, const Camera& camera,
   return all;
 }
 
-std::vector<Candidate> find_candidates(const Scene& scene, const Camera& camera, Cull cull,
+std::vector<Candidate> find_candidates(const Scene& scene, const View& view, Cull cull,
                                        RenderStatistics& statistics) {
   std::vector<Candidate> all;
   std::uint32_t first_number = 0;
   for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
-    const auto found = find_candidates(scene, camera, cull, object, first_number, statistics);
+    const auto found = find_candidates(scene, view, cull, object, first_number, statistics);
     all.insert(all.end(), found.begin(), found.end());
     first_number +=
         static_cast<std::uint32_t>(scene.meshes[scene.objects[object].mesh].triangles.size());
@@ -201,18 +292,21 @@ std::vector<Candidate> find_candidates(const Scene& scene, const Camera& camera,
 }
 
 /// Renders one band: project, test, resolve.
-std::optional<EncodingFault> render_band(const Scene& scene, const Camera& camera,
+std::optional<EncodingFault> render_band(const Scene& scene, const View& view,
                                          const std::vector<Candidate>& candidates,
                                          std::uint32_t first_row, ChannelWriter& writer,
                                          RenderStatistics& statistics) {
-  Band band(camera, first_row);
+  Band band(view, first_row);
+  if (std::uint32_t* const valid = writer.values().valid; valid && view.preimages) {
+    band.write_valid(valid);
+  }
   std::vector<std::unique_ptr<ProjectedTriangle>> projected;
   TierCounts counted_before;  // facing was counted when the candidates were found
   for (const Candidate& c : candidates) {
     if (!band.meets(c.box)) continue;
     projected.push_back(
-        std::make_unique<ProjectedTriangle>(project(scene, camera, c, counted_before)));
-    band.draw(*projected.back(), c.box, camera, statistics);
+        std::make_unique<ProjectedTriangle>(project(scene, view.camera, c, counted_before)));
+    band.draw(*projected.back(), c.box, view.camera, statistics);
   }
   return band.resolve(writer, statistics);
 }
@@ -221,8 +315,8 @@ Rendered render_in_arena(const Scene& scene, const Camera& camera, const RenderO
                          const RenderContext& context, DepthMap before) {
   RenderStatistics statistics;
   statistics.triangles = triangle_count(scene);
-  const std::vector<Candidate> candidates =
-      find_candidates(scene, camera, options.cull, statistics);
+  const View view(camera);
+  const std::vector<Candidate> candidates = find_candidates(scene, view, options.cull, statistics);
 
   DepthMap map = make_background(camera, options, context, std::move(before));
   ChannelWriter writer(map, scene, camera, options);
@@ -232,7 +326,7 @@ Rendered render_in_arena(const Scene& scene, const Camera& camera, const RenderO
   Progress progress(context.progress, bands);
   parallel_for(std::uint32_t{0}, bands, [&](std::uint32_t band) {
     faults[band] =
-        render_band(scene, camera, candidates, band * rows_per_band, writer, parts[band]);
+        render_band(scene, view, candidates, band * rows_per_band, writer, parts[band]);
     progress.part_done();
   });
 
@@ -253,7 +347,12 @@ Rendered render_reference(const Scene& scene, const Camera& camera, const Render
   const StandardArithmetic standard;
   require_meaningful(options);
   return with_threads(options.threads, [&] {
-    require_renderable(scene, camera);
+    require_renderable_by_rays(scene, camera);
+    if (std::ranges::count(options.channels, Channel::A) != 0) {
+      require_straight(camera,
+                       "channel A: the edges of triangles are curves in this image, and the last "
+                       "digit of an area between curves cannot be proved; leave out A");
+    }
     return render_in_arena(scene, camera, options, context, std::move(before));
   });
 }

@@ -35,6 +35,7 @@ ChannelValues::ChannelValues(DepthMap& map)
       distance(encoded_values_of(map, "distance")),
       coverage(values_of<float>(map, "A")),
       low(values_of<float>(map, "Zlow")),
+      valid(values_of<std::uint32_t>(map, "valid")),
       id(values_of<std::uint32_t>(map, "id")),
       face(values_of<std::uint32_t>(map, "face")),
       object(values_of<std::uint32_t>(map, "object")),

@@ -61,6 +61,8 @@ struct ChannelValues {
   /// Not filled by ChannelWriter: A is not a value of a single surface.
   float* coverage = nullptr;
   float* low = nullptr;
+  /// Not filled by ChannelWriter: it is 1 for samples without a surface, too.
+  std::uint32_t* valid = nullptr;
   std::uint32_t *id = nullptr, *face = nullptr, *object = nullptr;
   std::array<std::uint32_t*, all_segmentations.size()> segments{};
   std::array<float*, 3> normal{}, camera_normal{}, shading_normal{};

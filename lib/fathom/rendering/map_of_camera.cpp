@@ -45,6 +45,14 @@ ImageChannel channel_with(const std::string& name, T background, const MapMemory
   return {name, std::move(values)};
 }
 
+/// The channel `valid` of a camera whose samples all have a ray, complete. A camera with a lens
+/// writes it itself.
+ImageChannel valid_everywhere(const MapMemory& memory) {
+  Samples<std::uint32_t> values = room_for<std::uint32_t>("valid", memory).values;
+  std::fill(values.begin(), values.end(), 1);
+  return {"valid", std::move(values)};
+}
+
 /// A channel whose kind decides which value says that no surface is seen.
 ImageChannel channel_of_kind(const std::string& name, const ChannelDescription& d,
                              const MapMemory& memory, MapBackground& to_fill) {
@@ -82,6 +90,10 @@ UnfilledMap make_unfilled_map(const Camera& camera, const RenderOptions& options
   for (const Channel channel : options.channels) {
     if (std::find(seen.begin(), seen.end(), channel) != seen.end()) continue;
     seen.push_back(channel);
+    if (channel == Channel::valid) {
+      map.channels.push_back(valid_everywhere(memory));
+      continue;
+    }
     for (const std::string& name : part_names(channel)) {
       map.channels.push_back(
           channel_of_kind(name, description_of(channel), memory, made.background));

@@ -337,7 +337,13 @@ void require_valid(const TriangleSource& triangles, LookAtElements when) {
 void require_renderable(const TriangleSource& triangles, const Camera& camera,
                         LookAtElements when) {
   require_camera(camera);
+  require_straight(camera);
   require_valid(triangles, when);
+}
+
+void require_renderable_by_rays(const TriangleSource& triangles, const Camera& camera) {
+  require_camera(camera);
+  require_valid(triangles);
 }
 
 void scene::fail_of_elements(const TriangleSource& triangles) {

@@ -40,9 +40,12 @@ enum class LookAtElements { now, later };
 /// Fails    InputError: "scene: " and the fault from find_fault().
 void require_valid(const TriangleSource& triangles, LookAtElements when = LookAtElements::now);
 
-/// Checks the arguments of every render function.
-/// Fails    InputError if scene or camera has a fault, or the image has more than 2⁴⁴ pixels.
+/// Checks the arguments of every function that takes a scene and a camera.
+/// Fails    InputError if scene or camera has a fault, or the image has more than 2⁴⁴ pixels;
+///          UsageError if the camera has a lens that bends rays.
 void require_renderable(const TriangleSource& triangles, const Camera& camera,
                         LookAtElements when = LookAtElements::now);
+/// The same for a function that takes lenses.
+void require_renderable_by_rays(const TriangleSource& triangles, const Camera& camera);
 
 }  // namespace fathom

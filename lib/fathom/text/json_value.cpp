@@ -103,7 +103,7 @@ std::optional<JsonValue> JsonValue::find(const std::string& key) const {
   return JsonValue(*member, *file_, place_ + (place_.empty() ? "" : ".") + key);
 }
 
-void JsonValue::expect_only(std::initializer_list<std::string_view> known) const {
+void JsonValue::expect_only(std::span<const std::string_view> known) const {
   if (!value_->is_object()) fail_type("an object");
   for (const auto& [key, member] : value_->items()) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,7 +29,10 @@ class JsonValue {
   [[nodiscard]] JsonValue at(const std::string& key) const;
   [[nodiscard]] std::optional<JsonValue> find(const std::string& key) const;
   /// Fails if there is a key that is not one of `known`.
-  void expect_only(std::initializer_list<std::string_view> known) const;
+  void expect_only(std::span<const std::string_view> known) const;
+  void expect_only(std::initializer_list<std::string_view> known) const {
+    expect_only(std::span(known.begin(), known.size()));
+  }
 
   /// The elements of a list.
   [[nodiscard]] std::vector<JsonValue> elements() const;

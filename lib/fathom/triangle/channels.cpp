@@ -5,6 +5,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/image/pixel_place.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/triangle/stored_quantity.h"
 
 namespace fathom::triangle {
 using namespace rendering;
@@ -12,26 +13,6 @@ using namespace rendering;
 namespace {
 
 static_assert(no_segment == unsegmented, "what a map has is what a scene says");
-
-/// Stores a non-negative quantity x, or √x where `root`, in the channel's type.
-std::optional<std::string> store(const EncodedValues& values, std::size_t pixel, const Ratio& x,
-                                 bool root, const DepthEncoding& encoding) {
-  if (values.binary32) {
-    values.binary32[pixel] = root ? round_sqrt_to_binary32(x) : round_to_binary32(x);
-    return std::nullopt;
-  }
-  if (values.binary64) {
-    values.binary64[pixel] = root ? round_sqrt_to_binary64(x) : round_to_binary64(x);
-    return std::nullopt;
-  }
-  const Ratio factor(encoding.scale, encoding.divisor);
-  const auto code = root ? round_sqrt_to_integer(x * (factor * factor), 65535)
-                         : round_to_integer(x * factor, 65535);
-  if (!code && !encoding.beyond_is_none) return "above 65535";
-  if (code == 0U) return "0, which means no surface";
-  values.codes[pixel] = static_cast<std::uint16_t>(code.value_or(0));
-  return std::nullopt;
-}
 
 /// The segments that a map shows; null if it shows none.
 std::shared_ptr<const SceneSegments> segments_for(const ChannelValues& values,
@@ -96,7 +77,7 @@ void ChannelWriter::write_low_part(std::size_t pixel, const ProjectedTriangle& t
 }
 
 std::optional<EncodingFault> ChannelWriter::write_depth(std::size_t pixel, const Ratio& depth) {
-  if (auto why = store(values_.depth, pixel, depth, false, encoding_)) {
+  if (auto why = store(values_.depth, pixel, Quantity<Ratio>{depth, false}, encoding_)) {
     return EncodingFault{pixel, "depth " + to_decimal(depth, 6) + " would be the code " + *why};
   }
   return std::nullopt;
@@ -116,7 +97,7 @@ std::optional<EncodingFault> ChannelWriter::write_distance(std::size_t pixel,
     value = {x.numerator * x.numerator + y.numerator * y.numerator + z.numerator * z.numerator,
              z.denominator * z.denominator};
   }
-  if (auto why = store(values_.distance, pixel, value, perspective_, encoding_)) {
+  if (auto why = store(values_.distance, pixel, Quantity<Ratio>{value, perspective_}, encoding_)) {
     return EncodingFault{pixel, "the ray distance would be the code " + *why};
   }
   return std::nullopt;

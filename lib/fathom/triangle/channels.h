@@ -36,6 +36,9 @@ class ChannelWriter {
   /// Writes every channel. Returns what is wrong if the encoding cannot hold the depth.
   std::optional<EncodingFault> write(std::size_t pixel, const ProjectedTriangle& triangle,
                                      const ImagePoint& s);
+  /// The same at the ray of a sample, where the camera bends rays.
+  std::optional<EncodingFault> write(std::size_t pixel, const ProjectedTriangle& triangle,
+                                     const lens::ExactDirection& d);
 
   /// Of channel Ns; null if it was not asked for.
   [[nodiscard]] const std::shared_ptr<const CornerNormals>& corner_normals() const {
@@ -63,6 +66,16 @@ class ChannelWriter {
  private:
   std::optional<EncodingFault> write_depth(std::size_t pixel, const Ratio& depth);
   void write_low_part(std::size_t pixel, const Ratio& depth);
+  std::optional<EncodingFault> write_depth(std::size_t pixel, const ProjectedTriangle& t,
+                                           const lens::ExactDirection& d);
+  std::optional<EncodingFault> write_distance(std::size_t pixel, const ProjectedTriangle& t,
+                                              const lens::ExactDirection& d);
+  void write_low_part(std::size_t pixel, const ProjectedTriangle& t, const lens::ExactDirection& d);
+  void write_shading_normal(std::size_t pixel, const ProjectedTriangle& t,
+                            const lens::ExactDirection& d);
+  void write_position(std::size_t pixel, const ProjectedTriangle& t, const lens::ExactDirection& d);
+  void write_barycentric(std::size_t pixel, const ProjectedTriangle& t,
+                         const lens::ExactDirection& d);
   void write_origin(std::size_t pixel, std::uint32_t number);
 
   TriangleSource triangles_;

@@ -20,13 +20,63 @@ bool is_left_or_top(const ExactVector3& l) {
 }
 
 /// Σ aᵢ·lᵢ, the numerator of an interpolated value as a form on the image.
-ExactVector3 weighted_sum(const std::array<ImageForm, 3>& edges,
+ExactVector3 weighted_sum(const std::array<LinearForm, 3>& edges,
                           const std::array<Dyadic, 3>& values) {
   ExactVector3 sum;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < 3; ++k) sum[k] += values[i] * edges[i].coefficients()[k];
   }
   return sum;
+}
+
+/// sign·(b × c), sign·(c × a) and sign·(a × b).
+std::array<LinearForm, 3> edges_of(const std::array<ExactVector3, 3>& corners, Sign sign) {
+  std::array<LinearForm, 3> edges;
+  for (std::size_t i = 0; i < 3; ++i) {
+    edges[i] = LinearForm(sign * cross(corners[(i + 1) % 3], corners[(i + 2) % 3]));
+  }
+  return edges;
+}
+
+void set_forms_on_image(ProjectedTriangle& t, const Projection& projection, TierCounts& counts) {
+  std::array<ExactVector3, 3> image;  // a, b, c
+  for (std::size_t i = 0; i < 3; ++i) {
+    const HomogeneousImagePoint p = to_image(projection, t.camera[i]);
+    image[i] = {p.U, p.V, p.W};
+  }
+  t.orientation = sign_of_determinant(image[0], image[1], image[2], counts);
+  if (t.orientation == Sign::zero) return;
+  t.edges = edges_of(image, t.orientation);
+  for (std::size_t i = 0; i < 3; ++i) {
+    t.left_or_top[i] = is_left_or_top(t.edges[i].coefficients());
+  }
+  const auto& [A, B, C] = t.camera;
+  t.depth_numerator = LinearForm(weighted_sum(t.edges, {A.z, B.z, C.z}));
+  t.weight = LinearForm(weighted_sum(t.edges, {1.0, 1.0, 1.0}));
+}
+
+/// Whether a sample on the edge counts where rays are bent: its direction is moved by an
+/// infinitesimal step to the right in the image, by a smaller step downwards, and by a smaller one
+/// still forwards. `l` is the edge function with its inside positive.
+bool moves_inside(const ExactVector3& l, const Projection& projection) {
+  if (l[0].sign() != Sign::zero) return l[0].sign() == sign_of(projection.fx < 0 ? -1 : 1);
+  if (l[1].sign() != Sign::zero) return l[1].sign() == sign_of(projection.fy < 0 ? -1 : 1);
+  return l[2].sign() == Sign::positive;
+}
+
+void set_forms_on_rays(ProjectedTriangle& t, const Projection& projection, TierCounts& counts) {
+  std::array<ExactVector3, 3> corners;  // a, b, c
+  for (std::size_t i = 0; i < 3; ++i) corners[i] = {t.camera[i].x, t.camera[i].y, t.camera[i].z};
+  const Sign side = sign_of_determinant(corners[0], corners[1], corners[2], counts);
+  t.orientation = is_mirrored(projection) ? -side : side;
+  if (side == Sign::zero) return;
+  t.edges = edges_of(corners, side);
+  for (std::size_t i = 0; i < 3; ++i) {
+    t.left_or_top[i] = moves_inside(t.edges[i].coefficients(), projection);
+  }
+  t.weight = LinearForm(weighted_sum(t.edges, {1.0, 1.0, 1.0}));
+  t.volume = abs(determinant(corners[0], corners[1], corners[2]));
+  t.depth_numerator = LinearForm({0.0, 0.0, t.volume});
 }
 
 /// The integers in [0, count − 1] near an interval of the image, one more on each side, so that
@@ -60,31 +110,19 @@ ProjectedTriangle project(const std::array<WorldPoint, 3>& world, std::uint32_t 
   ProjectedTriangle t;
   t.number = number;
   t.world = world;
-  std::array<ExactVector3, 3> image;  // a, b, c
-  std::array<Dyadic, 3> depths;       // D_A, D_B, D_C
-  for (std::size_t i = 0; i < 3; ++i) {
-    t.camera[i] = to_camera(camera.world_to_camera, world[i]);
-    const HomogeneousImagePoint p = to_image(camera.projection, t.camera[i]);
-    image[i] = {p.U, p.V, p.W};
-    depths[i] = t.camera[i].z;
+  for (std::size_t i = 0; i < 3; ++i) t.camera[i] = to_camera(camera.world_to_camera, world[i]);
+  if (bends_rays(camera.projection)) {
+    set_forms_on_rays(t, camera.projection, counts);
+  } else {
+    set_forms_on_image(t, camera.projection, counts);
   }
-  t.orientation = sign_of_determinant(image[0], image[1], image[2], counts);
-  if (t.orientation == Sign::zero) return t;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const ExactVector3& from = image[(i + 1) % 3];
-    const ExactVector3& to = image[(i + 2) % 3];
-    t.edges[i] = ImageForm(t.orientation * cross(from, to));
-    t.left_or_top[i] = is_left_or_top(t.edges[i].coefficients());
-  }
-  t.depth_numerator = ImageForm(weighted_sum(t.edges, depths));
-  t.weight = ImageForm(weighted_sum(t.edges, {1.0, 1.0, 1.0}));
   return t;
 }
 
-bool covers(const ProjectedTriangle& triangle, const ImagePoint& s, TierCounts& counts) {
+bool covers(const ProjectedTriangle& triangle, const Sample& s, TierCounts& counts) {
   if (triangle.orientation == Sign::zero) return false;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Sign side = triangle.edges[i].sign_at(s.u, s.v, counts);
+    const Sign side = s.sign_of(triangle.edges[i], counts);
     if (side == Sign::negative) return false;
     if (side == Sign::zero && !triangle.left_or_top[i]) return false;
   }

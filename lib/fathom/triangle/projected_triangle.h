@@ -8,11 +8,13 @@
 #include "fathom/numeric/certified.h"
 #include "fathom/rendering/options.h"
 #include "fathom/scene/scene.h"
+#include "fathom/triangle/sample.h"
 
 namespace fathom::triangle {
 
 /// A triangle of the scene seen by a camera, all exact (specification, sections 4 and 5, with its
-/// symbols). It holds what is needed for coverage and depth at a sample.
+/// symbols). It holds what is needed for coverage and depth at a sample. The forms are functions of
+/// the image, or of directions in the camera frame where the camera bends rays.
 struct ProjectedTriangle {
   std::uint32_t number = 0;
   std::array<WorldPoint, 3> world;
@@ -22,11 +24,14 @@ struct ProjectedTriangle {
   Sign orientation = Sign::zero;
   /// sign(Δ)·(b × c), sign(Δ)·(c × a), sign(Δ)·(a × b): the edge functions e_A, e_B, e_C times
   /// sign(Δ), so that the inside of every edge is positive.
-  std::array<ImageForm, 3> edges;
+  std::array<LinearForm, 3> edges;
+  /// Whether samples on an edge count: on a left or top edge of a front-facing triangle.
   std::array<bool, 3> left_or_top{};
   /// D(s) = depth_numerator(s) / weight(s); weight = e_A + e_B + e_C, positive where covered.
-  ImageForm depth_numerator;
-  ImageForm weight;
+  LinearForm depth_numerator;
+  LinearForm weight;
+  /// |T| where the camera bends rays: the triangle is at |T| / weight(d) along the ray d.
+  Dyadic volume;
 
   [[nodiscard]] bool front_facing() const { return orientation == Sign::negative; }
 };
@@ -40,7 +45,7 @@ ProjectedTriangle project(const std::array<WorldPoint, 3>& world, std::uint32_t 
                           const Camera& camera, TierCounts& counts);
 
 /// Whether the triangle covers the sample (specification, section 4).
-bool covers(const ProjectedTriangle& triangle, const ImagePoint& s, TierCounts& counts);
+bool covers(const ProjectedTriangle& triangle, const Sample& s, TierCounts& counts);
 
 /// Whether culling keeps a triangle.
 bool is_kept(const ProjectedTriangle& triangle, Cull cull);
@@ -52,7 +57,7 @@ Ratio interpolate(const ProjectedTriangle& triangle, const ImagePoint& s,
 /// D(s) at a covered sample, exactly.
 Ratio depth_at(const ProjectedTriangle& triangle, const ImagePoint& s);
 
-/// A certified box: around the corners' images if all are in front of the camera; empty if none is
+/// A certified box where edges are straight: around the corners' images if all are in front of the camera; empty if none is
 /// (every point of the triangle then has D ≤ 0); otherwise the whole image.
 PixelBox bounding_box(const ProjectedTriangle& triangle, const Camera& camera);
 

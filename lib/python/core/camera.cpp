@@ -190,6 +190,8 @@ void bind_importing(Module& core) {
   core.def("cameras_from_json", [](const std::string& text, const std::string& name) {
     Warnings warnings;
     auto cameras = read_cameras(std::string_view(text), name, warnings);
+    for (const Camera& camera : cameras)
+      require_straight(camera, "Python has no lenses; render with the command fathom render");
     return std::pair(std::move(cameras), std::move(warnings));
   });
   core.def("cameras_to_json", [](const std::vector<Camera>& cameras) { return to_json(cameras); });

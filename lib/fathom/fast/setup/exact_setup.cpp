@@ -92,8 +92,8 @@ TriangleSetup exact_setup(const ProjectedTriangle& t, bool perspective, const Pi
   }
   setup.edge_error = setup_bounds::exact_edge_error;
 
-  const ImageForm& numerator = perspective ? t.weight : t.depth_numerator;
-  const ImageForm& denominator = perspective ? t.depth_numerator : t.weight;
+  const LinearForm& numerator = perspective ? t.weight : t.depth_numerator;
+  const LinearForm& denominator = perspective ? t.depth_numerator : t.weight;
   const Dyadic& divisor = denominator.coefficients()[2];
   const auto coefficient = [&](const Dyadic& x) {
     const double q = round_to_binary64(Ratio(x, divisor));

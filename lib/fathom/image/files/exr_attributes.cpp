@@ -142,6 +142,8 @@ void set_window(Imf::Header& header, const ExrNumbers& numbers) {
 ///   pixelAspectRatio, screenWindowCenter (x right, y up), screenWindowWidth
 /// Rounded in binary64.
 ExrNumbers exr_numbers(const Camera& camera) {
+  if (bends_rays(camera.projection))
+    return {{"worldToCamera", for_row_vectors(camera_from_world(camera.world_to_camera))}};
   const auto [cx, cy] = principal_point(camera.projection);
   // The window is on the plane z = 1; for an orthographic camera it is the image's extent.
   return {{"worldToCamera", for_row_vectors(camera_from_world(camera.world_to_camera))},

@@ -1,0 +1,132 @@
+#include "fathom/triangle/ray_values.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "fathom/numeric/dyadic_interval.h"
+
+namespace fathom::triangle {
+using lens::ExactDirection;
+
+namespace {
+
+
+
+/// The direction of a ray as intervals.
+using Direction = std::array<DyadicInterval, 3>;
+
+DyadicInterval value_of(const LinearForm& form, const Direction& d) {
+  DyadicInterval sum;
+  for (std::size_t k = 0; k < 3; ++k) sum = sum + form.coefficients()[k] * d[k];
+  return sum;
+}
+
+/// A sum of squares, as all quadratic forms here are.
+DyadicInterval value_of(const QuadraticForm& form, const Direction& d) {
+  DyadicInterval sum;
+  for (std::size_t k = 0; k < 3; ++k) sum = sum + form.coefficients[k] * square(d[k]);
+  sum = sum + form.coefficients[3] * (d[0] * d[1]);
+  sum = sum + form.coefficients[4] * (d[0] * d[2]);
+  sum = sum + form.coefficients[5] * (d[1] * d[2]);
+  return {std::max(sum.low, Dyadic()), sum.high};
+}
+
+Dyadic value_of(const LinearForm& form, const ExactVector3& d) {
+  return dot(form.coefficients(), d);
+}
+Dyadic value_of(const QuadraticForm& form, const ExactVector3& d) {
+  return form.at(d);
+}
+
+Sign sign_of(const LinearForm& form, const ExactDirection& d) {
+  return d.sign_of(form.coefficients());
+}
+Sign sign_of(const QuadraticForm& form, const ExactDirection& d) {
+  return d.sign_of(form);
+}
+
+LinearForm difference(const LinearForm& a, const LinearForm& b, const Dyadic& of_a,
+                      const Dyadic& of_b) {
+  ExactVector3 l;
+  for (std::size_t k = 0; k < 3; ++k) {
+    l[k] = of_a * a.coefficients()[k] - of_b * b.coefficients()[k];
+  }
+  return LinearForm(l);
+}
+QuadraticForm difference(const QuadraticForm& a, const QuadraticForm& b, const Dyadic& of_a,
+                         const Dyadic& of_b) {
+  QuadraticForm form = of_a * a;
+  form -= of_b * b;
+  return form;
+}
+
+/// n / w at a ray; w > 0 there.
+template <class Form>
+class QuotientAtRay {
+ public:
+  QuotientAtRay(const ExactDirection& d, Form n, Form w)
+      : d_(d), n_(std::move(n)), w_(std::move(w)) {}
+
+  [[nodiscard]] Enclosure enclose(long bits) const {
+    for (;; bits *= 2) {
+      const Direction d = d_.enclosure(bits);
+      const DyadicInterval n = value_of(n_, d), w = value_of(w_, d);
+      if (w.low.sign() != Sign::positive) continue;
+      return {Ratio(n.low, n.low.sign() == Sign::negative ? w.low : w.high),
+              Ratio(n.high, n.high.sign() == Sign::negative ? w.high : w.low)};
+    }
+  }
+
+  /// The value where rounding, or rounding of its root, steps.
+  [[nodiscard]] std::optional<Ratio> decide() const {
+    if (sign_of(n_, d_) == Sign::zero) return Ratio();
+    constexpr long first_bits = 192;
+    for (long bits = first_bits;; bits *= 2) {
+      const Enclosure e = enclose(bits);
+      if (!is_narrow(e)) continue;
+      const std::optional<Dyadic> candidate = shortest_within(e);
+      if (!candidate) return std::nullopt;
+      const bool is_equal = sign_of(difference(n_, w_, 1.0, *candidate), d_) == Sign::zero;
+      return is_equal ? std::optional(Ratio(*candidate)) : std::nullopt;
+    }
+  }
+
+ private:
+  /// Whether both ends have one sign and differ by at most 2⁻¹²⁸ of them.
+  static bool is_narrow(const Enclosure& e) {
+    if (e.low.sign() != e.high.sign() || e.low.sign() == Sign::zero) return false;
+    const Ratio width = e.high - e.low;
+    const Ratio& nearer = e.low.sign() == Sign::positive ? e.low : e.high;
+    const Ratio most(abs(nearer.numerator).scaled(-128), nearer.denominator);
+    return !(most < width);
+  }
+
+  const ExactDirection& d_;
+  Form n_, w_;
+};
+
+template <class Form>
+Real quotient_of(const ExactDirection& d, const Form& numerator, const Form& denominator) {
+  if (const ExactVector3* const rational = d.rational()) {
+    return Ratio(value_of(numerator, *rational), value_of(denominator, *rational));
+  }
+  const auto quotient =
+      std::make_shared<const QuotientAtRay<Form>>(d, numerator, denominator);
+  return {[quotient](long bits) { return quotient->enclose(bits); },
+          [quotient] { return quotient->decide(); }};
+}
+
+}  // namespace
+
+Real quotient_at(const ExactDirection& d, const LinearForm& numerator,
+                 const LinearForm& denominator) {
+  return quotient_of(d, numerator, denominator);
+}
+
+Real quotient_at(const ExactDirection& d, const QuadraticForm& numerator,
+                 const QuadraticForm& denominator) {
+  return quotient_of(d, numerator, denominator);
+}
+
+}  // namespace fathom::triangle

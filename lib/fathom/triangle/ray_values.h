@@ -1,0 +1,24 @@
+#pragma once
+
+#include "fathom/lens/exact_direction.h"
+#include "fathom/numeric/quadratic_form.h"
+#include "fathom/numeric/real.h"
+
+/// Values of a surface along the ray of a sample, where a camera bends rays: quotients of forms of
+/// the ray's direction, as numbers that round correctly. A direction need not be rational: roundings
+/// are decided by enclosures, and by the sign of a form where a value may lie where rounding steps.
+namespace fathom::triangle {
+
+/// numerator(d) / denominator(d).
+/// Needs    denominator(d) > 0.
+/// Exact    rational() knows the value where rounding to binary32, to binary64 or to an integer
+///          steps there.
+Real quotient_at(const lens::ExactDirection& d, const LinearForm& numerator,
+                 const LinearForm& denominator);
+
+/// The same of two squares, or sums of squares.
+/// Exact    rational() knows the value where rounding of its square root steps there, too.
+Real quotient_at(const lens::ExactDirection& d, const QuadraticForm& numerator,
+                 const QuadraticForm& denominator);
+
+}  // namespace fathom::triangle
