@@ -105,6 +105,16 @@ oracle::Vector smooth_normal(const Scene& scene, const oracle::Hit& hit, NormalS
                                origin.triangle, hit.weight_b, hit.weight_c);
 }
 
+/// The square of a component is 0 below this: the error of a bent ray, squared.
+const Q& least_square() {
+  static const Q least = [] {
+    Q power = 1;
+    mpq_div_2exp(power.get_mpq_t(), power.get_mpq_t(), 2 * oracle::zero_bits);
+    return power;
+  }();
+  return least;
+}
+
 /// A vector scaled to unit length, in the channels of these parts; 0 where it is 0.
 void expect_direction(const DepthMap& map, std::size_t pixel, const std::string& name,
                       const oracle::Vector& n) {
@@ -112,8 +122,11 @@ void expect_direction(const DepthMap& map, std::size_t pixel, const std::string&
   for (const Q& x : n) length += x * x;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string part = name + "." + "XYZ"[i];
-    const float magnitude = sgn(length) == 0 ? 0 : nearest_root(n[i] * n[i] / length);
-    expect_bits((*map.values<float>(part))[pixel], sgn(n[i]) < 0 ? -magnitude : magnitude,
+    const Q squared = sgn(length) == 0 ? Q(0) : Q(n[i] * n[i] / length);
+    const bool is_zero = squared < least_square();
+    const float magnitude = is_zero ? 0 : nearest_root(squared);
+    expect_bits((*map.values<float>(part))[pixel],
+                sgn(n[i]) < 0 && !is_zero ? -magnitude : magnitude,
                 part.c_str());
   }
 }
@@ -171,6 +184,14 @@ oracle::Areas areas_at(const Scene& scene, const Camera& camera) {
 
 oracle::RayCaster cast_at(const Scene& scene, const Camera& camera) {
   return {ray_camera(camera), triangles_of(scene)};
+}
+
+oracle::RayCaster cast_at(const Scene& scene, const Camera& camera,
+                          const oracle::LensNumbers& lens, double greatest_q) {
+  oracle::RayCamera bent = ray_camera(camera);
+  bent.bent = oracle::lens_rays(bent, lens, greatest_q);
+  bent.by_distance = lens.division.has_value();
+  return {bent, triangles_of(scene)};
 }
 
 std::vector<Channel> all_channels() {

@@ -9,12 +9,17 @@
 #include "fathom/rendering/options.h"
 #include "fathom/scene/scene.h"
 #include "tests/oracle/areas.h"
+#include "tests/oracle/lens_rays.h"
 #include "tests/oracle/ray_caster.h"
 
 namespace fathom::testing {
 
 /// Rays through the pixels of `camera` at every triangle of the scene.
 oracle::RayCaster cast_at(const Scene& scene, const Camera& camera);
+
+/// The same through a lens whose rays have |m|² ≤ greatest_q.
+oracle::RayCaster cast_at(const Scene& scene, const Camera& camera,
+                          const oracle::LensNumbers& lens, double greatest_q);
 
 /// The areas of the pixels of `camera` that the scene covers.
 oracle::Areas areas_at(const Scene& scene, const Camera& camera);

@@ -118,13 +118,96 @@ std::optional<RayCaster::Meeting> RayCaster::meet(const Triangle& triangle, int 
   return m;
 }
 
+namespace {
+
+int sign_at_bent_ray(const Q& value) {
+  static const Q least = [] {
+    Q power = 1;
+    mpq_div_2exp(power.get_mpq_t(), power.get_mpq_t(), zero_bits);
+    return power;
+  }();
+  return abs(value) < least ? 0 : sgn(value);
+}
+
+}  // namespace
+
+// The direction takes an infinitesimal step to the right in the image, a smaller one downwards, and
+// one smaller still forwards: all weights are linear in it.
+std::optional<RayCaster::Meeting> RayCaster::meet_bent(const Triangle& triangle,
+                                                       const Vector& d) const {
+  const Vector eye = {0, 0, 0};
+  const Cramer here = solve(eye, d, triangle);
+  const int side = sign_at_bent_ray(here.determinant);
+  if (side == 0 || sgn(here.t) == 0) return std::nullopt;
+  const std::array<Vector, 3> steps{
+      {{Q(sgn(camera_.fx)), 0, 0}, {0, Q(sgn(camera_.fy)), 0}, {0, 0, 1}}};
+  const auto inside = [&](const auto& weight) {
+    int sign = sign_at_bent_ray(weight(here));
+    for (int k = 0; k < 3 && sign == 0; ++k) sign = sgn(weight(solve(eye, steps[k], triangle)));
+    return side * sign > 0;
+  };
+  if (!inside([](const Cramer& c) -> Q { return c.beta; })) return std::nullopt;
+  if (!inside([](const Cramer& c) -> Q { return c.gamma; })) return std::nullopt;
+  if (!inside([](const Cramer& c) -> Q { return c.determinant - c.beta - c.gamma; }))
+    return std::nullopt;
+  Meeting m{here.t / here.determinant, here.beta / here.determinant, here.gamma / here.determinant};
+  if (sgn(m.depth) <= 0) return std::nullopt;
+  const auto before = [&](const Q& limit) {
+    const Q z = m.depth * d[2];
+    return camera_.by_distance
+               ? sign_at_bent_ray(m.depth * m.depth * dot(d, d) - limit * limit) < 0
+               : sign_at_bent_ray(z - limit) < 0;
+  };
+  const auto beyond = [&](const Q& limit) {
+    const Q z = m.depth * d[2];
+    return camera_.by_distance
+               ? sign_at_bent_ray(m.depth * m.depth * dot(d, d) - limit * limit) > 0
+               : sign_at_bent_ray(z - limit) > 0;
+  };
+  if (before(camera_.near) || (camera_.far && beyond(*camera_.far))) return std::nullopt;
+  return m;
+}
+
+std::optional<Hit> RayCaster::cast_bent(const Vector& d) const {
+  std::optional<Hit> nearest;
+  Q t;
+  for (std::uint32_t i = 0; i < in_camera_.size(); ++i) {
+    const auto m = meet_bent(in_camera_[i], d);
+    if (!m || (nearest && sign_at_bent_ray(m->depth - t) >= 0)) continue;
+    nearest = Hit{.triangle = i, .weight_b = m->weight_b, .weight_c = m->weight_c};
+    t = m->depth;
+  }
+  if (!nearest) return nearest;
+  const auto settled = [](const Q& q) { return sign_at_bent_ray(q) == 0 ? Q(0) : q; };
+  const Vector p = {settled(t * d[0]), settled(t * d[1]), settled(t * d[2])};
+  nearest->depth = p[2];
+  nearest->squared_distance = dot(p, p);
+  nearest->position = to_world(p);
+  for (Q& coordinate : nearest->position) coordinate = settled(coordinate);
+  nearest->weight_b = settled(nearest->weight_b);
+  nearest->weight_c = settled(nearest->weight_c);
+  const Vector along =
+      minus(to_world({p[0] + d[0], p[1] + d[1], p[2] + d[2]}), nearest->position);
+  nearest->normal = normal_against(along, world_[nearest->triangle]);
+  nearest->camera_normal = normal_against(d, in_camera_[nearest->triangle]);
+  return nearest;
+}
+
 int RayCaster::count_hits(int x, int y) const {
   int count = 0;
   for (const Triangle& t : in_camera_) count += meet(t, x, y).has_value();
   return count;
 }
 
+bool RayCaster::sees(int x, int y) const {
+  return !camera_.bent || camera_.bent(x + Q(1, 2), y + Q(1, 2));
+}
+
 std::optional<Hit> RayCaster::cast(int x, int y) const {
+  if (camera_.bent) {
+    const std::optional<Vector> d = camera_.bent(x + Q(1, 2), y + Q(1, 2));
+    return d ? cast_bent(*d) : std::nullopt;
+  }
   std::optional<Hit> nearest;
   for (std::uint32_t i = 0; i < in_camera_.size(); ++i) {
     const auto m = meet(in_camera_[i], x, y);

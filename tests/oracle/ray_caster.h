@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -21,7 +22,16 @@ struct RayCamera {
   std::array<std::array<Q, 4>, 3> world_to_camera;
   Q near = 0;
   std::optional<Q> far;
+  /// Of a lens: the direction that the sample (u, v) sees, in the camera frame, with an error below
+  /// 2^−lens_bits of it; none where the sample sees nothing. It takes the place of fx … skew.
+  std::function<std::optional<Vector>(const Q& u, const Q& v)> bent;
+  /// Whether near and far bound the ray distance.
+  bool by_distance = false;
 };
+
+/// Values of a bent ray that are smaller than 2^−zero_bits, in scenes of numbers of few bits, are 0:
+/// no other algebraic number that comes up there is nearly as small.
+inline constexpr int lens_bits = 1500, zero_bits = 1000;
 
 struct Hit {
   std::uint32_t triangle = 0;
@@ -41,6 +51,8 @@ class RayCaster {
   RayCaster(const RayCamera& camera, const std::vector<Triangle>& triangles);
   /// What the ray through the centre of pixel (x, y) meets first.
   [[nodiscard]] std::optional<Hit> cast(int x, int y) const;
+  /// Whether the sample of the pixel has a ray.
+  [[nodiscard]] bool sees(int x, int y) const;
   /// Number of triangles that the ray meets within the range of depths.
   [[nodiscard]] int count_hits(int x, int y) const;
 
@@ -49,6 +61,8 @@ class RayCaster {
     Q depth, weight_b, weight_c;
   };
   [[nodiscard]] std::optional<Meeting> meet(const Triangle& in_camera, int x, int y) const;
+  [[nodiscard]] std::optional<Meeting> meet_bent(const Triangle& in_camera, const Vector& d) const;
+  [[nodiscard]] std::optional<Hit> cast_bent(const Vector& d) const;
   [[nodiscard]] Vector to_camera(const Vector& world) const;
   [[nodiscard]] Vector to_world(const Vector& in_camera) const;
   void ray(const Q& u, const Q& v, Vector& origin, Vector& direction) const;

@@ -1,0 +1,139 @@
+#include "tests/oracle/lens_rays.h"
+
+#include <cmath>
+
+namespace fathom::oracle {
+namespace {
+
+using F = mpf_class;
+constexpr int bits = 2 * lens_bits;
+
+F number(double x) {
+  return {x, bits};
+}
+
+struct Point {
+  F x, y;
+};
+
+/// The lens and its derivatives, in any arithmetic, term by term as written.
+template <class T>
+struct Image {
+  T x, y, x_by_x, x_by_y, y_by_x, y_by_y;
+};
+
+template <class T, class Make>
+Image<T> image_of(const LensNumbers& lens, const T& x, const T& y, const Make& make) {
+  const T q = x * x + y * y;
+  T above = make(1), above_by_q = make(0), below = make(1), below_by_q = make(0), power = make(1);
+  for (std::size_t i = 0; i < lens.above.size(); ++i) {
+    const T by_q = power * make(static_cast<double>(i) + 1);
+    power = power * q;
+    above = above + make(lens.above[i]) * power;
+    above_by_q = above_by_q + make(lens.above[i]) * by_q;
+    if (i >= lens.below.size()) continue;
+    below = below + make(lens.below[i]) * power;
+    below_by_q = below_by_q + make(lens.below[i]) * by_q;
+  }
+  const T factor = above / below;
+  const T factor_by_q = (above_by_q * below - above * below_by_q) / (below * below);
+  const T two = make(2), six = make(6);
+  const T p1 = make(lens.p1), p2 = make(lens.p2), s1 = make(lens.s1), s2 = make(lens.s2),
+          s3 = make(lens.s3), s4 = make(lens.s4);
+  // d/dq of s1·q + s2·q² and s3·q + s4·q²
+  const T u = s1 + two * s2 * q, v = s3 + two * s4 * q;
+  Image<T> image{x * factor + two * p1 * x * y + p2 * (q + two * x * x) + s1 * q + s2 * q * q,
+                 y * factor + p1 * (q + two * y * y) + two * p2 * x * y + s3 * q + s4 * q * q,
+                 factor + two * x * x * factor_by_q + two * p1 * y + six * p2 * x + two * x * u,
+                 two * x * y * factor_by_q + two * p1 * x + two * p2 * y + two * y * u,
+                 two * x * y * factor_by_q + two * p1 * x + two * p2 * y + two * x * v,
+                 factor + two * y * y * factor_by_q + six * p1 * y + two * p2 * x + two * y * v};
+  return image;
+}
+
+/// A step of Newton's method towards the point whose image is (target_x, target_y).
+template <class T, class Make>
+void step(const LensNumbers& lens, T& x, T& y, const T& target_x, const T& target_y,
+          const Make& make) {
+  const Image<T> i = image_of(lens, x, y, make);
+  const T dx = i.x - target_x, dy = i.y - target_y;
+  const T det = i.x_by_x * i.y_by_y - i.x_by_y * i.y_by_x;
+  x = x - (i.y_by_y * dx - i.x_by_y * dy) / det;
+  y = y - (i.x_by_x * dy - i.y_by_x * dx) / det;
+}
+
+/// The point within the disc from one start, in binary64.
+std::optional<std::array<double, 2>> search(const LensNumbers& lens, double x, double y,
+                                            double target_x, double target_y, double greatest_q) {
+  const auto make = [](double v) { return v; };
+  for (int i = 0; i < 60; ++i) step(lens, x, y, target_x, target_y, make);
+  if (!std::isfinite(x) || !std::isfinite(y)) return std::nullopt;
+  const Image<double> found = image_of(lens, x, y, make);
+  const double miss = std::hypot(found.x - target_x, found.y - target_y);
+  const bool is_within = x * x + y * y <= greatest_q * (1 + 1e-12) + 1e-300;
+  if (!(miss <= 1e-9 * (1 + std::hypot(target_x, target_y))) || !is_within) return std::nullopt;
+  return std::array{x, y};
+}
+
+std::optional<std::array<double, 2>> search(const LensNumbers& lens, double target_x,
+                                            double target_y, double greatest_q) {
+  const double end = std::min(std::sqrt(greatest_q), 4 + 2 * std::hypot(target_x, target_y));
+  constexpr int steps = 12;
+  for (int j = -steps; j <= steps; ++j) {
+    for (int i = -steps; i <= steps; ++i) {
+      // The nearest starts first, about the target.
+      const double x = std::clamp(target_x, -end, end) + end * i / steps;
+      const double y = std::clamp(target_y, -end, end) + end * j / steps;
+      if (const auto found = search(lens, x, y, target_x, target_y, greatest_q)) return found;
+    }
+  }
+  return std::nullopt;
+}
+
+Q rational(const F& x) {
+  Q q;
+  mpq_set_f(q.get_mpq_t(), x.get_mpf_t());
+  return q;
+}
+
+/// The dyadic number of few bits that x is but for its error, or x.
+Q settled(const F& x) {
+  Q q = rational(x), shifted = q;
+  mpq_mul_2exp(shifted.get_mpq_t(), shifted.get_mpq_t(), 300);
+  mpz_class floor;
+  mpz_fdiv_q(floor.get_mpz_t(), Q(shifted + Q(1, 2)).get_num_mpz_t(),
+             Q(shifted + Q(1, 2)).get_den_mpz_t());
+  Q few(floor);
+  mpq_div_2exp(few.get_mpq_t(), few.get_mpq_t(), 300);
+  Q least = 1;
+  mpq_div_2exp(least.get_mpq_t(), least.get_mpq_t(), zero_bits);
+  return abs(few - q) < least ? few : q;
+}
+
+std::optional<Vector> bent_by_polynomial(const LensNumbers& lens, const Q& x, const Q& y,
+                                         double greatest_q) {
+  const auto start = search(lens, x.get_d(), y.get_d(), greatest_q);
+  if (!start) return std::nullopt;
+  const F target_x(x, bits), target_y(y, bits);
+  Point m{number((*start)[0]), number((*start)[1])};
+  for (int i = 0; i < 14; ++i) step(lens, m.x, m.y, target_x, target_y, number);
+  return Vector{settled(m.x), settled(m.y), 1};
+}
+
+}  // namespace
+
+std::function<std::optional<Vector>(const Q& u, const Q& v)> lens_rays(const RayCamera& camera,
+                                                                       const LensNumbers& lens,
+                                                                       double greatest_q) {
+  return [=](const Q& u, const Q& v) -> std::optional<Vector> {
+    const Q shift = camera.pixel_centre - Q(1, 2);
+    const Q y = (v + shift - camera.cy) / camera.fy;
+    const Q x = (u + shift - camera.cx - camera.skew * y) / camera.fx;
+    if (!lens.division) return bent_by_polynomial(lens, x, y, greatest_q);
+    const Q bend = Q(*lens.division) * (x * x + y * y);
+    if (bend >= 1) return std::nullopt;
+    return Vector{x, y, 1 + bend};
+  };
+}
+
+}  // namespace fathom::oracle

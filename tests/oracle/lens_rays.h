@@ -1,0 +1,25 @@
+#pragma once
+
+#include "tests/oracle/ray_caster.h"
+
+namespace fathom::oracle {
+
+/// The numbers of a lens as its publication has them: OpenCV's, with Brown's terms of higher order.
+/// All of them 0: a pinhole.
+struct LensNumbers {
+  /// Of r², r⁴, … above and below the fraction bar.
+  std::array<double, 4> above{};
+  std::array<double, 3> below{};
+  double p1 = 0, p2 = 0, s1 = 0, s2 = 0, s3 = 0, s4 = 0;
+  /// d = (x_d, y_d, 1 + k·r²) instead.
+  std::optional<double> division;
+};
+
+/// RayCamera::bent of a lens in front of the camera's fx … skew. A sample sees the point m of the
+/// plane z = 1 that the lens takes to it, |m|² ≤ greatest_q: found by Newton's method from many
+/// starts, in floating point of more than lens_bits bits. None is found where there is none.
+std::function<std::optional<Vector>(const Q& u, const Q& v)> lens_rays(const RayCamera& camera,
+                                                                       const LensNumbers& lens,
+                                                                       double greatest_q);
+
+}  // namespace fathom::oracle
