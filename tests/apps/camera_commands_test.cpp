@@ -253,7 +253,7 @@ for X in points:
 
 TEST_F(CameraCommands, DistortedCamerasAreLeftOutUnlessTheyAreTaken) {
   folder_.write("cameras.txt",
-                "1 OPENCV 640 480 525 525 320 240 0.1 0 0 0\n2 PINHOLE 640 480 525 525 320 240\n");
+                "1 FOV 640 480 525 525 320 240 0.1\n2 PINHOLE 640 480 525 525 320 240\n");
   folder_.write("images.txt", "1 1 0 0 0 0 0 3 1 a.jpg\n\n2 1 0 0 0 0 0 3 2 b.jpg\n\n");
   const std::vector<std::string> command{"camera", "import", "colmap", "."};
   const auto with = [&](const std::vector<std::string>& more) {
@@ -274,6 +274,26 @@ TEST_F(CameraCommands, DistortedCamerasAreLeftOutUnlessTheyAreTaken) {
   EXPECT_EQ(taken.status, 0);
   EXPECT_EQ(taken.err, "");
   EXPECT_EQ(nlohmann::json::parse(taken.out).size(), 2U);
+}
+
+TEST_F(CameraCommands, LensesOfColmapAreRenderedAsTheyAre) {
+  folder_.write("square.obj", square_obj);
+  folder_.write("cameras.txt", "1 SIMPLE_RADIAL 16 12 10 8 6 -0.1\n");
+  folder_.write("images.txt", "1 1 0 0 0 0 0 3 1 a.jpg\n\n");
+  fathom({"camera", "import", "colmap", ".", "-o", "cameras.json"});
+  fathom({"camera", "import", "colmap", ".", "--ignore-distortion", "-o", "pinhole.json"});
+  const auto file = [&](const char* name) { return nlohmann::json::parse(folder_.read(name)); };
+  EXPECT_EQ(file("cameras.json")["model"], "SIMPLE_RADIAL");
+  EXPECT_EQ(file("cameras.json")["k"], -0.1);
+  EXPECT_FALSE(file("pinhole.json").contains("model"));
+  fathom({"render", "square.obj", "--camera", "cameras.json", "-o", "lens.exr"});
+  fathom({"render", "square.obj", "--camera", "pinhole.json", "-o", "pinhole.exr"});
+  const Outcome same =
+      run_fathom({"compare", "lens.exr", "pinhole.exr", "--channel", "Z"}, {.folder = folder_.path()});
+  EXPECT_EQ(same.status, 1);
+  // The map carries its camera, and is drawn again by it.
+  fathom({"render", "square.obj", "--camera", "lens.exr", "-o", "again.exr"});
+  EXPECT_EQ(run_fathom({"compare", "lens.exr", "again.exr"}, {.folder = folder_.path()}).status, 0);
 }
 
 TEST_F(CameraCommands, MapsHaveTheNamesOfTheirImages) {

@@ -135,9 +135,16 @@ TEST(ImportNerf, WarnsOfGeometryTellsDistortionAndNamesFaults) {
   };
   for (const char* pinhole : {"PINHOLE", "SIMPLE_PINHOLE", "OPENCV", "RADIAL", "SIMPLE_RADIAL"})
     EXPECT_EQ(distortion(std::string(R"({"camera_model": ")") + pinhole + "\", " + frames), "");
-  EXPECT_EQ(distortion(R"({"k1": 1e-9, "p2": 1, )" + frames),
-            "transforms.json: k1: lens distortion");
-  EXPECT_EQ(distortion(R"({"p2": -1, )" + frames), "transforms.json: p2: lens distortion");
+  EXPECT_EQ(distortion(R"({"k5": 1e-9, "p2": 1, )" + frames),
+            "transforms.json: k5: lens distortion");
+  const auto lens = [&](const std::string& text) {
+    return nerf(text, warnings).at(0).camera.projection.lens;
+  };
+  EXPECT_EQ(lens(R"({"k1": 0, "p1": 0, )" + frames), std::nullopt);
+  EXPECT_EQ(lens(R"({"k1": 1e-9, "k2": 2, "p1": 3, "p2": 1, )" + frames),
+            (Lens{LensModel::opencv, {1e-9, 2, 3, 1}}));
+  EXPECT_EQ(lens(R"({"k1": 1, "k2": 2, "k3": 3, "k4": 4, "p1": 5, "p2": 6, )" + frames),
+            (Lens{LensModel::brown, {1, 2, 3, 4, 5, 6}}));
   EXPECT_THAT(fault(R"({"equirectangular": true, )" + frames), HasSubstr("no pinhole camera"));
   EXPECT_THAT(fault(R"({"camera_model": "OPENCV_FISHEYE", )" + frames),
               HasSubstr("OPENCV_FISHEYE"));

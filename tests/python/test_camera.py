@@ -159,7 +159,7 @@ def test_names_are_kept(tmp_path):
 
 
 def test_distorted_cameras_are_left_out_with_a_warning(tmp_path):
-    (tmp_path / "cameras.txt").write_text("1 OPENCV 64 48 9 9 3 2 0.1 0 0 0\n2 PINHOLE 64 48 9 9 3 2\n")
+    (tmp_path / "cameras.txt").write_text("1 FOV 64 48 9 9 3 2 0.1\n2 PINHOLE 64 48 9 9 3 2\n")
     (tmp_path / "images.txt").write_text("1 1 0 0 0 0 0 3 1 a\n\n2 1 0 0 0 0 0 3 2 b\n\n")
     with pytest.warns(fathom.ViewWarning, match="1 of 2 cameras has lens distortion") as caught:
         assert list(fathom.Camera.from_colmap(tmp_path)) == ["b"]

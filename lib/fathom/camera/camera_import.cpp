@@ -31,6 +31,11 @@ struct LeftOut {
   }
 };
 
+Camera chosen(Camera camera, const CameraChoice& choice) {
+  if (choice.ignore_distortion) camera.projection.lens.reset();
+  return camera;
+}
+
 Camera the_one_of(const std::vector<ImportedCamera>& imported, const std::string& input,
                   const CameraChoice& choice) {
   const auto found = std::ranges::find_if(
@@ -43,7 +48,7 @@ Camera the_one_of(const std::vector<ImportedCamera>& imported, const std::string
   if (!found->distortion.empty() && !choice.ignore_distortion) {
     throw InputError(found->distortion + "; " + what_to_do);
   }
-  return found->camera;
+  return chosen(found->camera, choice);
 }
 
 std::string of_all(const LeftOut& left_out, std::size_t all, const char* have, const char* has) {
@@ -69,7 +74,7 @@ std::vector<Camera> chosen_cameras(const std::vector<ImportedCamera>& imported,
       distorted.add(one.distortion);
     } else {
       require_camera(one);
-      cameras.push_back(one.camera);
+      cameras.push_back(chosen(one.camera, choice));
     }
   }
   if (cameras.empty()) {

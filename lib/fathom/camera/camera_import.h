@@ -9,9 +9,9 @@
 #include "fathom/camera/camera.h"
 #include "fathom/failures/warnings.h"
 
-/// Cameras of other programs, converted to Fathom's; docs/conventions.md has the formulas. Fathom
-/// has no lens distortion: an import reports distortion that it leaves out, unless all its
-/// parameters are exactly 0. Entries that follow from a formula (quaternions, inverses, projection
+/// Cameras of other programs, converted to Fathom's; docs/conventions.md has the formulas. A lens
+/// with distortion is taken over where there is a model for it (lens_model.h); otherwise an import
+/// reports the distortion that it leaves out, unless all its parameters are exactly 0. Entries that follow from a formula (quaternions, inverses, projection
 /// matrices, focal lengths of angles) are the exact numbers, rounded to binary64 once
 /// (docs/conventions.md#rounding).
 ///
@@ -24,7 +24,7 @@ struct ImportedCamera {
   /// Its name is the image's in the other program: COLMAP's NAME, NeRF's file_path, BOP's image id.
   /// Passes find_fault() if there is neither an `absence` nor a `fault`.
   Camera camera;
-  /// Where `camera` is the pinhole part of a lens with distortion: which file, which lens.
+  /// Where `camera` is the pinhole part of a lens that has no model here: which file, which lens.
   std::string distortion;
   /// Why the data themselves have no camera of this image: it was not tracked, or not
   /// reconstructed.
@@ -36,12 +36,12 @@ struct ImportedCamera {
 struct CameraChoice {
   /// Only the camera of this image; empty: all cameras.
   std::string image;
-  /// Takes the pinhole part of lenses with distortion.
+  /// Takes the pinhole part of all lenses with distortion.
   bool ignore_distortion = false;
 };
 
-/// The chosen cameras, in order. Cameras with distortion are left out with a warning that counts
-/// them, unless distortion is ignored; so are images without a camera. `input` is the file's name
+/// The chosen cameras, in order. Cameras with a lens that has no model here are left out with a
+/// warning that counts them, unless distortion is ignored; so are images without a camera. `input` is the file's name
 /// for messages.
 /// Fails    InputError if a chosen camera has a fault, if the chosen image is missing, has no
 ///          camera or a lens with distortion, or if no camera is left.
@@ -50,9 +50,9 @@ std::vector<Camera> chosen_cameras(const std::vector<ImportedCamera>& imported,
                                    Warnings& warnings);
 
 /// A COLMAP model: the folder with cameras and images, .bin (preferred where both exist) or .txt.
-/// Sorted by image name. Takes SIMPLE_PINHOLE and PINHOLE, and the pinhole part of SIMPLE_RADIAL,
-/// RADIAL, OPENCV, FULL_OPENCV, FOV, SIMPLE_DIVISION, DIVISION and EUCM; fisheye and spherical
-/// models have none. Rigs and frames (COLMAP 3.12) are not needed: images has the pose of each
+/// Sorted by image name. Takes SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV, FULL_OPENCV,
+/// SIMPLE_DIVISION and DIVISION, and the pinhole part of FOV and EUCM; fisheye and spherical models
+/// have none. Rigs and frames (COLMAP 3.12) are not needed: images has the pose of each
 /// image. A folder that has models in folders below it (sparse/0) is refused with their names.
 std::vector<ImportedCamera> import_colmap(const std::filesystem::path& folder);
 /// Whether a folder has the files of a COLMAP model.

@@ -86,10 +86,16 @@ ImportedCamera make_camera(const CameraRecord& record, const Model& model,
   }
   if (!result.fault.empty()) return result;
   const auto distortion = record.parameters.begin() + static_cast<long>(model.focals) + 2;
-  if (std::any_of(distortion, distortion + static_cast<long>(distortion_parameters(model)),
-                  [](double k) { return k != 0; }))
-    result.distortion = about + "the model " + model.name + " has lens distortion";
   Camera& camera = result.camera;
+  if (std::any_of(distortion, distortion + static_cast<long>(distortion_parameters(model)),
+                  [](double k) { return k != 0; })) {
+    if (const auto lens = lens_model_named(model.name)) {
+      camera.projection.lens.emplace(Lens{*lens});
+      std::copy(distortion, record.parameters.end(), camera.projection.lens->distortion.begin());
+    } else {
+      result.distortion = about + "the model " + model.name + " has lens distortion";
+    }
+  }
   camera.width = static_cast<std::uint32_t>(record.width);
   camera.height = static_cast<std::uint32_t>(record.height);
   camera.projection.fx = record.parameters[0];

@@ -38,12 +38,8 @@ struct Frame {
 constexpr std::array<std::string_view, 5> pinhole_models{"OPENCV", "PINHOLE", "RADIAL",
                                                          "SIMPLE_PINHOLE", "SIMPLE_RADIAL"};
 
-/// Why the lens is not that of a pinhole camera, empty if it is.
-std::string distortion_of(const Frame& frame) {
-  std::string found;
-  const auto note = [&](const JsonValue& value, const char* what) {
-    if (found.empty()) found = value.where() + ": " + what;
-  };
+/// Refuses a lens that is another than those of the polynomial models.
+void expect_polynomial_lens(const Frame& frame) {
   if (const auto model = frame.find("camera_model"))
     if (const std::string& name = model->string();
         std::ranges::find(pinhole_models, name) == pinhole_models.end())
@@ -54,11 +50,32 @@ std::string distortion_of(const Frame& frame) {
   // instant-ngp names its other lenses by keys of their own.
   for (const char* key : {"ftheta_p0", "latlong", "equirectangular"})
     if (const auto other = frame.find(key)) other->fail("the lens is no pinhole camera");
-  for (const char* key : {"k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2"})
-    if (const auto k = frame.find(key); k && k->number() != 0) note(*k, "lens distortion");
   if (const auto fisheye = frame.find("is_fisheye"); fisheye && fisheye->boolean())
     fisheye->fail("a fisheye lens cannot be expressed; undistort the images first");
-  return found;
+}
+
+/// The lens, nothing where all its numbers are 0: OpenCV's, or Brown's where k3 or k4, which are of
+/// r⁶ and r⁸ above the fraction bar, are not 0.
+std::optional<Lens> lens_of(const Frame& frame) {
+  expect_polynomial_lens(frame);
+  const auto number = [&](const char* key) { return frame.number(key).value_or(0); };
+  const double k1 = number("k1"), k2 = number("k2"), k3 = number("k3"), k4 = number("k4"),
+               p1 = number("p1"), p2 = number("p2");
+  std::optional<Lens> lens;
+  if (k3 != 0 || k4 != 0) {
+    lens = Lens{LensModel::brown, {k1, k2, k3, k4, p1, p2}};
+  } else if (k1 != 0 || k2 != 0 || p1 != 0 || p2 != 0) {
+    lens = Lens{LensModel::opencv, {k1, k2, p1, p2}};
+  }
+  return lens;
+}
+
+/// Which number of the lens has no meaning in Nerfstudio's models, or nothing.
+std::string unknown_distortion(const Frame& frame) {
+  for (const char* key : {"k5", "k6"})
+    if (const auto k = frame.find(key); k && k->number() != 0)
+      return k->where() + ": lens distortion";
+  return {};
 }
 
 std::uint32_t image_size(const Frame& frame, const char* key, std::uint32_t given) {
@@ -143,7 +160,8 @@ std::vector<ImportedCamera> camera::parse_nerf(std::string_view text, const std:
     const std::string image = file_path ? file_path->string() : std::to_string(cameras.size());
     cameras.push_back(imported_camera(image, own.where(), [&](ImportedCamera& one) {
       const Frame frame{own, root};
-      one.distortion = distortion_of(frame);
+      one.camera.projection.lens = lens_of(frame);
+      one.distortion = unknown_distortion(frame);
       one.camera.width = image_size(frame, "w", width);
       one.camera.height = image_size(frame, "h", height);
       read_intrinsics(frame, one.camera);
