@@ -320,6 +320,84 @@ TEST(CameraJson, NumbersHaveAsFewDigitsAsTheyNeed) {
   EXPECT_TRUE(same_bits(read(to_json(camera, Digits::seventeen)).at(0), camera));
 }
 
+/// A camera file with these members besides size and pose.
+Camera with_lens(const std::string& members) {
+  return read(R"({"width": 640, "height": 480, )" + members + "," + pose + "}").at(0);
+}
+
+TEST(CameraJson, ReadsALensByNamesByParamsAndByKWithDistortion) {
+  const Lens opencv{LensModel::opencv, {-0.25, 0.5, 0.125, 1}};
+  const std::string model = R"("model": "OPENCV", )";
+  const Camera cameras[] = {
+      with_lens(model + R"("fx": 525, "fy": 526, "cx": 320, "cy": 240, "k1": -0.25, "k2": 0.5,
+                           "p1": 0.125, "p2": 1)"),
+      with_lens(model + R"("params": [525, 526, 320, 240, -0.25, 0.5, 0.125, 1])"),
+      with_lens(model + R"("K": [[525, 0, 320], [0, 526, 240], [0, 0, 1]],
+                           "distortion": [-0.25, 0.5, 0.125, 1])")};
+  for (const Camera& camera : cameras) {
+    EXPECT_EQ(camera.projection.lens, std::optional(opencv));
+    EXPECT_EQ(camera.projection.fx, 525);
+    EXPECT_EQ(camera.projection.fy, 526);
+    EXPECT_EQ(camera.projection.cx, 320);
+    EXPECT_EQ(camera.projection.cy, 240);
+  }
+  const Camera radial = with_lens(R"("model": "SIMPLE_RADIAL", "f": 500, "cx": 1, "cy": 2,
+                                     "k": 0.5, "max_radius": 0.75)");
+  EXPECT_EQ(radial.projection.lens, std::optional(Lens{LensModel::simple_radial, {0.5}, 0.75}));
+  EXPECT_EQ(radial.projection.fx, 500);
+  EXPECT_EQ(radial.projection.fy, 500);
+  const Camera skewed = with_lens(R"("model": "OPENCV_14", "params": [5, 6, 1, 2, 1, 2, 3, 4, 5],
+                                     "skew": 0.5)");
+  EXPECT_EQ(skewed.projection.lens, std::optional(Lens{LensModel::opencv_14, {1, 2, 3, 4, 5}}));
+  EXPECT_EQ(skewed.projection.skew, 0.5);
+  // Numbers of distortion that are left out are 0: no ray is bent.
+  const Camera zero = with_lens(model + R"("fx": 525, "fy": 526, "cx": 320, "cy": 240)");
+  EXPECT_TRUE(zero.projection.lens);
+  EXPECT_FALSE(bends_rays(zero.projection));
+}
+
+TEST(CameraJson, LensesAreWrittenAsTheyAreRead) {
+  for (const LensModelEntry& model : lens_models()) {
+    Camera camera = with("");
+    camera.projection.fy = camera.projection.fx;
+    Lens& lens = camera.projection.lens.emplace(Lens{model.model});
+    for (std::size_t i = 0; i < model.distortion.size(); ++i)
+      lens.distortion[i] = 0.1 * (static_cast<double>(i) + 1) - 0.7;
+    const auto again = [&] { return read(to_json(camera)).at(0).projection; };
+    EXPECT_EQ(again(), camera.projection) << model.name;
+    lens.max_radius = 0.1;
+    EXPECT_EQ(again(), camera.projection) << model.name;
+  }
+}
+
+TEST(CameraJson, NamesWhatIsWrongWithALens) {
+  const std::string K = R"("fx": 5, "fy": 6, "cx": 3, "cy": 2)", f = R"("f": 5, "cx": 3, "cy": 2)";
+  const auto fault = [](const std::string& members) {
+    return message_of<InputError>([&] { with_lens(members); });
+  };
+  EXPECT_THAT(fault(R"("model": "OPENVC", )" + K),
+              AllOf(HasSubstr("unknown lens model 'OPENVC'"), HasSubstr("mean 'OPENCV'")));
+  EXPECT_THAT(fault(R"("model": "OPENCV", "k3": 0, )" + K), HasSubstr("unknown key \"k3\""));
+  EXPECT_THAT(fault(R"("model": "RADIAL", )" + K), HasSubstr("unknown key \"fx\""));
+  EXPECT_THAT(fault(R"("model": "RADIAL", "skew": 1, )" + f), HasSubstr("unknown key \"skew\""));
+  EXPECT_THAT(fault(R"("model": "OPENCV", "projection": "orthographic", )" + K),
+              HasSubstr("projection: an orthographic camera has no lens"));
+  EXPECT_THAT(fault(R"("model": "OPENCV", "params": [1, 2, 3, 4, 5])"),
+              HasSubstr("params: found 5 numbers, OPENCV has 8"));
+  EXPECT_THAT(fault(R"("model": "OPENCV", "params": [1])"), HasSubstr("found 1 number"));
+  EXPECT_THAT(fault(R"("model": "OPENCV_14", "distortion": [1, 2, 3], )" + K),
+              HasSubstr("found 3 numbers, OPENCV_14 has 4, 5, 8, 12 or 14"));
+  EXPECT_THAT(fault(R"("model": "OPENCV", "params": [1, 2, 3, 4, 5, 6, 7, 8], "k1": 1)"),
+              HasSubstr("has both \"params\" and \"k1\""));
+  EXPECT_THAT(fault(R"("model": "OPENCV", "k1": 1, "distortion": [1, 2, 3, 4], )" + K),
+              HasSubstr("has both \"distortion\" and \"k1\""));
+  EXPECT_THAT(fault(R"("model": "SIMPLE_RADIAL", "K": [[5, 0, 3], [0, 6, 2], [0, 0, 1]])"),
+              HasSubstr("SIMPLE_RADIAL has one focal length and no skew"));
+  EXPECT_THAT(fault(R"("model": "OPENCV", "max_radius": 0, )" + K), HasSubstr("max_radius"));
+  EXPECT_THAT(fault(R"("model": "OPENCV_14", "tauX": 1.6, )" + K), HasSubstr("tauX"));
+  EXPECT_THAT(fault(R"("k1": 1, )" + K), HasSubstr("unknown key \"k1\""));
+}
+
 TEST(CameraJson, ASingleCameraIsWrittenAsAnObject) {
   const Camera camera = with("");
   const std::string text = to_json(std::vector{camera});

@@ -58,9 +58,13 @@ class LensCaseMaker {
         break;
       case LensModel::full_opencv:
       case LensModel::opencv_14:
-        lens.distortion = {n.above[0] = term(),     n.above[1] = term() / 4, n.p1 = small_term(),
-                           n.p2 = small_term(),     n.above[2] = term() / 8, n.below[0] = term() / 2,
-                           n.below[1] = term() / 8, n.below[2] = term() / 16};
+        lens.distortion = {n.above[0] = term(), n.above[1] = term() / 4, n.p1 = small_term(),
+                           n.p2 = small_term(), n.above[2] = term() / 8};
+        if (below(2) == 0) {
+          lens.distortion[5] = n.below[0] = term() / 2;
+          lens.distortion[6] = n.below[1] = term() / 8;
+          lens.distortion[7] = n.below[2] = term() / 16;
+        }
         if (model == LensModel::full_opencv) break;
         lens.distortion[8] = n.s1 = small_term();
         lens.distortion[9] = n.s2 = small_term() / 2;
@@ -68,8 +72,9 @@ class LensCaseMaker {
         lens.distortion[11] = n.s4 = small_term() / 2;
         break;
       case LensModel::brown:
-        lens.distortion = {n.above[0] = term(),     n.above[1] = term() / 4, n.above[2] = term() / 8,
-                           n.above[3] = term() / 16, n.p1 = small_term(),    n.p2 = small_term()};
+        lens.distortion = {n.above[0] = term(),     n.above[1] = term() / 4,
+                           n.above[2] = term() / 8, n.above[3] = term() / 16,
+                           n.p1 = small_term(),     n.p2 = small_term()};
         break;
       case LensModel::simple_division:
       case LensModel::division:
@@ -99,8 +104,10 @@ class LensCaseMaker {
     double factor = 1, power = 1;
     for (const double k : c.numbers.above) factor += k * (power *= q);
     const oracle::LensNumbers& n = c.numbers;
-    const double gx = x * factor + 2 * n.p1 * x * y + n.p2 * (q + 2 * x * x) + n.s1 * q + n.s2 * q * q;
-    const double gy = y * factor + n.p1 * (q + 2 * y * y) + 2 * n.p2 * x * y + n.s3 * q + n.s4 * q * q;
+    const double gx =
+        x * factor + 2 * n.p1 * x * y + n.p2 * (q + 2 * x * x) + n.s1 * q + n.s2 * q * q;
+    const double gy =
+        y * factor + n.p1 * (q + 2 * y * y) + 2 * n.p2 * x * y + n.s3 * q + n.s4 * q * q;
     p.skew = 0;
     p.pixel_centre = 0.5;
     p.cx = this->below(6) + 0.5 - p.fx * gx;
@@ -110,7 +117,8 @@ class LensCaseMaker {
       std::vector<MeshPoint> corners(mesh.vertices.begin(), mesh.vertices.end());
       for (std::size_t i = 0; i + 1 < corners.size(); i += 2) {
         const double z = 1 + this->below(4);
-        const double across = std::ldexp(this->below(9) - 4, -1), up = std::ldexp(this->below(9) - 4, -1);
+        const double across = std::ldexp(this->below(9) - 4, -1),
+                     up = std::ldexp(this->below(9) - 4, -1);
         // Either the corner is on the ray, or the ray meets the middle between two corners.
         const double aside = this->below(2);
         corners[i] = {x * z + aside * across, y * z + aside * up, z};
@@ -157,15 +165,15 @@ class LensMaps : public ::testing::TestWithParam<std::tuple<LensModel, Kind>> {}
 
 TEST_P(LensMaps, EveryChannelOfEveryPixelAgreesWithRationalRays) {
   const auto [model, kind] = GetParam();
-  LensCaseMaker maker(static_cast<std::uint64_t>(100 * static_cast<int>(model)) +
-                          static_cast<std::uint64_t>(kind),
-                      kind);
+  LensCaseMaker maker(
+      static_cast<std::uint64_t>(100 * static_cast<int>(model)) + static_cast<std::uint64_t>(kind),
+      kind);
   Tally tally;
-  for (int i = 0; i < 100 / testing::effort && !HasFailure(); ++i) {
+  for (int i = 0; i < 60 / testing::effort && !HasFailure(); ++i) {
     SCOPED_TRACE("scene " + std::to_string(i) + " of this seed");
     check(maker.make(model), tally);
   }
-  EXPECT_GT(tally.hits, 100 / testing::effort);
+  EXPECT_GT(tally.hits, 60 / testing::effort);
   if (model == LensModel::simple_radial || model == LensModel::opencv) {
     EXPECT_GT(tally.without_ray, 0);
   }

@@ -18,8 +18,8 @@ namespace fathom::testing {
 oracle::RayCaster cast_at(const Scene& scene, const Camera& camera);
 
 /// The same through a lens whose rays have |m|² ≤ greatest_q.
-oracle::RayCaster cast_at(const Scene& scene, const Camera& camera,
-                          const oracle::LensNumbers& lens, double greatest_q);
+oracle::RayCaster cast_at(const Scene& scene, const Camera& camera, const oracle::LensNumbers& lens,
+                          double greatest_q);
 
 /// The areas of the pixels of `camera` that the scene covers.
 oracle::Areas areas_at(const Scene& scene, const Camera& camera);

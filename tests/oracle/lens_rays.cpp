@@ -6,7 +6,7 @@ namespace fathom::oracle {
 namespace {
 
 using F = mpf_class;
-constexpr int bits = 2 * lens_bits;
+constexpr int bits = lens_bits + 500;
 
 F number(double x) {
   return {x, bits};
@@ -116,7 +116,7 @@ std::optional<Vector> bent_by_polynomial(const LensNumbers& lens, const Q& x, co
   if (!start) return std::nullopt;
   const F target_x(x, bits), target_y(y, bits);
   Point m{number((*start)[0]), number((*start)[1])};
-  for (int i = 0; i < 14; ++i) step(lens, m.x, m.y, target_x, target_y, number);
+  for (int i = 0; i < 8; ++i) step(lens, m.x, m.y, target_x, target_y, number);
   return Vector{settled(m.x), settled(m.y), 1};
 }
 

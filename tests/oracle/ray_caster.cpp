@@ -154,15 +154,13 @@ std::optional<RayCaster::Meeting> RayCaster::meet_bent(const Triangle& triangle,
   if (sgn(m.depth) <= 0) return std::nullopt;
   const auto before = [&](const Q& limit) {
     const Q z = m.depth * d[2];
-    return camera_.by_distance
-               ? sign_at_bent_ray(m.depth * m.depth * dot(d, d) - limit * limit) < 0
-               : sign_at_bent_ray(z - limit) < 0;
+    return camera_.by_distance ? sign_at_bent_ray(m.depth * m.depth * dot(d, d) - limit * limit) < 0
+                               : sign_at_bent_ray(z - limit) < 0;
   };
   const auto beyond = [&](const Q& limit) {
     const Q z = m.depth * d[2];
-    return camera_.by_distance
-               ? sign_at_bent_ray(m.depth * m.depth * dot(d, d) - limit * limit) > 0
-               : sign_at_bent_ray(z - limit) > 0;
+    return camera_.by_distance ? sign_at_bent_ray(m.depth * m.depth * dot(d, d) - limit * limit) > 0
+                               : sign_at_bent_ray(z - limit) > 0;
   };
   if (before(camera_.near) || (camera_.far && beyond(*camera_.far))) return std::nullopt;
   return m;
@@ -186,8 +184,7 @@ std::optional<Hit> RayCaster::cast_bent(const Vector& d) const {
   for (Q& coordinate : nearest->position) coordinate = settled(coordinate);
   nearest->weight_b = settled(nearest->weight_b);
   nearest->weight_c = settled(nearest->weight_c);
-  const Vector along =
-      minus(to_world({p[0] + d[0], p[1] + d[1], p[2] + d[2]}), nearest->position);
+  const Vector along = minus(to_world({p[0] + d[0], p[1] + d[1], p[2] + d[2]}), nearest->position);
   nearest->normal = normal_against(along, world_[nearest->triangle]);
   nearest->camera_normal = normal_against(d, in_camera_[nearest->triangle]);
   return nearest;

@@ -29,9 +29,9 @@ struct RayCamera {
   bool by_distance = false;
 };
 
-/// Values of a bent ray that are smaller than 2^−zero_bits, in scenes of numbers of few bits, are 0:
-/// no other algebraic number that comes up there is nearly as small.
-inline constexpr int lens_bits = 1500, zero_bits = 1000;
+/// Values of a bent ray that are smaller than 2^−zero_bits, in scenes of numbers of few bits and
+/// their neighbours, are 0: products of two subnormal numbers are greater.
+inline constexpr int lens_bits = 3500, zero_bits = 2600;
 
 struct Hit {
   std::uint32_t triangle = 0;

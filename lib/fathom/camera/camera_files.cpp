@@ -64,7 +64,8 @@ Projection read_projection(const JsonValue& value) {
   Projection projection;
   if (const auto model = value.find("projection")) projection.model = read_model(*model);
   if (value.find("model")) {
-    if (is_orthographic(projection)) value.at("projection").fail("an orthographic camera has no lens");
+    if (is_orthographic(projection))
+      value.at("projection").fail("an orthographic camera has no lens");
     read_lens(value, projection);
   } else {
     read_intrinsics(value, projection);

@@ -63,7 +63,7 @@ class RootNarrowing {
 
   DyadicInterval to(long bits) {
     for (long gain = std::max(shared_bits(q_), 1L); shared_bits(q_) < bits;) {
-      const long before = shared_bits(q_), wanted = std::min(before + gain, bits + 1);
+      const long before = shared_bits(q_), wanted = std::min(before + gain, bits + 3);
       use_secant(wanted);
       if (shared_bits(q_) + 2 >= wanted) {
         gain *= 2;

@@ -70,10 +70,10 @@ RayGroups::RayGroups(const lens::Preimages& preimages, std::uint32_t width, std:
   parallel_for(std::size_t{0}, level.groups.size(), [&](std::size_t i) {
     const auto column = static_cast<std::uint32_t>(i % level.columns) * pixels;
     const auto row = static_cast<std::uint32_t>(i / level.columns) * pixels;
-    level.groups[i] = around(preimages,
-                             {column, std::min(column + pixels, width) - 1, row,
-                              std::min(row + pixels, height) - 1},
-                             counts[i]);
+    level.groups[i] = around(
+        preimages,
+        {column, std::min(column + pixels, width) - 1, row, std::min(row + pixels, height) - 1},
+        counts[i]);
   });
   samples_with_ray_ = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
   levels_.push_back(std::move(level));
@@ -115,7 +115,8 @@ void RayGroups::extend(PixelBox& box, const ProjectedTriangle& t, std::size_t le
   if (holds(box, area)) return;
   if (!groups.groups[std::size_t{row} * groups.columns + column].may_meet(t)) return;
   if (level == 0) return add(box, area);
-  for (std::uint32_t k = 0; k < 4; ++k) extend(box, t, level - 1, 2 * column + k % 2, 2 * row + k / 2);
+  for (std::uint32_t k = 0; k < 4; ++k)
+    extend(box, t, level - 1, 2 * column + k % 2, 2 * row + k / 2);
 }
 
 }  // namespace fathom::reference

@@ -208,9 +208,8 @@ class Band {
         ++statistics.pixels_with_surface;
         const std::size_t pixel = static_cast<std::size_t>(row) * width_ + column;
         const auto fault =
-            rays_.empty()
-                ? writer.write(pixel, *nearest.triangle, centre_of_pixel(column, row))
-                : writer.write(pixel, *nearest.triangle, *rays_[index(row, column)]);
+            rays_.empty() ? writer.write(pixel, *nearest.triangle, centre_of_pixel(column, row))
+                          : writer.write(pixel, *nearest.triangle, *rays_[index(row, column)]);
         if (fault) return fault;
       }
     }
@@ -325,8 +324,7 @@ Rendered render_in_arena(const Scene& scene, const Camera& camera, const RenderO
   std::vector<std::optional<EncodingFault>> faults(bands);
   Progress progress(context.progress, bands);
   parallel_for(std::uint32_t{0}, bands, [&](std::uint32_t band) {
-    faults[band] =
-        render_band(scene, view, candidates, band * rows_per_band, writer, parts[band]);
+    faults[band] = render_band(scene, view, candidates, band * rows_per_band, writer, parts[band]);
     progress.part_done();
   });
 

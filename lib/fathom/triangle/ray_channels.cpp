@@ -14,8 +14,6 @@ using lens::ExactDirection;
 
 namespace {
 
-
-
 LinearForm times(const Dyadic& factor, const LinearForm& form) {
   ExactVector3 l = form.coefficients();
   for (Dyadic& coefficient : l) coefficient *= factor;

@@ -11,8 +11,6 @@ using lens::ExactDirection;
 
 namespace {
 
-
-
 /// The direction of a ray as intervals.
 using Direction = std::array<DyadicInterval, 3>;
 
@@ -111,8 +109,7 @@ Real quotient_of(const ExactDirection& d, const Form& numerator, const Form& den
   if (const ExactVector3* const rational = d.rational()) {
     return Ratio(value_of(numerator, *rational), value_of(denominator, *rational));
   }
-  const auto quotient =
-      std::make_shared<const QuotientAtRay<Form>>(d, numerator, denominator);
+  const auto quotient = std::make_shared<const QuotientAtRay<Form>>(d, numerator, denominator);
   return {[quotient](long bits) { return quotient->enclose(bits); },
           [quotient] { return quotient->decide(); }};
 }
