@@ -132,7 +132,7 @@ typedef struct {
 /* Renders the exact map: every value is the exact number, rounded once.
  *
  *   channels   one channel or several, as "Z" or "Z,A,id,N": Z, A, Zlow, distance, id, face,
- *              object, material, group, part, label, N, P, bary, Nc, Ns
+ *              object, material, group, part, label, N, P, bary, Nc, Ns, valid
  *              (docs/reference/channels.md)
  *   options    NULL: all options are 0
  */

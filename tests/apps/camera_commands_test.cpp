@@ -288,8 +288,8 @@ TEST_F(CameraCommands, LensesOfColmapAreRenderedAsTheyAre) {
   EXPECT_FALSE(file("pinhole.json").contains("model"));
   fathom({"render", "square.obj", "--camera", "cameras.json", "-o", "lens.exr"});
   fathom({"render", "square.obj", "--camera", "pinhole.json", "-o", "pinhole.exr"});
-  const Outcome same =
-      run_fathom({"compare", "lens.exr", "pinhole.exr", "--channel", "Z"}, {.folder = folder_.path()});
+  const Outcome same = run_fathom({"compare", "lens.exr", "pinhole.exr", "--channel", "Z"},
+                                  {.folder = folder_.path()});
   EXPECT_EQ(same.status, 1);
   // The map carries its camera, and is drawn again by it.
   fathom({"render", "square.obj", "--camera", "lens.exr", "-o", "again.exr"});

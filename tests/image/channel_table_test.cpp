@@ -30,8 +30,8 @@ TEST(ChannelTable, PartsAndWordsForPeople) {
   EXPECT_THAT(part_names(Channel::N), ElementsAre("N.X", "N.Y", "N.Z"));
   EXPECT_THAT(part_names(Channel::bary), ElementsAre("bary.U", "bary.V"));
   EXPECT_EQ(channel_names(),
-            "Z, A, Zlow, distance, id, face, object, material, group, part, label, N, P, bary, Nc "
-            "and Ns");
+            "Z, A, Zlow, distance, id, face, object, material, group, part, label, N, P, bary, Nc, "
+            "Ns and valid");
 }
 
 TEST(ChannelTable, IdentifiersThatShowSegments) {

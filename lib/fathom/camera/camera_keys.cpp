@@ -85,10 +85,7 @@ void read_intrinsics_of_lens(const JsonValue& value, const LensModelEntry& model
   if (!has_one_focal_length(model)) return read_intrinsics(value, projection);
   for (const std::string_view name : model.intrinsics) expect_either(value, "K", name);
   if (const auto K = value.find("K")) {
-    read_intrinsic_matrix(*K, projection);
-    if (projection.fx != projection.fy || projection.skew != 0)
-      K->fail(std::string(model.name) + " has one focal length and no skew");
-    return;
+    return read_intrinsic_matrix(*K, projection);
   }
   std::vector<double> numbers;
   for (const std::string_view name : model.intrinsics)

@@ -135,6 +135,7 @@ Camera resized(const Camera& camera, std::uint32_t width, std::uint32_t height) 
   to.fy = round_to_binary64(scaled(Dyadic(from.fy), height, camera.height));
   to.cx = position(from.cx, width, camera.width);
   to.cy = position(from.cy, height, camera.height);
+  if (to.lens && to.fx != to.fy) to.lens = with_two_focal_lengths(*to.lens);
   require_valid(result);
   return result;
 }

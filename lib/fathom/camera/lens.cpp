@@ -33,6 +33,25 @@ std::optional<std::string> find_fault(const Lens& lens) {
   return std::nullopt;
 }
 
+// The numbers that the other model adds stand behind those of the first, and are 0.
+Lens with_two_focal_lengths(Lens lens) {
+  switch (lens.model) {
+    case LensModel::simple_pinhole:
+      lens.model = LensModel::pinhole;
+      break;
+    case LensModel::simple_radial:
+    case LensModel::radial:
+      lens.model = LensModel::opencv;
+      break;
+    case LensModel::simple_division:
+      lens.model = LensModel::division;
+      break;
+    default:
+      break;
+  }
+  return lens;
+}
+
 bool is_pinhole(const Lens& lens) {
   const StandardArithmetic standard;
   return entry_of(lens.model).is_plane && std::isinf(lens.max_radius) &&

@@ -25,6 +25,9 @@ struct Lens {
 /// those that the model lacks are 0, |tauX| and |tauY| are less than π/2, and max_radius > 0.
 std::optional<std::string> find_fault(const Lens& lens);
 
+/// The same lens by a model that has fx and fy, if its own has one focal length for both.
+Lens with_two_focal_lengths(Lens lens);
+
 /// Whether the lens bends nothing and ends nowhere: a pinhole.
 bool is_pinhole(const Lens& lens);
 

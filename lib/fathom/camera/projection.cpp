@@ -25,6 +25,9 @@ std::optional<std::string> find_fault(const Projection& projection) {
   if (projection.fy == 0) return "fy is 0, expected any other number";
   if (!projection.lens) return std::nullopt;
   if (is_orthographic(projection)) return "an orthographic camera has no lens";
+  const LensModelEntry& model = entry_of(projection.lens->model);
+  if (model.intrinsics.front() == "f" && (projection.fx != projection.fy || projection.skew != 0))
+    return std::string(model.name) + " has one focal length and no skew";
   return find_fault(*projection.lens);
 }
 

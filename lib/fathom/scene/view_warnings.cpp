@@ -252,6 +252,7 @@ std::vector<ViewWarning> view_warnings(const Scene& scene, const Camera& camera,
                                        std::uint64_t shown_pixels) {
   const StandardArithmetic standard;
   std::vector<ViewWarning> warnings = warnings_of_camera(camera);
+  if (bends_rays(camera.projection)) return warnings;
   std::ranges::move(warnings_of_view(scene, camera, shown_pixels), std::back_inserter(warnings));
   return warnings;
 }

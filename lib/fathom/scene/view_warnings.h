@@ -64,7 +64,7 @@ std::vector<ViewWarning> warnings_of_camera(const Camera& camera);
 std::vector<ViewWarning> warnings_of_view(const Scene& scene, const Camera& camera,
                                           std::uint64_t shown_pixels);
 
-/// Both.
+/// Both; of a camera whose lens bends rays only those of the camera by itself.
 std::vector<ViewWarning> view_warnings(const Scene& scene, const Camera& camera,
                                        std::uint64_t shown_pixels);
 

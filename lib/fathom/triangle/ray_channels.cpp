@@ -80,6 +80,10 @@ std::optional<EncodingFault> ChannelWriter::write_depth(std::size_t pixel,
       d.sign_of(t.depth_numerator.coefficients()) != Sign::positive) {
     return EncodingFault{pixel, "the planar depth is not above 0; store the channel distance"};
   }
+  if (float* const values = values_.depth.binary32) {
+    values[pixel] = binary32_at(d, t.depth_numerator, t.weight);
+    return std::nullopt;
+  }
   if (auto why = store_at(d, values_.depth, pixel, t.depth_numerator, t.weight, false, encoding_)) {
     return EncodingFault{pixel, "the depth would be the code " + *why};
   }
@@ -90,6 +94,12 @@ std::optional<EncodingFault> ChannelWriter::write_depth(std::size_t pixel,
 std::optional<EncodingFault> ChannelWriter::write_distance(std::size_t pixel,
                                                            const ProjectedTriangle& t,
                                                            const ExactDirection& d) {
+  if (float* const values = values_.distance.binary32) {
+    if (const auto settled = distance_at(d, t.volume, t.weight)) {
+      values[pixel] = *settled;
+      return std::nullopt;
+    }
+  }
   const QuadraticForm squared = (t.volume * t.volume) * squared_length();
   const QuadraticForm weight = square_of(t.weight.coefficients());
   if (auto why = store_at(d, values_.distance, pixel, squared, weight, true, encoding_)) {
@@ -100,14 +110,14 @@ std::optional<EncodingFault> ChannelWriter::write_distance(std::size_t pixel,
 
 void ChannelWriter::write_low_part(std::size_t pixel, const ProjectedTriangle& t,
                                    const ExactDirection& d) {
-  const float high = round_to_binary32(quotient_at(d, t.depth_numerator, t.weight));
+  const float high = binary32_at(d, t.depth_numerator, t.weight);
   if (std::isinf(high)) {
     values_.low[pixel] = 0;
     return;
   }
   ExactVector3 rest = t.depth_numerator.coefficients();
   for (std::size_t k = 0; k < 3; ++k) rest[k] -= Dyadic(high) * t.weight.coefficients()[k];
-  values_.low[pixel] = round_to_binary32(quotient_at(d, LinearForm(rest), t.weight));
+  values_.low[pixel] = binary32_at(d, LinearForm(rest), t.weight);
 }
 
 // Each component of the interpolated normal m is a linear form of d; its unit vector has the
@@ -139,14 +149,14 @@ void ChannelWriter::write_position(std::size_t pixel, const ProjectedTriangle& t
   for (std::size_t k = 0; k < 3; ++k) {
     const auto coordinate = coordinates[k];
     const LinearForm form = interpolated(t, {A.*coordinate, B.*coordinate, C.*coordinate});
-    values_.position[k][pixel] = round_to_binary32(quotient_at(d, form, t.weight));
+    values_.position[k][pixel] = binary32_at(d, form, t.weight);
   }
 }
 
 void ChannelWriter::write_barycentric(std::size_t pixel, const ProjectedTriangle& t,
                                       const ExactDirection& d) {
   for (std::size_t k = 0; k < 2; ++k) {
-    values_.barycentric[k][pixel] = round_to_binary32(quotient_at(d, t.edges[k + 1], t.weight));
+    values_.barycentric[k][pixel] = binary32_at(d, t.edges[k + 1], t.weight);
   }
 }
 

@@ -1,9 +1,12 @@
 #include "fathom/triangle/ray_values.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
+#include "fathom/numeric/certified_interval.h"
+#include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/dyadic_interval.h"
 
 namespace fathom::triangle {
@@ -114,11 +117,41 @@ Real quotient_of(const ExactDirection& d, const Form& numerator, const Form& den
           [quotient] { return quotient->decide(); }};
 }
 
+/// |√X − √x| = |X − x| / (√X + √x) ≤ E_x / √x; the root itself errs by half a unit of roundoff.
+Certified<double> root_of(const Certified<double>& x) {
+  const double root = std::sqrt(x.value);
+  return {root, (x.error / root + epsilon<double> * root) * slack};
+}
+
+Certified<double> certified_at(const ExactDirection& d, const LinearForm& form) {
+  return to_certified(form.enclose_at(d.box()));
+}
+
 }  // namespace
 
 Real quotient_at(const ExactDirection& d, const LinearForm& numerator,
                  const LinearForm& denominator) {
   return quotient_of(d, numerator, denominator);
+}
+
+float binary32_at(const ExactDirection& d, const LinearForm& numerator,
+                  const LinearForm& denominator) {
+  const Certified<double> value =
+      quotient(certified_at(d, numerator), certified_at(d, denominator));
+  if (const auto settled = to_binary32(value.value, value.error)) return *settled;
+  return round_to_binary32(quotient_at(d, numerator, denominator));
+}
+
+std::optional<float> distance_at(const ExactDirection& d, const Dyadic& volume,
+                                 const LinearForm& weight) {
+  Certified<double> squared{0, 0};
+  for (const Interval& component : d.box()) {
+    const Certified<double> x = to_certified(component);
+    squared = sum(squared, product(x, x));
+  }
+  const Certified<double> along = quotient(to_certified(enclose(volume)), certified_at(d, weight));
+  const Certified<double> value = product(along, root_of(squared));
+  return to_binary32(value.value, value.error);
 }
 
 Real quotient_at(const ExactDirection& d, const QuadraticForm& numerator,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "fathom/lens/exact_direction.h"
 #include "fathom/numeric/quadratic_form.h"
 #include "fathom/numeric/real.h"
@@ -16,7 +18,15 @@ namespace fathom::triangle {
 Real quotient_at(const lens::ExactDirection& d, const LinearForm& numerator,
                  const LinearForm& denominator);
 
-/// The same of two squares, or sums of squares.
+/// quotient_at(), rounded to binary32: in binary64 where its bounds settle that.
+float binary32_at(const lens::ExactDirection& d, const LinearForm& numerator,
+                  const LinearForm& denominator);
+
+/// The ray distance volume·|d| / weight(d), rounded to binary32, if binary64 settles that.
+std::optional<float> distance_at(const lens::ExactDirection& d, const Dyadic& volume,
+                                 const LinearForm& weight);
+
+/// The quotient of two squares, or sums of squares.
 /// Exact    rational() knows the value where rounding of its square root steps there, too.
 Real quotient_at(const lens::ExactDirection& d, const QuadraticForm& numerator,
                  const QuadraticForm& denominator);

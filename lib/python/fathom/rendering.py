@@ -55,7 +55,8 @@ def render(
                   part, label (of a Scene; NO_SEGMENT if the visible triangle has no such name or
                   label), N (normal) and P (position), both in the world, bary (weights of the
                   triangle's second and third corner), Nc (normal in the camera frame), Ns
-                  (interpolated normals of the corners, in the world)
+                  (interpolated normals of the corners, in the world), valid (1 where a lens has a
+                  ray)
     near, far     range of planar depths that are rendered, in scene units
     cull          "back" or "front" leaves out triangles that face this way
     dtype         type of Z and distance: float32, float64, or uint16 for codes
