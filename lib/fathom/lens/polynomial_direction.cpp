@@ -63,9 +63,9 @@ class RootNarrowing {
 
   DyadicInterval to(long bits) {
     for (long gain = std::max(shared_bits(q_), 1L); shared_bits(q_) < bits;) {
-      const long before = shared_bits(q_), wanted = std::min(before + gain, bits + 3);
+      const long before = shared_bits(q_), wanted = std::min(before + gain, bits + 1);
       use_secant(wanted);
-      if (shared_bits(q_) + 2 >= wanted) {
+      if (shared_bits(q_) >= wanted) {
         gain *= 2;
       } else {
         halve(before + 1);
@@ -84,7 +84,7 @@ class RootNarrowing {
     if (rise.sign() != Sign::positive) return;
     const BigInterval width = number(q_.high - q_.low, bits);
     const Dyadic x = q_.low - (low * width / rise).centre();
-    const Dyadic half = Dyadic(1.0).scaled(q_.high.top() - wanted - 1);
+    const Dyadic half = Dyadic(1.0).scaled(q_.low.top() - wanted - 2);
     narrow(F, rounded(x - half, wanted + spare_bits));
     narrow(F, rounded(x + half, wanted + spare_bits));
   }
