@@ -48,7 +48,7 @@ void add_size_option(Command& command, ImportArguments& arguments) {
 void add_distortion_option(Command& command, CameraChoice& choice) {
   command.flag(
       "--ignore-distortion", choice.ignore_distortion,
-      "Import cameras with lens distortion as pinholes; without this option they are left out");
+      "Import all lenses as pinholes; without this option lenses that have no model are left out");
 }
 
 std::vector<ImportSource> program_sources() {

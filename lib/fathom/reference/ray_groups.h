@@ -11,11 +11,11 @@
 namespace fathom::reference {
 
 /// Where in an image of bent rays a triangle may be seen: boxes around the directions of groups of
-/// samples, 16 × 16 pixels each, and around four groups at a time up to the whole image. They save
+/// samples, 4 × 4 pixels each, and around four groups at a time up to the whole image. They save
 /// time and decide nothing: a triangle that they leave out covers no sample of the group.
 class RayGroups {
  public:
-  static constexpr std::uint32_t pixels = 16;
+  static constexpr std::uint32_t pixels = 4;
 
   RayGroups(const lens::Preimages& preimages, std::uint32_t width, std::uint32_t height);
 

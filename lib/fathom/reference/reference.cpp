@@ -29,7 +29,7 @@ using namespace triangle;
 
 namespace {
 
-constexpr std::uint32_t rows_per_band = RayGroups::pixels;
+constexpr std::uint32_t rows_per_band = 16;
 
 /// How the samples of an image see.
 struct View {

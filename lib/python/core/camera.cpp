@@ -57,6 +57,16 @@ Camera make_camera(std::uint32_t width, std::uint32_t height, bool orthographic,
   return camera;
 }
 
+/// The model of a lens, its numbers of distortion, and where it ends.
+using LensParts = std::tuple<std::string, std::vector<double>, double>;
+std::optional<LensParts> lens_of(const Camera& camera) {
+  const std::optional<Lens>& lens = camera.projection.lens;
+  if (!lens) return std::nullopt;
+  const auto count = static_cast<std::ptrdiff_t>(entry_of(lens->model).distortion.size());
+  return LensParts(name_of(lens->model), {lens->distortion.begin(), lens->distortion.begin() + count},
+                   lens->max_radius);
+}
+
 LensChoice make_lens(std::uint32_t width, std::uint32_t height, bool orthographic,
                      std::optional<double> fov, std::optional<double> focal,
                      std::optional<double> extent, double near, double far) {
@@ -190,8 +200,6 @@ void bind_importing(Module& core) {
   core.def("cameras_from_json", [](const std::string& text, const std::string& name) {
     Warnings warnings;
     auto cameras = read_cameras(std::string_view(text), name, warnings);
-    for (const Camera& camera : cameras)
-      require_straight(camera, "Python has no lenses; render with the command fathom render");
     return std::pair(std::move(cameras), std::move(warnings));
   });
   core.def("cameras_to_json", [](const std::vector<Camera>& cameras) { return to_json(cameras); });
@@ -273,6 +281,7 @@ void bind_camera(Module& core) {
       .def_property_readonly("cy", number(&Projection::cy))
       .def_property_readonly("skew", number(&Projection::skew))
       .def_property_readonly("pixel_centre", number(&Projection::pixel_centre))
+      .def_property_readonly("lens", &lens_of)
       .def_readonly("world_to_camera", &Camera::world_to_camera)
       .def_readonly("near", &Camera::near)
       .def_readonly("far", &Camera::far)

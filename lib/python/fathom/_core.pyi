@@ -66,6 +66,7 @@ class Camera:
     cy: float
     skew: float
     pixel_centre: float
+    lens: tuple[str, list[float], float] | None
     near: float
     far: float
     world_to_camera: list[list[float]]

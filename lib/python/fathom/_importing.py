@@ -45,8 +45,9 @@ def from_colmap(
     """The cameras of a COLMAP model (cameras and images, .bin or .txt), by the names of their
     images.
 
-    Cameras with lens distortion are left out with a ViewWarning; with `ignore_distortion` their
-    pinhole part is used. Raises InputError if no camera is left.
+    Lenses are taken over as they are (docs/lenses.md). Cameras with another lens are left out with
+    a ViewWarning; with `ignore_distortion` all lenses are pinholes. Raises InputError if no camera
+    is left.
     """
     return _named(cls, _core.import_colmap(path_of("folder", folder), ignore_distortion))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import os
 from collections.abc import Iterable, Sequence
@@ -67,8 +68,14 @@ class Camera:
                      is the most common error.
     world_to_camera  4×4 or 3×4, [R | t]; x right, y down, z forward (OpenCV's axes). R need not be
                      a rotation.
-    near, far        range of planar depths that are rendered, in scene units
+    near, far        range of planar depths that are rendered, in scene units; of ray distances for
+                     the models DIVISION, SIMPLE_DIVISION and FISHEYE_STEREOGRAPHIC
     name             name of the camera's image; it does not change the map
+    model            model of the lens, as "OPENCV" (docs/lenses.md); without it the lens bends no ray
+    distortion       its numbers of distortion, in the model's order
+    params           all parameters of the model in its order, in place of fx, fy, cx, cy, skew and
+                     distortion
+    max_radius       where the lens ends, on the plane z = 1
 
     >>> camera = Camera(640, 480, 500, 500, 320, 240, pixel_centre=0.5)
     >>> camera.K
@@ -87,10 +94,10 @@ class Camera:
         self,
         width: int,
         height: int,
-        fx: float,
-        fy: float,
-        cx: float,
-        cy: float,
+        fx: float | None = None,
+        fy: float | None = None,
+        cx: float | None = None,
+        cy: float | None = None,
         *,
         pixel_centre: float,
         skew: float = 0,
@@ -99,8 +106,32 @@ class Camera:
         near: float = 0,
         far: float = math.inf,
         name: str = "",
+        model: str | None = None,
+        distortion: npt.ArrayLike = (),
+        params: npt.ArrayLike | None = None,
+        max_radius: float = math.inf,
     ) -> None:
         size = as_size((width, height))
+        if params is not None:
+            if model is None:
+                raise ValueError("params: expected a model, whose parameters they are")
+            if not all(each is None for each in (fx, fy, cx, cy)):
+                raise ValueError("params: has fx, fy, cx and cy; leave these out")
+            keys: dict[str, object] = {"params": _list("params", params)}
+        else:
+            given = {"fx": fx, "fy": fy, "cx": cx, "cy": cy}
+            for key, value in given.items():
+                if value is None:
+                    raise TypeError(f"{key}: missing")
+            keys = {"K": [[as_number("fx", fx), as_number("skew", skew), as_number("cx", cx)],
+                          [0, as_number("fy", fy), as_number("cy", cy)], [0, 0, 1]]} if model else {}
+        if model is not None:
+            pose = _identity if world_to_camera is None else pose_of("world_to_camera", world_to_camera)
+            lens = _list("distortion", distortion)
+            keys.update({"distortion": lens} if lens else {})
+            keys.update(model=as_text("model", model), projection=one_of("projection", projection, projections))
+            self._set_lens(size, keys, pixel_centre, pose, near, far, max_radius, as_text("name", name))
+            return
         intrinsics = [as_number(name, value) for name, value in
                       (("fx", fx), ("fy", fy), ("cx", cx), ("cy", cy), ("skew", skew))]
         pose = _identity if world_to_camera is None else pose_of("world_to_camera", world_to_camera)
@@ -130,6 +161,27 @@ class Camera:
         )
         object.__setattr__(self, "_handle", made)
 
+    def _set_lens(
+        self,
+        size: tuple[int, int],
+        keys: dict[str, object],
+        pixel_centre: object,
+        pose: Rows,
+        near: object,
+        far: object,
+        max_radius: object,
+        name: str = "",
+    ) -> None:
+        """The camera of a camera file with these keys."""
+        file = {"width": size[0], "height": size[1], **keys, "name": name,
+                "pixel_centre": as_number("pixel_centre", pixel_centre),
+                "world_to_camera": [list(row) for row in pose], "near": as_number("near", near)}
+        for key, value in (("far", far), ("max_radius", max_radius)):
+            number = as_number(key, value)
+            if number != math.inf:
+                file[key] = number
+        object.__setattr__(self, "_handle", Camera.from_json(json.dumps(file))._handle)
+
     @classmethod
     def _of(cls, core: _core.Camera) -> Camera:
         camera = cls.__new__(cls)
@@ -147,14 +199,17 @@ class Camera:
         size: Size,
         *,
         pixel_centre: float,
+        distortion: npt.ArrayLike | None = None,
         near: float = 0,
         far: float = math.inf,
     ) -> Camera:
         """A camera from OpenCV's matrices.
 
-        K     3×3: fx skew cx / 0 fy cy / 0 0 1, in pixels
-        T     4×4 or 3×4, world to camera, x right, y down, z forward
-        size  (width, height) in pixels
+        K           3×3: fx skew cx / 0 fy cy / 0 0 1, in pixels
+        T           4×4 or 3×4, world to camera, x right, y down, z forward
+        size        (width, height) in pixels
+        distortion  4, 5, 8, 12 or 14 numbers, as cv2.calibrateCamera() returns them: the lens is
+                    the model OPENCV_14
 
         K from cv2.calibrateCamera() has pixel_centre 0; K exported by COLMAP has 0.5.
 
@@ -164,7 +219,13 @@ class Camera:
         """
         camera = cls.__new__(cls)
         width_and_height, intrinsics, pose = as_size(size), intrinsics_of(K), pose_of("T", T)
-        camera._set(width_and_height, "perspective", intrinsics, pixel_centre, pose, near, far)
+        numbers = [] if distortion is None else _list("distortion", distortion)
+        if numbers:
+            fx, fy, cx, cy, skew = intrinsics
+            keys = {"model": "OPENCV_14", "K": [[fx, skew, cx], [0, fy, cy], [0, 0, 1]], "distortion": numbers}
+            camera._set_lens(width_and_height, keys, pixel_centre, pose, near, far, math.inf)
+        else:
+            camera._set(width_and_height, "perspective", intrinsics, pixel_centre, pose, near, far)
         return camera
 
     @classmethod
@@ -349,6 +410,21 @@ class Camera:
         return self._handle.pixel_centre
 
     @property
+    def model(self) -> str | None:
+        """The model of the lens, as "OPENCV"; None for a camera without a lens."""
+        return self._handle.lens[0] if self._handle.lens else None
+
+    @property
+    def distortion(self) -> list[float]:
+        """The numbers of distortion of the lens, in the order of its model."""
+        return self._handle.lens[1] if self._handle.lens else []
+
+    @property
+    def max_radius(self) -> float:
+        """Where the lens ends; inf without a bound."""
+        return self._handle.lens[2] if self._handle.lens else math.inf
+
+    @property
     def near(self) -> float:
         return self._handle.near
 
@@ -486,10 +562,9 @@ class Camera:
 
     def with_size(self, width: int, height: int) -> Camera:
         """The same camera with another image size and the same principal point in pixels."""
-        return Camera(width, height, self.fx, self.fy, self.cx, self.cy,
-                      pixel_centre=self.pixel_centre, skew=self.skew,
-                      world_to_camera=self.world_to_camera, projection=self.projection,
-                      near=self.near, far=self.far, name=self.name)
+        keys = json.loads(self.to_json())
+        keys["width"], keys["height"] = as_size((width, height))
+        return Camera.from_json(json.dumps(keys))
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError("a Camera does not change: make another one")
@@ -532,7 +607,7 @@ class Camera:
         numbers = " ".join(f"{each}={getattr(self, each):.10g}," for each in names)
         skew = f" skew={self.skew:.10g}," if self.skew else ""
         name = f", name={self.name!r}" if self.name else ""
-        return (f"Camera({self.width}×{self.height}, {self.projection}, {numbers}{skew} "
+        return (f"Camera({self.width}×{self.height}, {self.model or self.projection}, {numbers}{skew} "
                 f"pixel_centre={self.pixel_centre:.10g}{name})")
 
 
@@ -541,6 +616,12 @@ _identity: Rows = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0))
 
 def _from_json(text: str) -> Camera:
     return Camera.from_json(text)
+
+
+def _list(name: str, value: npt.ArrayLike) -> list[float]:
+    """Numbers of any shape, as OpenCV's 1×5."""
+    numbers = np.asarray(value, np.float64)
+    return as_finite(name, numbers.ravel(), (numbers.size,)).tolist()
 
 
 def _point(name: str, value: npt.ArrayLike) -> list[float]:

@@ -1,0 +1,156 @@
+"""Cameras with lenses: OpenCV and formulas of COLMAP and Nerfstudio, written down again, take the points that a map
+shows back to the centres of its pixels."""
+
+import copy
+import json
+import pickle
+
+import cv2
+import numpy as np
+import pytest
+
+import fathom
+
+pose = np.array([[0.8, 0.0, 0.6, 0.1], [0.0, 1.0, 0.0, -0.05], [-0.6, 0.0, 0.8, 3.0]])
+size = (64, 48)
+intrinsics = np.array([[52.0, 0, 32.5], [0, 55.0, 23.25], [0, 0, 1]])
+opencv_distortions = [
+    [-0.25, 0.06, 0.001, -0.0005],
+    [-0.25, 0.06, 0.001, -0.0005, 0.01],
+    [0.1, -0.06, 0.004, 0.003, 0.02, 0.3, -0.05, 0.01],
+    [0.1, -0.06, 0.004, 0.003, 0.02, 0.3, -0.05, 0.01, 0.002, -0.001, 0.003, 0.0005],
+    [0.1, -0.06, 0.004, 0.003, 0.02, 0.3, -0.05, 0.01, 0.002, -0.001, 0.003, 0.0005, 0.05, -0.08],
+]
+
+
+def shown_points(camera):
+    """The points that a wall of two triangles shows in the camera's frame, and the pixels that show them."""
+    corners = np.array([(-40, -40, 2.5), (40, -40, 3.5), (40, 40, 3.5), (-40, 40, 2.5)], np.float64)
+    rotation, shift = camera.world_to_camera[:3, :3], camera.world_to_camera[:3, 3]
+    world = np.linalg.solve(rotation, (corners - shift).T).T
+    scene = fathom.Scene()
+    scene.add_mesh(world, [(0, 1, 2), (0, 2, 3)])
+    maps = scene.render(camera, channels=("P", "id", "valid"))
+    shown = maps["id"] != fathom.NO_SURFACE
+    assert (maps["valid"][shown] == 1).all() and shown.sum() > 100
+    rows, columns = np.nonzero(shown)
+    points = maps["P"][shown].astype(np.float64) @ rotation.T + shift
+    return points, np.c_[columns, rows]
+
+
+def check(camera, project, pixel_centre):
+    """Points are rounded to binary32, which is about 10⁻⁵ pixel here."""
+    points, pixels = shown_points(camera)
+    np.testing.assert_allclose(project(points), pixels + pixel_centre, atol=1e-4)
+
+
+@pytest.mark.parametrize("distortion", opencv_distortions)
+def test_opencv_takes_the_points_of_a_map_back_to_its_pixels(distortion):
+    camera = fathom.Camera.from_opencv(intrinsics, pose, size, pixel_centre=0, distortion=distortion)
+    assert camera.model == "OPENCV_14" and camera.distortion == distortion + [0] * (14 - len(distortion))
+
+    def project(points):
+        return cv2.projectPoints(points, np.zeros(3), np.zeros(3), intrinsics, np.array(distortion))[0][:, 0]
+
+    check(camera, project, 0)
+
+
+def test_shorter_opencv_models_are_the_longest():
+    for distortion, model in ((opencv_distortions[0], "OPENCV"), (opencv_distortions[2], "FULL_OPENCV")):
+        long = fathom.Camera.from_opencv(intrinsics, pose, size, pixel_centre=0.5, distortion=distortion)
+        short = fathom.Camera(*size, 52, 55, 32.5, 23.25, pixel_centre=0.5, world_to_camera=pose, model=model,
+                              distortion=distortion)
+        assert short.model == model and short != long
+        for mine, other in zip(shown_points(short), shown_points(long)):
+            np.testing.assert_array_equal(mine, other)
+
+
+def radial(*k):
+    """COLMAP's models with a polynomial in r², Nerfstudio's with four terms."""
+    def project(points):
+        x, y = points[:, 0] / points[:, 2], points[:, 1] / points[:, 2]
+        squared = x * x + y * y
+        factor = 1 + sum(each * squared ** (i + 1) for i, each in enumerate(k))
+        return np.c_[50 * x * factor + 32, 50 * y * factor + 24]
+    return project
+
+
+@pytest.mark.parametrize("model, params, project", [
+    ("SIMPLE_PINHOLE", [50, 32, 24], radial()),
+    ("PINHOLE", [50, 50, 32, 24], radial()),
+    ("SIMPLE_RADIAL", [50, 32, 24, -0.2], radial(-0.2)),
+    ("RADIAL", [50, 32, 24, -0.2, 0.05], radial(-0.2, 0.05)),
+    ("BROWN", [50, 50, 32, 24, -0.2, 0.05, 0.02, -0.01, 0, 0], radial(-0.2, 0.05, 0.02, -0.01)),
+])
+def test_points_of_other_models_go_back_to_their_pixels(model, params, project):
+    camera = fathom.Camera(*size, pixel_centre=0.5, world_to_camera=pose, model=model, params=params)
+    check(camera, project, 0.5)
+
+
+@pytest.mark.parametrize("model, params, k", [
+    ("SIMPLE_DIVISION", [50, 32, 24, -0.3], -0.3),
+    ("DIVISION", [50, 50, 32, 24, 0.2], 0.2),
+    ("FISHEYE_STEREOGRAPHIC", [50, 50, 32, 24], -0.25),
+])
+def test_the_division_model_undistorts_by_division(model, params, k):
+    camera = fathom.Camera(*size, pixel_centre=0.5, world_to_camera=pose, model=model, params=params)
+    points, pixels = shown_points(camera)
+    distorted = (pixels + 0.5 - (32, 24)) / 50
+    undistorted = distorted / (1 + k * (distorted**2).sum(axis=1, keepdims=True))
+    np.testing.assert_allclose(points[:, :2] / points[:, 2:], undistorted, atol=1e-5)
+
+
+def test_lenses_are_kept():
+    camera = fathom.Camera(*size, 52, 55, 32.5, 23.25, pixel_centre=0, world_to_camera=pose, model="OPENCV", skew=0.5,
+                           distortion=opencv_distortions[0], max_radius=0.9, name="a.png", near=1, far=9)
+    assert (camera.model, camera.distortion, camera.max_radius) == ("OPENCV", opencv_distortions[0], 0.9)
+    for same in (fathom.Camera.from_json(camera.to_json()), pickle.loads(pickle.dumps(camera)), copy.deepcopy(camera)):
+        assert same == camera and hash(same) == hash(camera)
+    assert camera.with_size(32, 24).distortion == camera.distortion
+    assert (camera.with_size(32, 24).fx, camera.with_size(32, 24).width) == (52, 32)
+    assert camera.scaled(0.5).fx == 26 and camera.scaled(0.5).model == "OPENCV"
+    assert "OPENCV" in repr(camera)
+    keys = json.loads(camera.to_json())
+    assert (keys["model"], keys["k1"], keys["max_radius"], keys["skew"]) == ("OPENCV", -0.25, 0.9, 0.5)
+    # An image of other proportions has two focal lengths.
+    one = fathom.Camera(*size, pixel_centre=0.5, model="SIMPLE_RADIAL", params=[50, 32, 24, -0.2])
+    other = one.scaled(size=(64, 24))
+    assert (other.model, other.distortion, other.fx, other.fy) == ("OPENCV", [-0.2, 0, 0, 0], 50, 25)
+    plain = fathom.Camera(*size, 52, 55, 32.5, 23.25, pixel_centre=0)
+    assert (plain.model, plain.distortion, plain.max_radius) == (None, [], np.inf)
+
+
+def test_what_has_no_ray_shows_nothing():
+    camera = fathom.Camera(*size, pixel_centre=0.5, model="SIMPLE_RADIAL", params=[20, 32, 24, -0.25])
+    scene = fathom.Scene()
+    scene.add_mesh([(-99, -99, 2), (99, -99, 2), (0, 99, 2)], [(0, 1, 2)])
+    maps = scene.render(camera, channels=("Z", "valid", "id"))
+    valid = maps["valid"] == 1
+    assert 0 < valid.sum() < valid.size and np.isinf(maps["Z"][~valid]).all()
+    # The fold is at r = 1/√(3·0.25), whose image is at r·(1 − 1/3).
+    y, x = np.mgrid[0:48, 0:64] + 0.5
+    radius = np.hypot(x - 32, y - 24) / 20
+    assert (valid == (radius < np.sqrt(4 / 3) * 2 / 3)).all()
+    assert (scene.render(fathom.Camera(*size, 20, 20, 32, 24, pixel_centre=0.5), channels="valid")["valid"] == 1).all()
+
+
+@pytest.mark.parametrize("changes, error, words", [
+    ({"model": "OPENVC", "distortion": [0.1]}, ValueError, "did you mean 'OPENCV'"),
+    ({"model": "OPENCV", "distortion": [0.1]}, ValueError, "found 1 number, OPENCV has 4"),
+    ({"model": "OPENCV", "distortion": [np.nan] * 4}, ValueError, "distortion"),
+    ({"params": [50, 32, 24, 0]}, ValueError, "params: expected a model"),
+    ({"model": "SIMPLE_RADIAL", "params": [50, 32, 24, 0]}, ValueError, "params: has fx"),
+    ({"model": "OPENCV", "projection": "orthographic"}, ValueError, "an orthographic camera has no lens"),
+])
+def test_what_a_lens_refuses(changes, error, words):
+    with pytest.raises(error, match=words) as raised:
+        fathom.Camera(*size, 52, 55, 32.5, 23.25, pixel_centre=0, **changes)
+    assert "\n" not in str(raised.value)
+
+
+def test_what_needs_straight_edges_says_so(spot):
+    camera = fathom.Camera(*size, pixel_centre=0.5, model="SIMPLE_RADIAL", params=[50, 32, 24, -0.2])
+    for call in (lambda: camera.project([(0, 0, 1)]), camera.rays, lambda: spot.render(camera, channels=("Z", "A")),
+                 lambda: spot.render_deep(camera)):
+        with pytest.raises(ValueError, match="the lens SIMPLE_RADIAL: "):
+            call()
