@@ -62,8 +62,9 @@ using LensParts = std::tuple<std::string, std::vector<double>, double>;
 std::optional<LensParts> lens_of(const Camera& camera) {
   const std::optional<Lens>& lens = camera.projection.lens;
   if (!lens) return std::nullopt;
-  const auto count = static_cast<std::ptrdiff_t>(entry_of(lens->model).distortion.size());
-  return LensParts(name_of(lens->model), {lens->distortion.begin(), lens->distortion.begin() + count},
+  const auto* const first = lens->distortion.begin();
+  return LensParts(name_of(lens->model),
+                   std::vector<double>(first, first + entry_of(lens->model).distortion.size()),
                    lens->max_radius);
 }
 
