@@ -286,13 +286,14 @@ TEST_F(CameraCommands, LensesOfColmapAreRenderedAsTheyAre) {
   EXPECT_EQ(file("cameras.json")["model"], "SIMPLE_RADIAL");
   EXPECT_EQ(file("cameras.json")["k"], -0.1);
   EXPECT_FALSE(file("pinhole.json").contains("model"));
-  fathom({"render", "square.obj", "--camera", "cameras.json", "-o", "lens.exr"});
-  fathom({"render", "square.obj", "--camera", "pinhole.json", "-o", "pinhole.exr"});
-  const Outcome same = run_fathom({"compare", "lens.exr", "pinhole.exr", "--channel", "Z"},
-                                  {.folder = folder_.path()});
+  fathom({"render", "square.obj", "--camera", "cameras.json", "--channels", "P", "-o", "lens.exr"});
+  fathom(
+      {"render", "square.obj", "--camera", "pinhole.json", "--channels", "P", "-o", "pinhole.exr"});
+  const Outcome same =
+      run_fathom({"compare", "lens.exr", "pinhole.exr"}, {.folder = folder_.path()});
   EXPECT_EQ(same.status, 1);
   // The map carries its camera, and is drawn again by it.
-  fathom({"render", "square.obj", "--camera", "lens.exr", "-o", "again.exr"});
+  fathom({"render", "square.obj", "--camera", "lens.exr", "--channels", "P", "-o", "again.exr"});
   EXPECT_EQ(run_fathom({"compare", "lens.exr", "again.exr"}, {.folder = folder_.path()}).status, 0);
 }
 

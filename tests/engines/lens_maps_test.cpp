@@ -88,7 +88,10 @@ class LensCaseMaker {
         break;
     }
     Projection& projection = c.view.camera.projection;
-    if (entry_of(model).intrinsics.front() == "f") projection.fy = projection.fx;
+    if (entry_of(model).intrinsics.front() == "f") {
+      projection.fy = projection.fx;
+      projection.skew = 0;
+    }
     projection.lens = lens;
   }
 

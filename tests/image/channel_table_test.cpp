@@ -19,7 +19,7 @@ TEST(ChannelTable, NamesLeadToChannelsAndBack) {
       EXPECT_TRUE(names.insert(name).second) << name;
     }
   }
-  EXPECT_EQ(names.size(), 16U - 5 + 4 * 3 + 2);
+  EXPECT_EQ(names.size(), 17U - 5 + 4 * 3 + 2);
   EXPECT_EQ(channel_named("z"), std::nullopt);
   EXPECT_EQ(channel_named("N.X"), std::nullopt);
   EXPECT_EQ(channel_named(""), std::nullopt);

@@ -151,6 +151,6 @@ def test_what_a_lens_refuses(changes, error, words):
 def test_what_needs_straight_edges_says_so(spot):
     camera = fathom.Camera(*size, pixel_centre=0.5, model="SIMPLE_RADIAL", params=[50, 32, 24, -0.2])
     for call in (lambda: camera.project([(0, 0, 1)]), camera.rays, lambda: spot.render(camera, channels=("Z", "A")),
-                 lambda: spot.render_deep(camera)):
+                 lambda: fathom.render_deep(spot, camera)):
         with pytest.raises(ValueError, match="the lens SIMPLE_RADIAL: "):
             call()

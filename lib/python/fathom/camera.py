@@ -222,7 +222,7 @@ class Camera:
         numbers = [] if distortion is None else _list("distortion", distortion)
         if numbers:
             fx, fy, cx, cy, skew = intrinsics
-            keys = {"model": "OPENCV_14", "K": [[fx, skew, cx], [0, fy, cy], [0, 0, 1]], "distortion": numbers}
+            keys: dict[str, object] = {"model": "OPENCV_14", "K": [[fx, skew, cx], [0, fy, cy], [0, 0, 1]], "distortion": numbers}
             camera._set_lens(width_and_height, keys, pixel_centre, pose, near, far, math.inf)
         else:
             camera._set(width_and_height, "perspective", intrinsics, pixel_centre, pose, near, far)
@@ -621,7 +621,7 @@ def _from_json(text: str) -> Camera:
 def _list(name: str, value: npt.ArrayLike) -> list[float]:
     """Numbers of any shape, as OpenCV's 1×5."""
     numbers = np.asarray(value, np.float64)
-    return as_finite(name, numbers.ravel(), (numbers.size,)).tolist()
+    return [float(each) for each in as_finite(name, numbers.ravel(), (numbers.size,))]
 
 
 def _point(name: str, value: npt.ArrayLike) -> list[float]:

@@ -433,6 +433,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         Ns: npt.NDArray[np.float32]
         P: npt.NDArray[np.float32]
         bary: npt.NDArray[np.float32]
+        valid: npt.NDArray[np.uint32]
     else:
 
         def __getattr__(self, name):
