@@ -83,9 +83,9 @@ class DiscSearch {
     return std::bit_cast<double>(regular);
   }
 
-  /// Discs that are smaller by 2⁻⁴⁸, 2⁻⁴⁰, …, ½ of the candidate.
+  /// Discs that are smaller by 2⁻⁴⁸, 2⁻²⁴, …, ½ of the candidate.
   [[nodiscard]] double greatest_proved_below(double candidate) const {
-    for (int power = -48; power < 0; power += power < -8 ? 8 : 1) {
+    for (int power = -48; power < 0; power /= 2) {
       const double q = std::min(candidate, greatest) * (1 - std::ldexp(1.0, power));
       if (stage_.holds_on_circle(q) && verdict_on(q).verdict == Verdict::holds) return q;
     }

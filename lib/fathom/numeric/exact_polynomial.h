@@ -51,7 +51,7 @@ T horner(const std::vector<T>& coefficients, const T& x) {
 ExactPolynomial primitive(const ExactPolynomial& p);
 
 /// Counts real roots exactly, each once, whatever its multiplicity.
-/// Source   [Sturm 1829], with primitive pseudo-remainders
+/// Sturm's theorem, with primitive pseudo-remainders.
 class SturmChain {
  public:
   /// Of a polynomial other than 0.
@@ -77,7 +77,7 @@ std::optional<double> greatest_before_positive_root(const ExactPolynomial& p);
 /// an integer other than 0, the product of p^m and all h(qᵢ), qᵢ the roots of P; each of the others
 /// is at most ‖h‖₁·max(1, |qᵢ|)^m; and p·Π max(1, |qᵢ|), the measure of P, is at most that of f,
 /// which is at most ‖f‖₂ (Landau).
-/// Source   [Mignotte, Mathematics for Computer Algebra]
+/// (Mignotte, Mathematics for Computer Algebra.)
 long zero_bound_bits(const ExactPolynomial& f, const ExactPolynomial& h);
 
 }  // namespace fathom
