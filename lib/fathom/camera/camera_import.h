@@ -11,9 +11,9 @@
 
 /// Cameras of other programs, converted to Fathom's; docs/conventions.md has the formulas. A lens
 /// with distortion is taken over where there is a model for it (lens_model.h); otherwise an import
-/// reports the distortion that it leaves out, unless all its parameters are exactly 0. Entries that follow from a formula (quaternions, inverses, projection
-/// matrices, focal lengths of angles) are the exact numbers, rounded to binary64 once
-/// (docs/conventions.md#rounding).
+/// reports the distortion that it leaves out, unless all its parameters are exactly 0. Entries that
+/// follow from a formula (quaternions, inverses, projection matrices, focal lengths of angles) are
+/// the exact numbers, rounded to binary64 once (docs/conventions.md#rounding).
 ///
 /// All fail with InputError, one line that names the file and the line or key, if the file as a
 /// whole is invalid. The fault of a single camera is stored with that camera, so that it matters
@@ -41,8 +41,8 @@ struct CameraChoice {
 };
 
 /// The chosen cameras, in order. Cameras with a lens that has no model here are left out with a
-/// warning that counts them, unless distortion is ignored; so are images without a camera. `input` is the file's name
-/// for messages.
+/// warning that counts them, unless distortion is ignored; so are images without a camera. `input`
+/// is the file's name for messages.
 /// Fails    InputError if a chosen camera has a fault, if the chosen image is missing, has no
 ///          camera or a lens with distortion, or if no camera is left.
 std::vector<Camera> chosen_cameras(const std::vector<ImportedCamera>& imported,

@@ -28,8 +28,9 @@ std::optional<RationalDirection> divide(const DistortedPoint& y, const Dyadic& k
   return RationalDirection({y.a * y.c, y.b * y.c, c_squared + term}, c_squared);
 }
 
-/// Whether the angle between d and the z axis is at most `radius` > 0: the sign of z − |d|·cos(radius). The
-/// cosine of a rational number other than 0 is transcendental, so it is never 0.
+/// Whether the angle between d and the z axis is at most `radius` > 0: the sign of z −
+/// |d|·cos(radius). The cosine of a rational number other than 0 is transcendental, so it is never
+/// 0.
 bool is_within_angle(const ExactVector3& d, double radius) {
   if (radius > std::numbers::pi) return true;  // the next number after π's nearest is above π
   const Dyadic squared_length = dot(d, d);

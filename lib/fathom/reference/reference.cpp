@@ -19,8 +19,8 @@
 
 // How to read this file: render_reference() at the end is the whole story. The image is cut into
 // bands of rows. For each band, every triangle whose box meets it is tested at every sample of its
-// box, in the order of the triangles' numbers, and the nearest is kept. Where the camera bends rays,
-// a sample is the exact direction of its ray, and some samples have none.
+// box, in the order of the triangles' numbers, and the nearest is kept. Where the camera bends
+// rays, a sample is the exact direction of its ray, and some samples have none.
 namespace fathom {
 using namespace area;
 using namespace reference;

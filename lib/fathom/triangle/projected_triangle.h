@@ -57,8 +57,9 @@ Ratio interpolate(const ProjectedTriangle& triangle, const ImagePoint& s,
 /// D(s) at a covered sample, exactly.
 Ratio depth_at(const ProjectedTriangle& triangle, const ImagePoint& s);
 
-/// A certified box where edges are straight: around the corners' images if all are in front of the camera; empty if none is
-/// (every point of the triangle then has D ≤ 0); otherwise the whole image.
+/// A certified box where edges are straight: around the corners' images if all are in front of the
+/// camera; empty if none is (every point of the triangle then has D ≤ 0); otherwise the whole
+/// image.
 PixelBox bounding_box(const ProjectedTriangle& triangle, const Camera& camera);
 
 }  // namespace fathom::triangle

@@ -7,8 +7,9 @@
 #include "fathom/numeric/real.h"
 
 /// Values of a surface along the ray of a sample, where a camera bends rays: quotients of forms of
-/// the ray's direction, as numbers that round correctly. A direction need not be rational: roundings
-/// are decided by enclosures, and by the sign of a form where a value may lie where rounding steps.
+/// the ray's direction, as numbers that round correctly. A direction need not be rational:
+/// roundings are decided by enclosures, and by the sign of a form where a value may lie where
+/// rounding steps.
 namespace fathom::triangle {
 
 /// numerator(d) / denominator(d).
