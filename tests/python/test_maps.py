@@ -290,3 +290,51 @@ def test_files_that_cannot_be_read_or_written(map, tmp_path):
 def write_to_full_disk(map, folder):
     (folder / "full.exr").symlink_to("/dev/full")
     map.write(folder / "full.exr")
+
+
+def test_normals_are_colours_and_are_read_again(spot, camera, tmp_path):
+    maps = spot.render(camera, channels=("N", "Nc", "id"))
+    surface = maps["id"] != fathom.NO_SURFACE
+    for channel, bits, axes in (("N", 8, "opencv"), ("Nc", 16, "opencv"), ("Nc", 8, "opengl")):
+        file = tmp_path / f"{channel}{bits}{axes}.png"
+        maps.write(file, channel=channel, normal_bits=bits, normal_axes=axes)
+        again = fathom.read_map(file)
+        assert set(again) == {channel} and again.camera == camera
+        assert (again[channel][~surface] == 0).all()
+        assert np.abs(again[channel] - maps[channel])[surface].max() <= 1.001 / (2**bits - 1)
+    for more, text in (({"normal_bits": 12}, "normal_bits: expected 8 or 16"),
+                       ({"normal_axes": "blender"}, "normal_axes: expected 'opencv', 'opengl'"),
+                       ({"normal_axes": "opengl"}, "normal_axes: those of OpenGL are for channel Nc")):
+        with pytest.raises(ValueError, match=text):
+            maps.write(tmp_path / "n.png", channel="N", **more)
+
+
+def test_masks_are_those_of_the_map(camera, tmp_path):
+    scene = fathom.Scene.read(source / "data/scenes/pair.json")
+    maps = scene.render(fathom.Camera.frame(scene, size=(60, 40)), channels=("Z", "object"))
+    maps.write_mask(tmp_path / "masks/all.png")
+    assert (fathom.read_map(tmp_path / "masks/all.png")["mask"] == maps.mask()).all()
+    for k in range(len(maps.objects)):
+        maps.write_mask(tmp_path / f"{k}.png", object=k)
+        mask = fathom.read_map(tmp_path / f"{k}.png")["mask"]
+        assert (mask == (maps["object"] == k)).all() and mask.any()
+    with pytest.raises(ValueError, match="expected a name that ends in .png"):
+        maps.write_mask(tmp_path / "mask.exr")
+    with pytest.raises(ValueError, match="the mask of an object needs channel object"):
+        fathom.Map({"Z": maps["Z"]}).write_mask(tmp_path / "no.png", object=0)
+
+
+def test_a_stack_is_one_cloud(spot, tmp_path):
+    cameras = fathom.Camera.orbit_scene(spot, 3, size=(40, 30))
+    stack = spot.render(cameras, channels=("Z", "id"))
+    stack.write_points(tmp_path / "all.ply", dtype="float32")
+    header, body = (tmp_path / "all.ply").read_bytes().split(b"end_header\n", 1)
+    assert b"property uint view" in header
+    points = np.frombuffer(body, [("xyz", "<f4", 3), ("id", "<u4"), ("view", "<u4")])
+    for k in range(3):
+        one = stack.view(k)
+        chosen = points[points["view"] == k]
+        assert (chosen["xyz"] == one.points().astype(np.float32)).all()
+        assert (chosen["id"] == one["id"][one.mask()]).all()
+    with pytest.raises(ValueError, match="write a cloud in the world"):
+        stack.write_points(tmp_path / "no.ply", frame="camera")

@@ -9,11 +9,13 @@
 
 #include "bindings.h"
 #include "fathom/failures/errors.h"
+#include "fathom/files/file_bytes.h"
 #include "fathom/image/background.h"
 #include "fathom/image/channel_names.h"
 #include "fathom/image/convert.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/map_texts.h"
+#include "fathom/image/png_files.h"
 #include "fathom/image/point_cloud.h"
 #include "fathom/rendering/option_names.h"
 #include "objects.h"
@@ -73,12 +75,13 @@ SharedMap read(const std::filesystem::path& path) {
 void write(const SharedMap& map, const std::filesystem::path& path, const std::string& channel,
            const std::string& compression, int threads,
            const std::vector<std::pair<std::string, std::string>>& names,
-           const std::optional<Camera>& camera) {
+           const std::optional<Camera>& camera, int normal_bits, const std::string& normal_axes) {
   const MapFormat format = require_map_format(path);
   WriteOptions options;
   options.channel = channel;
   options.camera = camera;
   options.threads = threads;
+  options.normals = {normal_bits, named_value("normal_axes", all_normal_axes, normal_axes)};
   options.compression = named_value("compression", all_compressions, compression);
   std::vector<ChannelName> others;
   others.reserve(names.size());
@@ -110,12 +113,22 @@ SharedMap store(const DepthMap& map, const std::string& channel, const std::stri
   });
 }
 
-void write_points(const DepthMap& map, const Camera& camera, const std::filesystem::path& path,
-                  const std::string& frame, bool binary64) {
-  PointCloudOptions options;
-  options.frame = named_value("frame", all_point_frames, frame);
-  options.binary64 = binary64;
-  run([&](const auto&) { write_point_cloud(map, camera, path, options); });
+void write_mask(const SharedMap& map, const std::filesystem::path& path,
+                std::optional<std::uint32_t> object) {
+  run([&](const auto&) { files::write_file(path, encode_mask(*map, path.string(), object)); });
+}
+
+/// One cloud of the points of all maps.
+void write_points(const std::vector<SharedMap>& maps, const std::vector<Camera>& cameras,
+                  const std::filesystem::path& path, const std::string& frame, bool binary64) {
+  const PointFrame chosen = named_value("frame", all_point_frames, frame);
+  run([&](const auto&) {
+    PointCloud cloud({.frame = chosen, .binary64 = binary64, .numbers_views = maps.size() > 1});
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+      cloud.add(*maps[i], cameras[i], "view " + std::to_string(i));
+    }
+    files::write_file(path, cloud.encode());
+  });
 }
 
 /// N×3.
@@ -175,16 +188,15 @@ void bind_maps(Module& core) {
               std::optional<double> scale) { return store(*map, channel, type, scale); });
   core.def("points", &points);
   core.def("set_background", &set_background);
-  core.def("write_point_cloud",
-           [](const SharedMap& map, const Camera& camera, const std::filesystem::path& path,
-              const std::string& frame,
-              bool binary64) { write_points(*map, camera, path, frame, binary64); });
+  core.def("write_mask", &write_mask);
+  core.def("write_point_cloud", &write_points);
   core.attr("background_text") = background_text;
   core.attr("camera_text") = camera_text;
   core.attr("normals_text") = normals_text;
   core.attr("compressions") = names_of(all_compressions);
   core.attr("quantities") = names_of(all_depth_quantities);
   core.attr("point_frames") = names_of(all_point_frames);
+  core.attr("normal_axes") = names_of(all_normal_axes);
 }
 
 }  // namespace fathom::python

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from ._arguments import HasScene as Scene
     from ._arguments import Numbers
     from ._shown import Picture
-    from .names import Compression, Cull, Frame
+    from .names import Compression, Cull, Frame, NormalAxes
 
 #: The value of id, face, object, material, group, part and label without a surface.
 NO_SURFACE = _core.no_surface
@@ -48,6 +48,7 @@ segment_channels = tuple(_core.segment_channels)
 parts_of = {name: parts for name, (parts, _) in rendered.items() if parts}
 
 quantities = tuple(_core.quantities)
+normal_axes_names = tuple(_core.normal_axes)
 
 #: Larger maps are described without ranges, which would take a second.
 most_numbers_to_describe = 2**27
@@ -128,19 +129,24 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         names: Mapping[str, str] | None = None,
         compression: Compression = "zip",
         threads: int = 0,
+        normal_bits: int = 8,
+        normal_axes: NormalAxes = "opencv",
     ) -> None:
         """Writes the map; the suffix of the file selects the format. Creates missing folders.
 
         .exr, .npz        all channels, with camera and metadata
         .npy, .pfm, .png  one channel, selected by `channel` if the map has several. .npy: also
-                          channels with several parts; .png: identifiers, codes of uint16 and, with
-                          `scale`, depths
+                          channels with several parts; .png: identifiers, codes of uint16, with
+                          `scale` depths, and normals (N, Nc, Ns) as RGB
         .bin              a dense map of COLMAP: Z, or Nc if `channel` is Nc; 0 without a surface
         .tif              a GeoTIFF for other programs, a band per channel. The camera must be
                           orthographic and look straight along the world's z axis
 
         scale  codes of uint16 per scene unit for a .png of depths, as by stored_as("uint16",
                scale=…)
+        normal_bits, normal_axes  of a .png of normals: 8 or 16 bits a colour, each (n + 1)/2·(2^bits
+               − 1), rounded once, ties to even; 0, 0, 0 without a surface. "opengl" negates y and z
+               of Nc, which has OpenCV's axes (x right, y down, z forward)
         compression  of an EXR, lossless: none, rle, zips, zip or piz
         names  names of channels in an EXR: {"Z": "Y"} is for cv2.imread(), which only reads R, G, B
                and Y
@@ -162,7 +168,22 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         _core.require_map_name(path_of("file", file))
         make_folder_of(file)
         _core.write_map(handle, path_of("file", file), asked, compressed,
-                        as_threads(threads), others, None if self.camera is None else camera_handle(self.camera))
+                        as_threads(threads), others, None if self.camera is None else camera_handle(self.camera),
+                        as_count("normal_bits", normal_bits, 8, 16), one_of("normal_axes", normal_axes, normal_axes_names))
+
+    def write_mask(self, file: Path, *, object: int | None = None) -> None:
+        """Writes mask() as an 8-bit PNG, 255 where the map has a surface and else 0, with the camera
+        and metadata. Creates missing folders.
+
+        object  only where channel `object` has this number, as in `objects`
+        """
+        path = path_of("file", file)
+        if not os.fsdecode(path).lower().endswith(".png"):
+            raise ValueError("file: a mask is a PNG: expected a name that ends in .png")
+        number = None if object is None else as_count("object", object, 0, NO_SURFACE - 1)
+        handle = self._handle()
+        make_folder_of(file)
+        _core.write_mask(handle, path, number)
 
     @property
     def cameras(self) -> list[Camera]:
@@ -317,14 +338,22 @@ class Map(dict[str, "npt.NDArray[Any]"]):
 
     def write_points(self, file: Path, camera: Camera | None = None, *, frame: Frame = "world",
                      dtype: npt.DTypeLike = "float64") -> None:
-        """Writes the points as PLY, with normals and identifiers if the map has them."""
+        """Writes the points as PLY, with normals and identifiers if the map has them.
+
+        Of a stack, it writes one cloud of all views in the world, with the number of each point's view
+        as `view`. A point that several views show is there several times."""
         path = path_of("file", file)
         name = one_of("dtype", np.dtype(dtype).name, ("float32", "float64"))
         one_of("frame", frame, point_frames)
-        handle, view = self._handle(), camera_handle(self._camera(camera))
+        if self._views is None:
+            maps, cameras = [self], [self._camera(camera)]
+        elif camera is not None or frame == "camera":
+            raise ValueError("map: the views of a stack have their own cameras: write a cloud in the world, or view(i)'s")
+        else:
+            maps, cameras = [self.view(i) for i in range(len(self._views))], self.cameras
+        handles = [each._handle() for each in maps]
         make_folder_of(file)
-        _core.write_point_cloud(handle, view, path, frame,
-                                name == "float64")
+        _core.write_point_cloud(handles, [camera_handle(each) for each in cameras], path, frame, name == "float64")
 
     def add_cryptomatte(self, scene: Scene, camera: Camera | None = None, *, cull: Cull = "none", threads: int = 0) -> None:
         """Adds Cryptomatte's channels by object, CryptoObject00.R and so on, with exact coverage,

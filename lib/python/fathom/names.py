@@ -20,6 +20,8 @@ Compression = Literal["none", "rle", "zips", "zip", "piz"]
 #: The compressions of deep maps.
 DeepCompression = Literal["none", "rle", "zips"]
 Frame = Literal["world", "camera"]
+#: Of normals in the camera's frame, in a PNG.
+NormalAxes = Literal["opencv", "opengl"]
 Mapping = Literal["standard", "reversed", "infinite", "reversed-infinite", "opengl", "linear", "w", "log", "log-ulrich"]
 Storage = Literal["unorm16", "unorm24", "unorm32", "float16", "float32", "float64"]
 #: The arithmetic of renderers, as docs/validation.md describes it; "auto": the model that fits best.
