@@ -8,6 +8,7 @@
 #include "apps/maps/info.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/camera/camera_files.h"
+#include "fathom/lens/preimages.h"
 #include "fathom/text/parse_json.h"
 #include "fathom/text/printable.h"
 
@@ -35,21 +36,45 @@ double degrees_of(double extent, double focal) {
   return 2 * std::atan(extent / (2 * std::abs(focal))) * 180 / std::numbers::pi;
 }
 
+/// Whether width, height and focal lengths give it.
+bool has_field_of_view(const Projection& projection) {
+  return is_perspective(projection) && !bends_rays(projection);
+}
+
+/// Q of the specification, section 2.
+double disc_of(const Projection& projection) {
+  return lens::Preimages(projection, *projection.lens).disc();
+}
+
 Json describe(const Camera& camera) {
   Json answer = text::parse_json<Json>(fathom::to_json(camera));
   const LineOfSight sight = line_of_sight(camera);
   answer["eye"] = sight.eye;
   answer["forward"] = sight.forward;
-  if (is_perspective(camera.projection)) {
+  if (has_field_of_view(camera.projection)) {
     answer["fov_degrees"] = {degrees_of(camera.width, camera.projection.fx),
                              degrees_of(camera.height, camera.projection.fy)};
   }
+  if (camera.projection.lens) answer["lens_disc"] = disc_of(camera.projection);
   return answer;
+}
+
+/// The lens, and the disc on which it is one to one.
+std::string describe_lens(const Projection& projection) {
+  const LensModelEntry& model = entry_of(projection.lens->model);
+  std::string lines = fmt::format("    lens          {}", model.name);
+  for (std::size_t i = 0; i < model.distortion.size(); ++i)
+    lines += fmt::format(", {} {}", model.distortion[i], projection.lens->distortion[i]);
+  const double disc = disc_of(projection);
+  lines += std::isinf(disc)
+               ? "\n    has rays      everywhere"
+               : fmt::format("\n    has rays      for x^2 + y^2 <= {} on the plane z = 1", disc);
+  const double end = projection.lens->max_radius;
+  return lines + (std::isinf(end) ? "\n" : fmt::format(", max_radius {}\n", end));
 }
 
 std::string describe_as_text(const Camera& camera) {
   const LineOfSight sight = line_of_sight(camera);
-  const bool perspective = is_perspective(camera.projection);
   std::string lines = fmt::format("  {} camera of {}x{} pixels\n", name_of(camera.projection.model),
                                   camera.width, camera.height);
   if (!camera.name.empty())
@@ -60,7 +85,8 @@ std::string describe_as_text(const Camera& camera) {
       "    skew          {}\n",
       camera.projection.fx, camera.projection.fy, camera.projection.cx, camera.projection.cy,
       camera.projection.pixel_centre, camera.projection.skew);
-  if (perspective) {
+  if (camera.projection.lens) lines += describe_lens(camera.projection);
+  if (has_field_of_view(camera.projection)) {
     lines += fmt::format("    field of view {:.4f} x {:.4f} degrees\n",
                          degrees_of(camera.width, camera.projection.fx),
                          degrees_of(camera.height, camera.projection.fy));
@@ -93,6 +119,7 @@ std::string in_columns(const std::vector<std::vector<std::string>>& rows) {
 }
 
 std::string field_of_view(const Camera& camera) {
+  if (camera.projection.lens) return std::string(name_of(camera.projection.lens->model));
   if (!is_perspective(camera.projection)) return std::string(name_of(camera.projection.model));
   return fmt::format("{:.2f} x {:.2f}", degrees_of(camera.width, camera.projection.fx),
                      degrees_of(camera.height, camera.projection.fy));
