@@ -13,8 +13,8 @@
 namespace fathom::app {
 
 /// How a map is stored: `--compression --png-scale --png-beyond --png-sidecar --normal-bits
-/// --normal-axes --dtype --channel-name`, each only where the format has it, and `--background`, which the command
-/// declares.
+/// --normal-axes --dtype --channel-name`, each only where the format has it, and `--background`,
+/// which the command declares.
 struct StorageOptions {
   std::optional<Compression> compression;  ///< of an EXR
   std::optional<double> png_scale;         ///< codes per unit of a PNG

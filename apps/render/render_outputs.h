@@ -9,8 +9,8 @@
 namespace fathom::app {
 
 /// The outputs of `render`: for each camera the file of each -o and, if requested, a picture and a
-/// description of the codes of each PNG; the cameras; the statistics. All are opened before the work and published together
-/// when every file is written.
+/// description of the codes of each PNG; the cameras; the statistics. All are opened before the
+/// work and published together when every file is written.
 class RenderOutputs {
  public:
   /// Fails    UsageError where the names do not fit the number of cameras; as OutputFile.

@@ -126,8 +126,7 @@ void expect_direction(const DepthMap& map, std::size_t pixel, const std::string&
     const bool is_zero = squared < least_square();
     const float magnitude = is_zero ? 0 : nearest_root(squared);
     expect_bits((*map.values<float>(part))[pixel],
-                sgn(n[i]) < 0 && !is_zero ? -magnitude : magnitude,
-                part.c_str());
+                sgn(n[i]) < 0 && !is_zero ? -magnitude : magnitude, part.c_str());
   }
 }
 
@@ -186,8 +185,8 @@ oracle::RayCaster cast_at(const Scene& scene, const Camera& camera) {
   return {ray_camera(camera), triangles_of(scene)};
 }
 
-oracle::RayCaster cast_at(const Scene& scene, const Camera& camera,
-                          const oracle::LensNumbers& lens, double greatest_q) {
+oracle::RayCaster cast_at(const Scene& scene, const Camera& camera, const oracle::LensNumbers& lens,
+                          double greatest_q) {
   oracle::RayCamera bent = ray_camera(camera);
   bent.bent = oracle::lens_rays(bent, lens, greatest_q);
   bent.by_distance = lens.division.has_value();

@@ -24,7 +24,7 @@ bool is_constant(const LinearForm& form) {
 }  // namespace
 
 std::optional<std::vector<LinearForm>> covered_region(const ProjectedTriangle& t,
-                                                     const Camera& camera) {
+                                                      const Camera& camera) {
   if (t.orientation == Sign::zero) return std::nullopt;
   std::vector<LinearForm> region(t.edges.begin(), t.edges.end());
   // D > 0: if D is 0 everywhere, nothing is left.

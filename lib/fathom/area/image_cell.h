@@ -21,7 +21,7 @@ namespace fathom::area {
 /// as in section 4 of the specification: s = Σ (eᵢ/Δ)·cornerᵢ has the weight 1. D = n/w with w > 0
 /// there, so D ≥ near ⇔ n − near·w ≥ 0.
 std::optional<std::vector<LinearForm>> covered_region(const triangle::ProjectedTriangle& t,
-                                                     const Camera& camera);
+                                                      const Camera& camera);
 
 /// The homogeneous image point of a corner, exactly, and an enclosure of it.
 struct SurfaceCorner {
