@@ -309,8 +309,8 @@ TEST_F(CameraCommands, MapsHaveTheNamesOfTheirImages) {
   EXPECT_EQ(camera.out,
             "cameras.json: a path of 2 cameras\n"
             "  number  name        size   field of view  eye         looks along  near, far\n"
-            "  0       left/a.jpg  16x12  77.32 x 61.93  (0, 0, -3)  (0, 0, 1)    0, inf\n"
-            "  1       b.jpg       16x12  77.32 x 61.93  (0, 0, -4)  (0, 0, 1)    0, inf\n");
+            "  0       b.jpg       16x12  77.32 x 61.93  (0, 0, -4)  (0, 0, 1)    0, inf\n"
+            "  1       left/a.jpg  16x12  77.32 x 61.93  (0, 0, -3)  (0, 0, 1)    0, inf\n");
 }
 
 TEST_F(CameraCommands, NamesAreShownWithoutWhatMovesTheCursor) {

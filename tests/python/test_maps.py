@@ -1,11 +1,15 @@
 """fathom.Map: files, comparison, conversion, points."""
 
+import os
+import pathlib
 import subprocess
 
 import numpy as np
 import pytest
 
 import fathom
+
+source = pathlib.Path(os.environ["FATHOM_SOURCE"])
 
 all_channels = ("Z", "A", "id", "object", "N", "P", "bary", "distance")
 

@@ -200,7 +200,7 @@ def test_a_picture_is_written_as_png(pair, path, error, text):
 
 @pytest.mark.parametrize("options, error, text", [
     ({"channel": "z"}, ValueError, "the map has no channel 'z', only Z"),
-    ({"colormap": "jet"}, ValueError, "colormap: expected 'viridis', 'magma', 'turbo', 'grey', found 'jet'"),
+    ({"colormap": "jet"}, ValueError, "colormap: expected 'viridis', 'magma', 'turbo', 'grey', 'diverging', found 'jet'"),
     ({"range": 3}, TypeError, "range: expected (low, high), found 3"),
     ({"range": (3, 2)}, ValueError, "low end is not below its high end"),
     ({"unit": 3}, TypeError, "unit: expected a string, found 3"),
