@@ -111,7 +111,8 @@ of_commands = {("clip", "--algorithm"): "plane", ("scan", "--algorithm"): "dda",
 
 def needed_by(path: tuple[str, ...], but: str) -> list[str]:
     command = next(each for each in all_commands() if each.path == path)
-    words = [] if but in command.arguments else [values[name] for name in command.arguments if name in values]
+    arguments = [name.removesuffix("...") for name in command.arguments]
+    words = [] if but in arguments else [values[name] for name in arguments if name in values]
     for names, (value, meaning) in command.options.items():
         if "; required" in meaning and but not in names:
             words += [names[-1], of_commands.get((path[0], names[-1])) or values[value]]

@@ -190,6 +190,7 @@ calls = {
     "Map.to_disparity": lambda g: g.map.to_disparity(0.13, doffs=0.01),
     "Map.stored_as": lambda g: g.map.stored_as(np.uint16, channel="Z", scale=999.9),
     "Map.points": lambda g: g.scene.render(g.camera).points(),
+    "Map.write_mask": lambda g: g.written("w.png", g.map.write_mask),
     "Map.write_points": lambda g: g.written("w.ply", g.map.write_points),
     "Map.add_cryptomatte": with_mattes,
     "Scene.read": lambda g: Scene.read(g.mesh_file).vertices(),

@@ -56,7 +56,7 @@ cases = [
     ({"channels": ("normals",)}, ValueError, r"channels: there is no channel 'normals'; .*; did you mean 'N'\?"),
     ({"channels": (1,)}, TypeError, "channels: expected names, found 1"),
     ({"channels": ()}, ValueError, "channels: expected at least one"),
-    ({"channels": ("Y",)}, ValueError, "channels: there is no channel 'Y'; there are Z, A, .* and Ns$"),
+    ({"channels": ("Y",)}, ValueError, "channels: there is no channel 'Y'; there are Z, A, .* and valid$"),
     ({"near": -1}, ValueError, "near"),
     ({"near": "x"}, TypeError, "near: expected a number"),
     ({"far": 0}, ValueError, "far"),

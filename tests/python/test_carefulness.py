@@ -168,7 +168,7 @@ def test_r_and_t_by_themselves_are_told_from_a_matrix(K=np.array([[40, 0, 32], [
     (lambda m, s: m.write("x.npy", scale=1000), ValueError, "scale: only .png holds codes"),
     (lambda m, s: s.render(camera, channels="Z,N").write("x.npy"), ValueError,
      "channel: this format holds one channel, and the map has Z, N; name the one to write"),
-    (lambda m, s: s.render(camera, channels="Z,N").write("x.png", channel="N"), ValueError,
+    (lambda m, s: s.render(camera, channels="Z,N").write("x.pfm", channel="N"), ValueError,
      "channel: this format holds one channel, and N is N.X, N.Y, N.Z; name the one to write, or write .exr, .npy or .npz"),
     (lambda m, s: s.render(camera, dtype=None), TypeError, "dtype: expected float32"),
     (lambda m, s: s.render({"left.jpg": camera}), TypeError, r"found a dict: take its values\(\)"),
