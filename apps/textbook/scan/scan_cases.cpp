@@ -19,6 +19,8 @@ constexpr Answers filling{.pixels = true};
 constexpr Answers valuing{.triangles = true, .values = true};
 constexpr Answers question{};
 
+// Templates cannot be put in parentheses.
+// NOLINTNEXTLINE(bugprone-macro-parentheses)
 #define FATHOM_SCAN(name) name<Exact>, name<double>, name<float>
 const std::vector<NamedAlgorithm>& algorithms() {
   static const std::vector<NamedAlgorithm> all{

@@ -79,8 +79,8 @@ Scene scene_of(const WorldMesh& world) {
 }  // namespace
 
 Truth make_truth(const Scene& scene, const Camera& camera) {
-  require_straight(camera);
   const StandardArithmetic standard;
+  require_straight(camera);
   Truth truth{.mesh = world_mesh(scene), .camera = camera};
   truth.corner_numbers = corner_numbers(truth.mesh);
   set_maps(truth, scene);

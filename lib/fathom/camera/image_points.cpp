@@ -33,8 +33,8 @@ WordPair words_of(const Ratio& x) {
 }  // namespace
 
 ImageOfPoint project(const Camera& camera, const std::array<double, 3>& world) {
-  require_straight(camera);
   const StandardArithmetic standard;
+  require_straight(camera);
   const CameraPoint p = to_camera(camera.world_to_camera, {world[0], world[1], world[2]});
   const double depth = round_to_binary64(Ratio(p.z));
   if (is_perspective(camera.projection) && p.z.sign() != Sign::positive) return {nan, nan, depth};
@@ -53,8 +53,8 @@ ImageRays::ImageRays(const Camera& camera, PointFrame frame)
     : cx_(camera.projection.cx),
       cy_(camera.projection.cy),
       perspective_(is_perspective(camera.projection)) {
-  require_straight(camera);
   const StandardArithmetic standard;
+  require_straight(camera);
   const Projection& projection = camera.projection;
   const Dyadic fx = projection.fx, fy = projection.fy, skew = projection.skew, zero = 0.0;
   const ExactVector3 u{fy, zero, zero}, v{-skew, fx, zero}, d{zero, zero, fx * fy};

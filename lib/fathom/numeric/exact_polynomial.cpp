@@ -71,6 +71,9 @@ int variations_at_infinity(const std::vector<ExactPolynomial>& chain) {
 
 }  // namespace
 
+ExactPolynomial::ExactPolynomial(const Dyadic& constant)
+    : ExactPolynomial(std::vector<Dyadic>{constant}) {}
+
 ExactPolynomial::ExactPolynomial(std::vector<Dyadic> coefficients)
     : coefficients_(std::move(coefficients)) {
   while (!coefficients_.empty() && coefficients_.back().is_zero()) coefficients_.pop_back();

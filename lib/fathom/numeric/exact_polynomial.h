@@ -13,7 +13,7 @@ class ExactPolynomial {
  public:
   ExactPolynomial() = default;
   /// A constant.
-  ExactPolynomial(const Dyadic& constant) : ExactPolynomial(std::vector<Dyadic>{constant}) {}
+  ExactPolynomial(const Dyadic& constant);
   ExactPolynomial(double constant) : ExactPolynomial(Dyadic(constant)) {}
   /// By ascending powers.
   explicit ExactPolynomial(std::vector<Dyadic> coefficients);

@@ -12,7 +12,6 @@
 
 namespace fathom {
 using namespace camera;
-using namespace scene;
 
 namespace {
 

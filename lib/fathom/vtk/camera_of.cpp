@@ -9,12 +9,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <string>
+#include <sstream>
 
 #include "fathom/camera/camera_import.h"
 #include "fathom/camera/camera_making.h"
 #include "fathom/failures/errors.h"
-#include "fathom/text/decimal.h"
 
 namespace fathom::vtk {
 namespace {
@@ -122,8 +121,10 @@ class Check {
  public:
   void expect(const char* what, double is, double should, double terms) {
     if (fault_ || std::abs(is - should) <= lost * terms) return;
-    fault_ = std::string(what) + " is " + text::shortest_decimal(is) + " and should be " +
-             text::shortest_decimal(should);
+    std::ostringstream text;
+    text.precision(17);
+    text << what << " is " << is << " and should be " << should;
+    fault_ = text.str();
   }
   [[nodiscard]] const std::optional<std::string>& fault() const { return fault_; }
 

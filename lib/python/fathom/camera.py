@@ -180,7 +180,9 @@ class Camera:
             number = as_number(key, value)
             if number != math.inf:
                 file[key] = number
-        object.__setattr__(self, "_handle", Camera.from_json(json.dumps(file))._handle)
+        with _core.standard_arithmetic():  # Python writes decimals by binary64 arithmetic
+            text = json.dumps(file)
+        object.__setattr__(self, "_handle", Camera.from_json(text)._handle)
 
     @classmethod
     def _of(cls, core: _core.Camera) -> Camera:
@@ -562,9 +564,12 @@ class Camera:
 
     def with_size(self, width: int, height: int) -> Camera:
         """The same camera with another image size and the same principal point in pixels."""
-        keys = json.loads(self.to_json())
-        keys["width"], keys["height"] = as_size((width, height))
-        return Camera.from_json(json.dumps(keys))
+        size = as_size((width, height))
+        with _core.standard_arithmetic():  # Python reads and writes decimals by binary64 arithmetic
+            keys = json.loads(self.to_json())
+            keys["width"], keys["height"] = size
+            text = json.dumps(keys)
+        return Camera.from_json(text)
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError("a Camera does not change: make another one")
