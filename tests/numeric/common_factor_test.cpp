@@ -1,5 +1,7 @@
-// One representative for all vectors of the same direction.
+// One representative for all lists of numbers in the same proportions.
 #include <gtest/gtest.h>
+
+#include <vector>
 
 #include "fathom/numeric/divisors.h"
 #include "tests/numeric/random_numbers.h"
@@ -21,6 +23,17 @@ TEST(CommonFactor, OnPaper) {
   EXPECT_EQ(without_common_factor({-0x1p-1000, 0.0, 0x1.8p-1000}), expected);
   EXPECT_EQ(without_common_factor({0.0, 0.0, -0.375}), (ExactVector3{0.0, 0.0, -1.0}));
   EXPECT_EQ(without_common_factor({}), ExactVector3{});
+}
+
+TEST(CommonFactor, IsTakenOutOfListsOfAnyLength) {
+  std::vector<Dyadic> numbers{0.0, 0x1.8p-1000, -0x1.2p-998, Dyadic(0x1.ep1000).scaled(100), 0.0};
+  const std::vector<Dyadic> expected{0.0, 1.0, -3.0, Dyadic(5.0).scaled(2098), 0.0};
+  divide_by_common_factor(numbers);
+  EXPECT_EQ(numbers, expected);
+  std::vector<Dyadic> none, zero(1);
+  divide_by_common_factor(none);
+  divide_by_common_factor(zero);
+  EXPECT_EQ(zero, std::vector<Dyadic>(1));
 }
 
 TEST(CommonFactor, IsTakenOutWhateverItIs) {

@@ -2,8 +2,8 @@
 
 #include <mpfr.h>
 
+#include "fathom/numeric/dyadic.h"
 #include "fathom/numeric/integer.h"
-#include "fathom/numeric/ratio.h"
 
 /// MPFR's numbers, to and from exact ones. Only for .cpp files of this room.
 namespace fathom {
@@ -22,8 +22,8 @@ class BigFloat {
 };
 
 /// The value of a finite x, exactly.
-inline Ratio to_ratio(mpfr_ptr x) {
-  if (mpfr_zero_p(x) != 0) return Dyadic();
+inline Dyadic to_dyadic(mpfr_srcptr x) {
+  if (mpfr_zero_p(x) != 0) return {};
   Integer significand;
   const mpfr_exp_t exponent = mpfr_get_z_2exp(significand, x);
   return Dyadic::of(significand, exponent);

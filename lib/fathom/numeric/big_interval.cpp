@@ -1,5 +1,10 @@
 #include "fathom/numeric/big_interval.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "fathom/numeric/big_float.h"
+
 namespace fathom {
 namespace {
 
@@ -9,13 +14,6 @@ long greater_precision(mpfr_srcptr a, mpfr_srcptr b) {
 
 void set(mpfr_ptr x, const Dyadic& value, mpfr_rnd_t direction) {
   mpfr_set_z_2exp(x, value.significand(), value.exponent(), direction);
-}
-
-Dyadic to_dyadic(mpfr_srcptr x) {
-  if (mpfr_zero_p(x) != 0) return {};
-  Integer significand;
-  const mpfr_exp_t exponent = mpfr_get_z_2exp(significand, x);
-  return Dyadic::of(significand, exponent);
 }
 
 bool is_negative(mpfr_srcptr x) {

@@ -2,10 +2,6 @@
 
 #include <mpfr.h>
 
-#include <algorithm>
-#include <utility>
-
-#include "fathom/numeric/big_float.h"
 #include "fathom/numeric/dyadic_interval.h"
 
 /// Intervals of MPFR's numbers. Only for .cpp files, of this module and of lens.
@@ -14,7 +10,8 @@ namespace fathom {
 /// A closed interval that contains an exact number, at any precision.
 ///
 /// Exact    every operation rounds its ends outwards, to the greater precision of its operands.
-/// Range    MPFR's exponents have 62 bits: nothing overflows that fits into memory as a Dyadic.
+/// Range    exponents below 2³⁰ in size, MPFR's default. Those of a Dyadic may be greater, but no
+///          number that a camera with a lens leads to has one.
 class BigInterval {
  public:
   /// The narrowest interval of so many bits that contains x.

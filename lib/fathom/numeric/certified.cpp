@@ -61,6 +61,10 @@ Dyadic dot(const ExactVector3& a, const ExactVector3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+std::array<ExactVector3, 3> cofactors(const std::array<ExactVector3, 3>& rows) {
+  return {cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])};
+}
+
 Dyadic determinant(const ExactVector3& a, const ExactVector3& b, const ExactVector3& c) {
   return dot(a, cross(b, c));
 }

@@ -28,6 +28,9 @@ using ExactVector3 = std::array<Dyadic, 3>;
 ExactVector3 cross(const ExactVector3& a, const ExactVector3& b);
 Dyadic dot(const ExactVector3& a, const ExactVector3& b);
 
+/// Row i of the cofactors is the cross product of the other two rows, in cyclic order.
+std::array<ExactVector3, 3> cofactors(const std::array<ExactVector3, 3>& rows);
+
 /// det(a, b, c), exactly; a, b, c are the columns (or the rows).
 Dyadic determinant(const ExactVector3& a, const ExactVector3& b, const ExactVector3& c);
 /// The sign of det(a, b, c).

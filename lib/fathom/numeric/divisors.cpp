@@ -22,27 +22,27 @@ long last_bit(const Dyadic& x) {
   return static_cast<long>(mpz_scan1(x.significand(), 0)) + x.exponent();
 }
 
-ExactVector3 without_common_factor(const ExactVector3& v) {
+void divide_by_common_factor(std::span<Dyadic> numbers) {
   long unit = std::numeric_limits<long>::max();
-  for (const Dyadic& x : v) {
+  for (const Dyadic& x : numbers)
     if (!x.is_zero()) unit = std::min(unit, x.exponent());
+  Integer integer, divisor;
+  for (Dyadic& x : numbers) {
+    if (x.is_zero()) continue;
+    mpz_mul_2exp(integer, x.significand(), static_cast<mp_bitcnt_t>(x.exponent() - unit));
+    mpz_gcd(divisor, divisor, integer);
+    x = Dyadic::of(integer);
   }
-  std::array<Integer, 3> magnitudes;
-  Integer divisor;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (v[k].is_zero()) continue;
-    mpz_abs(magnitudes[k], v[k].significand());
-    mpz_mul_2exp(magnitudes[k], magnitudes[k], static_cast<mp_bitcnt_t>(v[k].exponent() - unit));
-    mpz_gcd(divisor, divisor, magnitudes[k]);
+  for (Dyadic& x : numbers) {
+    if (x.is_zero()) continue;
+    mpz_divexact(integer, x.significand(), divisor);
+    x = Dyadic::of(integer);
   }
-  ExactVector3 result;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (v[k].is_zero()) continue;
-    mpz_divexact(magnitudes[k], magnitudes[k], divisor);
-    result[k] = Dyadic::of(magnitudes[k]);
-    if (v[k].sign() == Sign::negative) result[k] = -result[k];
-  }
-  return result;
+}
+
+ExactVector3 without_common_factor(ExactVector3 v) {
+  divide_by_common_factor(v);
+  return v;
 }
 
 }  // namespace fathom

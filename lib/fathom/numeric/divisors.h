@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/dyadic.h"
 
@@ -11,9 +13,11 @@ inline constexpr long bit_of_zero = 1L << 40;
 long last_bit(double x);
 long last_bit(const Dyadic& x);
 
-/// The least integers in the same proportions and with the same signs: of all vectors that differ
-/// by a positive factor, the one that stands for them. Zero stays zero.
+/// Makes of numbers the least integers in the same proportions and with the same signs: of all
+/// lists that differ by a positive factor, the one that stands for them. Zeroes stay zeroes.
 /// Exact    always.
-ExactVector3 without_common_factor(const ExactVector3& v);
+void divide_by_common_factor(std::span<Dyadic> numbers);
+/// The same of the components of a vector.
+ExactVector3 without_common_factor(ExactVector3 v);
 
 }  // namespace fathom

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "fathom/numeric/integer.h"
+#include "fathom/numeric/divisors.h"
 
 namespace fathom {
 namespace {
@@ -122,25 +122,9 @@ Dyadic ExactPolynomial::at(const Dyadic& x) const {
 }
 
 ExactPolynomial primitive(const ExactPolynomial& p) {
-  if (p.is_zero()) return p;
-  Integer divisor;
-  long least_exponent = std::numeric_limits<long>::max();
-  for (const Dyadic& c : p.coefficients())
-    if (!c.is_zero()) least_exponent = std::min(least_exponent, c.exponent());
-  Coefficients integers;
-  for (const Dyadic& c : p.coefficients()) {
-    Integer value;
-    const Dyadic scaled = c.scaled(-least_exponent);
-    mpz_mul_2exp(value, scaled.significand(), static_cast<mp_bitcnt_t>(scaled.exponent()));
-    mpz_gcd(divisor, divisor, value);
-    integers.push_back(Dyadic::of(value));
-  }
-  for (Dyadic& c : integers) {
-    Integer value;
-    mpz_divexact(value, c.significand(), divisor);
-    c = Dyadic::of(value);
-  }
-  return ExactPolynomial(std::move(integers));
+  Coefficients coefficients = p.coefficients();
+  divide_by_common_factor(coefficients);
+  return ExactPolynomial(std::move(coefficients));
 }
 
 // The last member is the greatest common divisor of p and p'; dividing all by it would change no

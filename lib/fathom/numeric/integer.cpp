@@ -2,16 +2,28 @@
 
 namespace fathom {
 
+void shift(mpz_ptr numerator, mpz_ptr denominator, long power) {
+  if (power >= 0) {
+    mpz_mul_2exp(numerator, numerator, static_cast<mp_bitcnt_t>(power));
+  } else {
+    mpz_mul_2exp(denominator, denominator, static_cast<mp_bitcnt_t>(-power));
+  }
+}
+
 Fraction magnitude_as_fraction(const Ratio& x) {
   Fraction f;
   mpz_abs(f.numerator, x.numerator.significand());
   mpz_set(f.denominator, x.denominator.significand());
-  const long power = x.numerator.exponent() - x.denominator.exponent();
-  if (power >= 0) {
-    mpz_mul_2exp(f.numerator, f.numerator, static_cast<mp_bitcnt_t>(power));
-  } else {
-    mpz_mul_2exp(f.denominator, f.denominator, static_cast<mp_bitcnt_t>(-power));
-  }
+  shift(f.numerator, f.denominator, x.numerator.exponent() - x.denominator.exponent());
+  return f;
+}
+
+Fraction in_lowest_terms(const Ratio& x) {
+  Fraction f = magnitude_as_fraction(x);
+  Integer divisor;
+  mpz_gcd(divisor, f.numerator, f.denominator);
+  mpz_divexact(f.numerator, f.numerator, divisor);
+  mpz_divexact(f.denominator, f.denominator, divisor);
   return f;
 }
 

@@ -36,8 +36,13 @@ struct Fraction {
   Integer denominator;
 };
 
+/// Multiplies a quotient of integers, of either sign, by 2^power.
+void shift(mpz_ptr numerator, mpz_ptr denominator, long power);
+
 /// |x| as a quotient of integers, not reduced.
 Fraction magnitude_as_fraction(const Ratio& x);
+/// The same in lowest terms.
+Fraction in_lowest_terms(const Ratio& x);
 
 /// The integer nearest to numerator / denominator, both non-negative, ties to even.
 void divide_to_nearest_even(mpz_ptr result, mpz_srcptr numerator, mpz_srcptr denominator);

@@ -26,7 +26,7 @@ Ratio at(Function function, const Ratio& x, long bits, mpfr_rnd_t direction) {
   BigFloat value(bits);
   set(value, x, direction);
   function(value, value, direction);
-  return to_ratio(value);
+  return to_dyadic(value);
 }
 
 /// log a / log b enclosed. Logarithms of 1 + x keep their relative precision if x is small.
@@ -42,15 +42,6 @@ Enclosure enclose_power(const Ratio& b, const Ratio& e, long bits) {
   const Ratio y = b - Dyadic(1.0);
   return {at(mpfr_expm1, e * at(mpfr_log1p, y, bits, MPFR_RNDD), bits, MPFR_RNDD),
           at(mpfr_expm1, e * at(mpfr_log1p, y, bits, MPFR_RNDU), bits, MPFR_RNDU)};
-}
-
-Fraction in_lowest_terms(const Ratio& x) {
-  Fraction f = magnitude_as_fraction(x);
-  Integer divisor;
-  mpz_gcd(divisor, f.numerator, f.denominator);
-  mpz_divexact(f.numerator, f.numerator, divisor);
-  mpz_divexact(f.denominator, f.denominator, divisor);
-  return f;
 }
 
 Ratio to_ratio(const Fraction& f) {

@@ -45,11 +45,7 @@ int compare(const Ratio& a, const Ratio& b) {
 }
 
 std::string to_fraction(const Ratio& x) {
-  Fraction f = magnitude_as_fraction(x);
-  Integer divisor;
-  mpz_gcd(divisor, f.numerator, f.denominator);
-  mpz_divexact(f.numerator, f.numerator, divisor);
-  mpz_divexact(f.denominator, f.denominator, divisor);
+  const Fraction f = in_lowest_terms(x);
   std::string text = x.sign() == Sign::negative ? "-" : "";
   text += to_string(f.numerator);
   if (mpz_cmp_ui(f.denominator.get(), 1) != 0) text += "/" + to_string(f.denominator);

@@ -18,20 +18,16 @@ namespace {
 
 /// ⌊|x|·2^power⌋
 void floor_of_magnitude(mpz_ptr result, const Ratio& x, long power) {
-  const Fraction f = magnitude_as_fraction(x);
-  Integer numerator, denominator;
-  const auto shift = static_cast<mp_bitcnt_t>(power < 0 ? -power : power);
-  mpz_mul_2exp(numerator, f.numerator, power < 0 ? 0 : shift);
-  mpz_mul_2exp(denominator, f.denominator, power < 0 ? shift : 0);
-  mpz_fdiv_q(result, numerator, denominator);
+  Fraction f = magnitude_as_fraction(x);
+  shift(f.numerator, f.denominator, power);
+  mpz_fdiv_q(result, f.numerator, f.denominator);
 }
 
 /// The greatest integer below |x|·2^power.
 void integer_below(mpz_ptr result, const Ratio& x, long power) {
   floor_of_magnitude(result, x, power);
   const Ratio floor(Dyadic::of(result, -power));
-  const Ratio size = x.sign() == Sign::negative ? Ratio(-x.numerator, x.denominator) : x;
-  if (floor == size) mpz_sub_ui(result, result, 1);
+  if (floor == Ratio(abs(x.numerator), x.denominator)) mpz_sub_ui(result, result, 1);
 }
 
 }  // namespace
@@ -94,15 +90,6 @@ Real affine(const Real& x, const Ratio& factor, const Ratio& offset) {
 namespace {
 
 constexpr long fraction_bits = 320;
-
-/// The fraction times 2^power, of either sign; numerator and denominator stay integers.
-void shift(mpz_ptr numerator, mpz_ptr denominator, long power) {
-  if (power >= 0) {
-    mpz_mul_2exp(numerator, numerator, static_cast<mp_bitcnt_t>(power));
-  } else {
-    mpz_mul_2exp(denominator, denominator, static_cast<mp_bitcnt_t>(-power));
-  }
-}
 
 }  // namespace
 

@@ -24,7 +24,7 @@ Ratio at(Function function, double degrees, unsigned long half_turn, long bits, 
   mpfr_mul_d(value, value, degrees, argument);
   mpfr_div_ui(value, value, half_turn, argument);
   function(value, value, direction);
-  return to_ratio(value);
+  return to_dyadic(value);
 }
 
 Enclosure enclose_increasing(Function function, double degrees, unsigned long half_turn,
@@ -82,7 +82,7 @@ Real cotangent_of_half_radians(double angle) {
               mpfr_set_d(value, angle, MPFR_RNDN);
               mpfr_div_2ui(value, value, 1, MPFR_RNDN);
               mpfr_cot(value, value, direction);
-              return to_ratio(value);
+              return to_dyadic(value);
             };
             return Enclosure{rounded(MPFR_RNDD), rounded(MPFR_RNDU)};
           },
