@@ -358,6 +358,7 @@ TEST(CameraJson, ReadsALensByNamesByParamsAndByKWithDistortion) {
 
 TEST(CameraJson, LensesAreWrittenAsTheyAreRead) {
   for (const LensModelEntry& model : lens_models()) {
+    if (model.model == LensModel::table) continue;  // its numbers are in another file
     Camera camera = with("");
     camera.projection.fy = camera.projection.fx;
     Lens& lens = camera.projection.lens.emplace(Lens{model.model});
@@ -396,6 +397,81 @@ TEST(CameraJson, NamesWhatIsWrongWithALens) {
   EXPECT_THAT(fault(R"("model": "OPENCV", "max_radius": 0, )" + K), HasSubstr("max_radius"));
   EXPECT_THAT(fault(R"("model": "OPENCV_14", "tauX": 1.6, )" + K), HasSubstr("tauX"));
   EXPECT_THAT(fault(R"("k1": 1, )" + K), HasSubstr("unknown key \"k1\""));
+}
+
+/// Reads a table of 2×1 directions, whatever its file is called.
+std::shared_ptr<const DirectionTable> read_any_table(const std::string& file, std::uint32_t width,
+                                                     std::uint32_t height) {
+  std::vector<double> numbers(std::size_t{3} * width * height, 0.5);
+  return std::make_shared<const DirectionTable>(width, height, std::move(numbers),
+                                                Source{file, "abc", ""});
+}
+
+Camera with_table(const std::string& members, const DirectionReader& reader = read_any_table) {
+  Warnings warnings;
+  const std::string text =
+      R"({"width": 2, "height": 1, "model": "TABLE", )" + members + "," + pose + "}";
+  const Camera camera = read_cameras(std::string_view(text), "c.json", warnings, reader).at(0);
+  EXPECT_TRUE(warnings.empty());  // a table has no pixel_centre
+  return camera;
+}
+
+TEST(CameraJson, ATableIsInAFileOfItsOwn) {
+  const Camera camera = with_table(R"("directions": "a/b.npy", "directions_sha256": "abc",
+                                      "max_radius": 1.5)");
+  ASSERT_TRUE(camera.projection.lens && camera.projection.lens->directions);
+  EXPECT_EQ(camera.projection.lens->directions->source().path, "a/b.npy");
+  EXPECT_EQ(camera.projection.lens->max_radius, 1.5);
+  EXPECT_TRUE(bends_rays(camera.projection));
+  EXPECT_TRUE(counts_distance(camera.projection));
+  Warnings warnings;
+  const std::string text = to_json(camera);
+  EXPECT_EQ(
+      read_cameras(std::string_view(text), "c.json", warnings, read_any_table).at(0).projection,
+      camera.projection);
+}
+
+TEST(CameraJson, ATableWithoutAReaderIsOnlyNamed) {
+  const Camera camera = with_table(R"("directions": "b.npy", "directions_sha256": "abc")", {});
+  EXPECT_TRUE(bends_rays(camera.projection));
+  EXPECT_FALSE(camera.projection.lens->directions->is_read());
+  EXPECT_EQ(find_fault(camera),
+            "the table of directions is in the file 'b.npy', which has not been read; give the "
+            "camera file that names it");
+  EXPECT_EQ(read(to_json(camera)).at(0).projection, camera.projection);
+  Camera of_array;
+  of_array.width = of_array.height = 1;
+  of_array.projection.lens.emplace(Lens{LensModel::table}).directions =
+      std::make_shared<const DirectionTable>(1, 1, std::vector<double>{0, 0, 1});
+  EXPECT_EQ(find_fault(of_array), std::nullopt);
+  const Camera again = read(to_json(of_array)).at(0);
+  EXPECT_THAT(find_fault(again).value_or(""), HasSubstr("was an array and is in no file"));
+  EXPECT_EQ(to_json(again), to_json(of_array));  // with the hash of the numbers
+}
+
+TEST(CameraJson, NamesWhatIsWrongWithATable) {
+  const auto fault = [](const std::string& members) {
+    return message_of<InputError>([&] { with_table(members); });
+  };
+  const std::string file = R"("directions": "b.npy")";
+  EXPECT_THAT(fault(R"("max_radius": 1)"), HasSubstr("directions"));
+  EXPECT_THAT(fault(file + R"(, "origins": "o.npy")"), HasSubstr("origins: not supported yet"));
+  EXPECT_THAT(fault(file + R"(, "row_poses": [])"), HasSubstr("row_poses: not supported yet"));
+  EXPECT_THAT(fault(file + R"(, "fx": 5)"), HasSubstr("unknown key \"fx\""));
+  EXPECT_THAT(fault(file + R"(, "pixel_centre": 0)"), HasSubstr("unknown key \"pixel_centre\""));
+  EXPECT_THAT(fault(file + R"(, "directions_sha256": "abd")"),
+              HasSubstr("directions_sha256: the file 'b.npy' has the SHA-256 abc, expected abd"));
+  EXPECT_THAT(fault(file + R"(, "projection": "orthographic")"),
+              HasSubstr("an orthographic camera has no lens"));
+  Camera camera = with_table(file);
+  camera.projection.fx = -1;
+  EXPECT_EQ(find_fault(camera), "TABLE has no fx, fy, cx, cy, skew and pixel_centre");
+  camera.projection = {};
+  camera.projection.lens = Lens{LensModel::table};
+  EXPECT_EQ(find_fault(camera), "TABLE has no table of directions");
+  camera.projection.lens = Lens{LensModel::opencv};
+  camera.projection.lens->directions = read_any_table("b.npy", 2, 1);
+  EXPECT_EQ(find_fault(camera), "OPENCV has a table of directions, which only TABLE has");
 }
 
 TEST(CameraJson, ASingleCameraIsWrittenAsAnObject) {

@@ -5,8 +5,11 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/failures/errors.h"
@@ -158,6 +161,31 @@ TEST(ImportColmap, DistortionIsToldUnlessItIsZero) {
     EXPECT_THAT(message_of<InputError>([&] { colmap_text(std::string("1 ") + no_pinhole, image); }),
                 AllOf(HasSubstr("cameras.txt: line 1"), HasSubstr("undistort")))
         << no_pinhole;
+}
+
+// Binary files can have such numbers; they do not matter to who takes the pinhole part.
+TEST(ImportColmap, LensesThatAreNoneHaveAPinholePart) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double k1 : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity}) {
+    BinaryText cameras, images;
+    cameras << std::uint64_t{1} << std::uint32_t{1} << std::uint32_t{4} << std::uint64_t{4}
+            << std::uint64_t{2} << 3.0 << 5.0 << 2.0 << 1.0 << k1 << 0.5 << 0.0 << 0.0;
+    images << std::uint64_t{1} << std::uint32_t{1} << 1.0 << 0.0 << 0.0 << 0.0 << 0.0 << 0.0 << 0.0
+           << std::uint32_t{1} << 'a' << '\0' << std::uint64_t{0};
+    const auto imported = colmap_binary(cameras.text, images.text);
+    Warnings warnings;
+    const std::vector<Camera> pinholes =
+        chosen_cameras(imported, "model", {.ignore_distortion = true}, warnings);
+    ASSERT_EQ(pinholes.size(), 1U) << k1;
+    EXPECT_EQ(pinholes[0].projection.fy, 5) << k1;
+    EXPECT_EQ(pinholes[0].projection.lens, std::nullopt) << k1;
+    EXPECT_THAT(
+        message_of<InputError>([&] { chosen_cameras(imported, "model", {}, warnings); }),
+        AllOf(HasSubstr("cameras.bin: byte 8: camera 1: k1 is not a finite number; undistort"),
+              HasSubstr("--ignore-distortion")))
+        << k1;
+    EXPECT_TRUE(warnings.empty()) << k1;
+  }
 }
 
 /// In the order of their ids: each file has a camera of one model that no image uses, so that the

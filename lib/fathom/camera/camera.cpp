@@ -7,11 +7,31 @@
 
 namespace fathom {
 
+namespace {
+
+std::optional<std::string> find_fault_of_table(const Camera& camera) {
+  const std::optional<Lens>& lens = camera.projection.lens;
+  if (!lens || !lens->directions) return std::nullopt;
+  const DirectionTable& table = *lens->directions;
+  if (!table.is_read() && table.source().path.empty())
+    return "the table of directions was an array and is in no file; make the camera from the array";
+  if (!table.is_read())
+    return "the table of directions is in the file '" + table.source().path +
+           "', which has not been read; give the camera file that names it";
+  if (table.width() == camera.width && table.height() == camera.height) return std::nullopt;
+  return "the table of directions has " + std::to_string(table.width()) + "x" +
+         std::to_string(table.height()) + " pixels, expected the size of the image, " +
+         std::to_string(camera.width) + "x" + std::to_string(camera.height);
+}
+
+}  // namespace
+
 std::optional<std::string> find_fault(const Camera& camera) {
   const StandardArithmetic standard;
   if (camera.width == 0) return "width is 0, expected at least 1";
   if (camera.height == 0) return "height is 0, expected at least 1";
   if (auto fault = find_fault(camera.projection)) return fault;
+  if (auto fault = find_fault_of_table(camera)) return fault;
   for (const auto& row : camera.world_to_camera)
     for (const double entry : row)
       if (!std::isfinite(entry)) return "world_to_camera has an entry that is not a finite number";

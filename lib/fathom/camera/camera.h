@@ -35,7 +35,8 @@ struct Camera {
 };
 
 /// The fault of a camera, in one line, or nothing if width and height are at least 1, all numbers
-/// are finite (far may be +∞), det R ≠ 0 exactly, fx and fy ≠ 0, near ≥ 0 and far > near.
+/// are finite (far may be +∞), det R ≠ 0 exactly, fx and fy ≠ 0, near ≥ 0, far > near, and a
+/// table of directions has the size of the image.
 std::optional<std::string> find_fault(const Camera& camera);
 
 /// Refuses a camera that is not valid.

@@ -60,19 +60,29 @@ Pose read_inverse_pose(const JsonValue& value) {
   return *pose;
 }
 
-Projection read_projection(const JsonValue& value) {
+void read_pixel_centre(const JsonValue& value, Projection& projection) {
+  expect_either(value, "pixel_centre", "pixel_center");
+  read_number(value, "pixel_centre", projection.pixel_centre);
+  read_number(value, "pixel_center", projection.pixel_centre);
+}
+
+/// Of a camera whose size is known.
+Projection read_projection(const JsonValue& value, const Camera& camera,
+                           const DirectionReader& directions) {
   Projection projection;
   if (const auto model = value.find("projection")) projection.model = read_model(*model);
   if (value.find("model")) {
     if (is_orthographic(projection))
       value.at("projection").fail("an orthographic camera has no lens");
+    if (is_table(value)) {
+      read_table(value, camera.width, camera.height, directions, projection);
+      return projection;
+    }
     read_lens(value, projection);
   } else {
     read_intrinsics(value, projection);
   }
-  expect_either(value, "pixel_centre", "pixel_center");
-  read_number(value, "pixel_centre", projection.pixel_centre);
-  read_number(value, "pixel_center", projection.pixel_centre);
+  read_pixel_centre(value, projection);
   return projection;
 }
 
@@ -92,27 +102,34 @@ void expect_known_keys(const JsonValue& value) {
   } else {
     known.insert(known.end(), {"fx", "fy", "cx", "cy", "skew", "K"});
   }
-  known.insert(known.end(), {"pixel_centre", "pixel_center", "world_to_camera", "camera_to_world",
-                             "near", "far", "name"});
+  if (!is_table(value)) known.insert(known.end(), {"pixel_centre", "pixel_center"});
+  known.insert(known.end(), {"world_to_camera", "camera_to_world", "near", "far", "name"});
   value.expect_only(known);
 }
 
 bool says_pixel_centre(const JsonValue& value) {
-  return value.find("pixel_centre") || value.find("pixel_center");
+  return value.find("pixel_centre") || value.find("pixel_center") || is_table(value);
 }
 
-Camera read_camera(const JsonValue& value) {
+bool directions_are_unread(const Camera& camera) {
+  const std::optional<Lens>& lens = camera.projection.lens;
+  return lens && lens->directions && !lens->directions->is_read();
+}
+
+Camera read_camera(const JsonValue& value, const DirectionReader& directions) {
   expect_known_keys(value);
   constexpr auto largest_size = std::numeric_limits<std::uint32_t>::max();
   Camera camera;
   camera.width = static_cast<std::uint32_t>(value.at("width").integer(1, largest_size));
   camera.height = static_cast<std::uint32_t>(value.at("height").integer(1, largest_size));
-  camera.projection = read_projection(value);
+  camera.projection = read_projection(value, camera, directions);
   read_world_to_camera(value, camera);
   read_number(value, "near", camera.near);
   if (const auto far = value.find("far"); far && !far->is_null()) camera.far = far->number();
   if (const auto name = value.find("name")) camera.name = name->string();
-  if (const auto fault = find_fault(camera)) value.fail(*fault);
+  Camera checked = camera;
+  if (directions_are_unread(camera)) checked.projection.lens.reset();
+  if (const auto fault = find_fault(checked)) value.fail(*fault);
   return camera;
 }
 
@@ -131,13 +148,24 @@ constexpr std::array intrinsics{Intrinsic{"fx", &Projection::fx}, Intrinsic{"fy"
                                 Intrinsic{"cx", &Projection::cx}, Intrinsic{"cy", &Projection::cy},
                                 Intrinsic{"skew", &Projection::skew}};
 
+/// The file of a table, and where it ends.
+template <class Member, class Number>
+void write_table(const Lens& lens, const Member& member, const Number& number) {
+  const std::string& file = lens.directions->source().path;
+  member("model", json_string(name_of(lens.model)));
+  member("directions", file.empty() ? "null" : json_string(file));
+  if (const std::string hash = lens.directions->sha256(); !hash.empty())
+    member("directions_sha256", json_string(hash));
+  if (std::isfinite(lens.max_radius)) member("max_radius", number(lens.max_radius));
+}
+
 /// The model, its parameters by their names, and where it ends.
 template <class Member, class Number>
 void write_lens(const Projection& projection, const Member& member, const Number& number) {
   const Lens& lens = *projection.lens;
   const LensModelEntry& model = entry_of(lens.model);
   member("model", json_string(model.name));
-  const bool one_focal_length = model.intrinsics.front() == "f";
+  const bool one_focal_length = has_one_focal_length(model);
   if (one_focal_length) member("f", number(projection.fx));
   for (const auto& [key, value] : intrinsics) {
     const std::string_view name(key);
@@ -152,8 +180,8 @@ void write_lens(const Projection& projection, const Member& member, const Number
 
 }  // namespace
 
-std::vector<Camera> read_cameras(std::string_view text, const std::string& name,
-                                 Warnings& warnings) {
+std::vector<Camera> read_cameras(std::string_view text, const std::string& name, Warnings& warnings,
+                                 const DirectionReader& directions) {
   const StandardArithmetic standard;
   const JsonDocument document(text, name);
   const JsonValue root = document.root();
@@ -161,7 +189,7 @@ std::vector<Camera> read_cameras(std::string_view text, const std::string& name,
   if (values.empty()) root.fail("the list of cameras is empty");
   std::vector<Camera> cameras;
   cameras.reserve(values.size());
-  for (const JsonValue& value : values) cameras.push_back(read_camera(value));
+  for (const JsonValue& value : values) cameras.push_back(read_camera(value, directions));
   if (!std::ranges::all_of(values, says_pixel_centre)) {
     warnings.push_back(name +
                        ": does not say \"pixel_centre\", so that 0.5 is taken; write 0.5 (COLMAP, "
@@ -198,13 +226,16 @@ std::string to_json(const Camera& camera, Digits digits) {
   member("width", std::to_string(camera.width));
   member("height", std::to_string(camera.height));
   const Projection& projection = camera.projection;
-  if (projection.lens) {
+  const bool has_table = projection.lens && projection.lens->directions;
+  if (has_table) {
+    write_table(*projection.lens, member, number);
+  } else if (projection.lens) {
     write_lens(projection, member, number);
   } else {
     member("projection", json_string(name_of(projection.model)));
     for (const auto& [key, value] : intrinsics) member(key, number(projection.*value));
   }
-  member("pixel_centre", number(projection.pixel_centre));
+  if (!has_table) member("pixel_centre", number(projection.pixel_centre));
   std::string rows;
   for (const auto& [r0, r1, r2, t] : camera.world_to_camera)
     rows += (rows.empty() ? "[" : ",\n    [") + number(r0) + ", " + number(r1) + ", " + number(r2) +

@@ -24,7 +24,8 @@ struct ImportedCamera {
   /// Its name is the image's in the other program: COLMAP's NAME, NeRF's file_path, BOP's image id.
   /// Passes find_fault() if there is neither an `absence` nor a `fault`.
   Camera camera;
-  /// Where `camera` is the pinhole part of a lens that has no model here: which file, which lens.
+  /// Where `camera` is the pinhole part of a lens that has no model here, or no valid numbers:
+  /// which file, which lens.
   std::string distortion;
   /// Why the data themselves have no camera of this image: it was not tracked, or not
   /// reconstructed.
@@ -40,7 +41,7 @@ struct CameraChoice {
   bool ignore_distortion = false;
 };
 
-/// The chosen cameras, in order. Cameras with a lens that has no model here are left out with a
+/// The chosen cameras, in order. Cameras with a `distortion` are left out with a
 /// warning that counts them, unless distortion is ignored; so are images without a camera. `input`
 /// is the file's name for messages.
 /// Fails    InputError if a chosen camera has a fault, if the chosen image is missing, has no

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "fathom/failures/unknown_name.h"
-#include "fathom/text/counted.h"
+#include "fathom/camera/lens_numbers.h"
 
 namespace fathom::camera {
 using text::JsonValue;
@@ -15,8 +14,8 @@ void expect_either(const JsonValue& value, std::string_view one, std::string_vie
     value.fail("has both \"" + first + "\" and \"" + second + "\", expected one of them");
 }
 
-void read_number(const JsonValue& value, const char* key, double& number) {
-  if (const auto member = value.find(key)) number = member->number();
+void read_number(const JsonValue& value, std::string_view key, double& number) {
+  if (const auto member = value.find(std::string(key))) number = member->number();
 }
 
 namespace {
@@ -33,14 +32,7 @@ void read_intrinsic_matrix(const JsonValue& value, Projection& projection) {
 const LensModelEntry& model_of(const JsonValue& value) {
   const JsonValue name = value.at("model");
   if (const auto model = lens_model_named(name.string())) return entry_of(*model);
-  std::vector<std::string> names;
-  for (const LensModelEntry& entry : lens_models()) names.emplace_back(entry.name);
-  name.fail("unknown lens model '" + name.string() + "', expected " + joined(names, " or ") +
-            suggestion(name.string(), names));
-}
-
-bool has_one_focal_length(const LensModelEntry& model) {
-  return model.intrinsics.front() == "f";
+  name.fail(unknown_lens_model(name.string()));
 }
 
 /// Sets fx, fy, cx and cy from the model's own numbers in their order.
@@ -61,13 +53,7 @@ std::vector<double> numbers_of(const JsonValue& list) {
 /// Refuses a list that has not one of the model's counts of distortion behind `before` numbers.
 void require_count(const JsonValue& list, const LensModelEntry& model, std::size_t found,
                    std::size_t before) {
-  std::vector<std::string> expected;
-  for (const std::size_t count : model.distortion_counts) {
-    if (found == before + count) return;
-    expected.push_back(std::to_string(before + count));
-  }
-  list.fail("found " + text::counted(found, "number") + ", " + std::string(model.name) + " has " +
-            joined(expected, " or "));
+  if (const auto fault = distortion_count_fault(model, found, before)) list.fail(*fault);
 }
 
 void read_parameters(const JsonValue& value, const LensModelEntry& model, Projection& projection) {
@@ -107,11 +93,41 @@ void read_intrinsics(const JsonValue& value, Projection& projection) {
 
 std::vector<std::string_view> keys_of_lens(const JsonValue& value) {
   const LensModelEntry& model = model_of(value);
+  if (model.model == LensModel::table)
+    return {"model", "directions", "directions_sha256", "max_radius", "origins", "row_poses"};
   std::vector<std::string_view> keys{"model", "params", "K", "distortion", "max_radius"};
   keys.insert(keys.end(), model.intrinsics.begin(), model.intrinsics.end());
   if (!has_one_focal_length(model)) keys.emplace_back("skew");
   keys.insert(keys.end(), model.distortion.begin(), model.distortion.end());
   return keys;
+}
+
+bool is_table(const JsonValue& value) {
+  return value.find("model") && model_of(value).model == LensModel::table;
+}
+
+void read_table(const JsonValue& value, std::uint32_t width, std::uint32_t height,
+                const DirectionReader& directions, Projection& projection) {
+  for (const char* later : {"origins", "row_poses"}) {
+    if (const auto key = value.find(later))
+      key->fail("not supported yet: all rays of a table begin at the eye of the camera");
+  }
+  Lens& lens = projection.lens.emplace(Lens{LensModel::table});
+  read_number(value, "max_radius", lens.max_radius);
+  const JsonValue file = value.at("directions");
+  const auto expected = value.find("directions_sha256");
+  if (!directions || file.is_null()) {
+    lens.directions = std::make_shared<const DirectionTable>(
+        DirectionTable::unread({.path = file.is_null() ? "" : file.string(),
+                                .sha256 = expected ? expected->string() : "",
+                                .reader = ""}));
+    return;
+  }
+  lens.directions = directions(file.string(), width, height);
+  if (expected && expected->string() != lens.directions->sha256()) {
+    expected->fail("the file '" + file.string() + "' has the SHA-256 " + lens.directions->sha256() +
+                   ", expected " + expected->string());
+  }
 }
 
 void read_lens(const JsonValue& value, Projection& projection) {
@@ -136,7 +152,7 @@ void read_lens(const JsonValue& value, Projection& projection) {
     return;
   }
   for (std::size_t i = 0; i < model.distortion.size(); ++i)
-    read_number(value, std::string(model.distortion[i]).c_str(), lens.distortion[i]);
+    read_number(value, model.distortion[i], lens.distortion[i]);
 }
 
 }  // namespace fathom::camera

@@ -114,6 +114,7 @@ Camera with_lens(const LensChoice& lens) {
     camera.projection.fx = focal_of_degrees(lens.height, lens.vertical_fov);
   }
   camera.projection.fy = camera.projection.fx;
+  camera.projection.lens = lens.distortion;
   return camera;
 }
 

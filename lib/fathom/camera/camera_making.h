@@ -13,8 +13,8 @@
 /// *are* the camera: the rotation is orthonormal only up to that rounding.
 namespace fathom {
 
-/// Image size and angle of view. Square pixels, the principal point in the middle of the image,
-/// pixel_centre ½, no skew.
+/// Image size, angle of view and distortion. Square pixels, the principal point in the middle of
+/// the image, pixel_centre ½, no skew.
 struct LensChoice {
   std::uint32_t width = 1280;
   std::uint32_t height = 720;
@@ -25,6 +25,9 @@ struct LensChoice {
   std::optional<double> focal;
   /// Orthographic: scene units that the image's height spans; look_at() and orbit() need it.
   std::optional<double> vertical_extent;
+  /// Perspective: how the lens bends rays. The angle and the framing of scenes are those of the
+  /// pinhole without it.
+  std::optional<Lens> distortion;
   /// The range of planar depth that counts, in scene units.
   double near = 0;
   double far = std::numeric_limits<double>::infinity();

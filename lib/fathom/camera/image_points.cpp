@@ -118,6 +118,11 @@ double ImageRays::exactly_of_pixel(std::size_t k, double x, double y) const {
 
 Camera resized(const Camera& camera, std::uint32_t width, std::uint32_t height) {
   const StandardArithmetic standard;
+  if (camera.projection.lens && camera.projection.lens->directions) {
+    require_straight(camera,
+                     "a table has directions for its own pixels only; make a table of the "
+                     "other size");
+  }
   Camera result = camera;
   result.width = width;
   result.height = height;

@@ -89,9 +89,14 @@ ImportedCamera make_camera(const CameraRecord& record, const Model& model,
   Camera& camera = result.camera;
   if (std::any_of(distortion, distortion + static_cast<long>(distortion_parameters(model)),
                   [](double k) { return k != 0; })) {
-    if (const auto lens = lens_model_named(model.name)) {
-      camera.projection.lens.emplace(Lens{*lens});
-      std::copy(distortion, record.parameters.end(), camera.projection.lens->distortion.begin());
+    if (const auto lens_model = lens_model_named(model.name)) {
+      Lens lens{*lens_model};
+      std::copy(distortion, record.parameters.end(), lens.distortion.begin());
+      if (const auto fault = find_fault(lens)) {
+        result.distortion = about + *fault;
+      } else {
+        camera.projection.lens = lens;
+      }
     } else {
       result.distortion = about + "the model " + model.name + " has lens distortion";
     }

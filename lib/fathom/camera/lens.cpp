@@ -13,7 +13,18 @@ bool is_tilt(std::string_view parameter) {
   return parameter == "tauX" || parameter == "tauY";
 }
 
+bool are_same(const std::shared_ptr<const DirectionTable>& a,
+              const std::shared_ptr<const DirectionTable>& b) {
+  return a == b || (a && b && *a == *b);
+}
+
 }  // namespace
+
+bool operator==(const Lens& a, const Lens& b) {
+  const StandardArithmetic standard;
+  return a.model == b.model && a.distortion == b.distortion && a.max_radius == b.max_radius &&
+         are_same(a.directions, b.directions);
+}
 
 // The binary64 number nearest to π/2 is less than π/2, so the greatest angle is that number.
 std::optional<std::string> find_fault(const Lens& lens) {
@@ -30,6 +41,9 @@ std::optional<std::string> find_fault(const Lens& lens) {
       return std::string(names[i]) + " is not between -pi/2 and pi/2";
   }
   if (!(lens.max_radius > 0)) return "max_radius is not greater than 0";
+  if (lens.model == LensModel::table && !lens.directions) return "TABLE has no table of directions";
+  if (lens.model != LensModel::table && lens.directions)
+    return std::string(name_of(lens.model)) + " has a table of directions, which only TABLE has";
   return std::nullopt;
 }
 

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "fathom/camera/direction_table.h"
 #include "fathom/camera/lens_model.h"
 
 namespace fathom {
@@ -17,12 +19,16 @@ struct Lens {
   std::array<double, 14> distortion{};
   /// Rays end there: |m| of a model of the plane, else the angle to the z axis in radians.
   double max_radius = std::numeric_limits<double>::infinity();
+  /// Of the model TABLE: the directions of the pixels. Copies of a lens share them.
+  std::shared_ptr<const DirectionTable> directions;
 
-  friend bool operator==(const Lens&, const Lens&) = default;
+  /// Tables of directions are equal if their numbers are.
+  friend bool operator==(const Lens& a, const Lens& b);
 };
 
 /// The fault of a lens, in one line, or nothing if all numbers are finite (max_radius may be +∞),
-/// those that the model lacks are 0, |tauX| and |tauY| are less than π/2, and max_radius > 0.
+/// those that the model lacks are 0, |tauX| and |tauY| are less than π/2, max_radius > 0, and the
+/// model TABLE, and no other, has a table of directions.
 std::optional<std::string> find_fault(const Lens& lens);
 
 /// The same lens by a model that has fx and fy, if its own has one focal length for both.

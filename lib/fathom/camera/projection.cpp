@@ -1,6 +1,7 @@
 #include "fathom/camera/projection.h"
 
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "fathom/numeric/certified.h"
@@ -14,6 +15,18 @@ std::string_view name_of(ProjectionModel model) {
   return model == ProjectionModel::perspective ? "perspective" : "orthographic";
 }
 
+namespace {
+
+/// Whether fx … skew are as in a new projection.
+bool has_no_intrinsics(const Projection& p) {
+  const Projection untouched;
+  return std::tie(p.fx, p.fy, p.cx, p.cy, p.skew, p.pixel_centre) ==
+         std::tie(untouched.fx, untouched.fy, untouched.cx, untouched.cy, untouched.skew,
+                  untouched.pixel_centre);
+}
+
+}  // namespace
+
 std::optional<std::string> find_fault(const Projection& projection) {
   const StandardArithmetic standard;
   const std::pair<const char*, double> numbers[] = {
@@ -26,8 +39,10 @@ std::optional<std::string> find_fault(const Projection& projection) {
   if (!projection.lens) return std::nullopt;
   if (is_orthographic(projection)) return "an orthographic camera has no lens";
   const LensModelEntry& model = entry_of(projection.lens->model);
-  if (model.intrinsics.front() == "f" && (projection.fx != projection.fy || projection.skew != 0))
+  if (has_one_focal_length(model) && (projection.fx != projection.fy || projection.skew != 0))
     return std::string(model.name) + " has one focal length and no skew";
+  if (model.intrinsics.empty() && !has_no_intrinsics(projection))
+    return std::string(model.name) + " has no fx, fy, cx, cy, skew and pixel_centre";
   return find_fault(*projection.lens);
 }
 

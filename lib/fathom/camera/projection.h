@@ -53,7 +53,8 @@ struct Projection {
 }
 
 /// What is wrong with a projection, in one line, or nothing if all numbers are finite, fx and
-/// fy ≠ 0, and a lens is valid and that of a perspective camera.
+/// fy ≠ 0, and a lens is valid and that of a perspective camera. With the model TABLE, fx … skew
+/// and pixel_centre are those of a new projection.
 std::optional<std::string> find_fault(const Projection& projection);
 
 /// The homogeneous image point of a camera point in pixels, exactly; accounts for `pixel_centre`.

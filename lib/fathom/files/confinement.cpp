@@ -46,6 +46,11 @@ struct stat examine(const Descriptor& file, const std::string& name) {
 
 }  // namespace
 
+std::vector<Boundary> boundaries_of(const std::filesystem::path& folder) {
+  if (folder.empty()) return {};
+  return {{folder, "to which files named by other files are confined"}};
+}
+
 Descriptor open_confined(const std::filesystem::path& path,
                          const std::vector<Boundary>& boundaries) {
   const std::string name = path.string();

@@ -16,6 +16,10 @@ struct Boundary {
   std::string rule;
 };
 
+/// The boundary of every file that another file names, where `folder` confines them; none where it
+/// is empty.
+std::vector<Boundary> boundaries_of(const std::filesystem::path& folder);
+
 /// Opens a file that another file names, for reading. It must be a regular
 /// file: no pipe, no device, which are not even opened to find out. It must lie in the
 /// folder of every boundary where all symbolic links have led: the file that is opened is the one

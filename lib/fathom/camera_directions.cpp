@@ -1,0 +1,91 @@
+#include "fathom/camera_directions.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "fathom/failures/errors.h"
+#include "fathom/lens/preimages.h"
+#include "fathom/numeric/real.h"
+#include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/threads/threads.h"
+#include "fathom/triangle/ray_values.h"
+
+namespace fathom {
+using lens::ExactDirection;
+
+namespace {
+
+using Direction = DirectionTable::Direction;
+
+/// The component of this number as a form.
+ExactVector3 component(std::size_t k) {
+  ExactVector3 form;
+  form[k] = 1.0;
+  return form;
+}
+
+/// The greatest of |d_x|, |d_y| and |d_z|, as a form at d.
+ExactVector3 greatest_magnitude(const ExactDirection& d) {
+  std::array<double, 3> signs{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    signs[k] = d.sign_of(component(k)) == Sign::negative ? -1 : 1;
+  }
+  std::size_t greatest = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    ExactVector3 difference;
+    difference[k] = signs[k];
+    difference[greatest] = -signs[greatest];
+    if (d.sign_of(difference) == Sign::positive) greatest = k;
+  }
+  ExactVector3 form;
+  form[greatest] = signs[greatest];
+  return form;
+}
+
+double rounded(const Real& x, DirectionRounding rounding) {
+  return rounding == DirectionRounding::binary64 ? round_to_binary64(x) : round_to_binary32(x);
+}
+
+Direction rounded(const ExactDirection& d, DirectionRounding rounding) {
+  const LinearForm greatest(greatest_magnitude(d));
+  Direction result{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    result[k] = rounded(triangle::quotient_at(d, LinearForm(component(k)), greatest), rounding);
+  }
+  return result;
+}
+
+lens::Preimages preimages_of(const Camera& camera) {
+  return {camera.projection, camera.projection.lens.value_or(Lens())};
+}
+
+}  // namespace
+
+DirectionTable directions_of(const Camera& camera, DirectionRounding rounding,
+                             const std::function<void(double)>& progress) {
+  const StandardArithmetic standard;
+  require_valid(camera);
+  if (is_orthographic(camera.projection)) {
+    throw UsageError(
+        "an orthographic camera has one direction for all pixels and an origin for each, expected "
+        "a perspective camera");
+  }
+  const lens::Preimages preimages = preimages_of(camera);
+  const std::size_t width = camera.width;
+  std::vector<double> numbers(3 * width * camera.height);
+  Progress done(progress, camera.height);
+  parallel_for(std::uint32_t{0}, camera.height, [&](std::uint32_t row) {
+    for (std::uint32_t column = 0; column < camera.width; ++column) {
+      const auto d = preimages.of_pixel(column, row);
+      if (!d) continue;
+      std::ranges::copy(rounded(*d, rounding), &numbers[3 * (row * width + column)]);
+    }
+    done.part_done();
+  });
+  return {camera.width, camera.height, std::move(numbers)};
+}
+
+}  // namespace fathom

@@ -1,0 +1,56 @@
+// Lenses from names and numbers.
+#include "fathom/camera/lens_numbers.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "fathom/failures/errors.h"
+
+namespace fathom {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string fault(std::string_view model, const std::vector<double>& numbers,
+                  double max_radius = 1) {
+  try {
+    lens_of_numbers(model, numbers, max_radius);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(LensNumbers, KeepTheirOrderAndTheRestIsZero) {
+  const std::array<double, 5> numbers{-0.25, 0.06, 0.001, -0.0005, 0.01};
+  const Lens lens = lens_of_numbers("OPENCV_14", numbers, 0.75);
+  EXPECT_EQ(lens, (Lens{LensModel::opencv_14, {-0.25, 0.06, 0.001, -0.0005, 0.01}, 0.75}));
+  EXPECT_EQ(lens_of_numbers("FISHEYE_STEREOGRAPHIC", {}), Lens{LensModel::fisheye_stereographic});
+}
+
+TEST(LensNumbers, EveryModelTakesItsOwnCount) {
+  for (const LensModelEntry& entry : lens_models()) {
+    const std::vector<double> numbers(entry.distortion.size(), 0.125);
+    EXPECT_EQ(distortion_count_fault(entry, numbers.size()), std::nullopt) << entry.name;
+    EXPECT_NE(distortion_count_fault(entry, numbers.size() + 1), std::nullopt) << entry.name;
+    EXPECT_EQ(distortion_count_fault(entry, numbers.size() + 4, 4), std::nullopt) << entry.name;
+  }
+}
+
+TEST(LensNumbers, FaultsAreNamed) {
+  EXPECT_THAT(fault("OPENC", {}), HasSubstr("unknown lens model 'OPENC', expected SIMPLE_PINHOLE"));
+  EXPECT_THAT(fault("OPENC", {}), HasSubstr("did you mean 'OPENCV'?"));
+  EXPECT_EQ(fault("OPENCV", {1, 2, 3}), "distortion: found 3 numbers, OPENCV has 4");
+  EXPECT_EQ(fault("OPENCV_14", {1}), "distortion: found 1 number, OPENCV_14 has 4, 5, 8, 12 or 14");
+  EXPECT_EQ(fault("RADIAL", {1, std::numeric_limits<double>::infinity()}),
+            "k2 is not a finite number");
+  EXPECT_EQ(fault("RADIAL", {1, 2}, 0), "max_radius is not greater than 0");
+}
+
+}  // namespace
+}  // namespace fathom
