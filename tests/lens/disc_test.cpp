@@ -60,6 +60,19 @@ TEST(Disc, MayBeThePlane) {
   EXPECT_EQ(disc_of(LensModel::opencv, {0.5, 0.1, 0.001, 0.002}), infinity);
 }
 
+// L = 1 − q: at q = 2 both eigenvalues, 1 − 3q and 1 − q, are negative, and the determinant is not.
+TEST(Definiteness, IsNotThatOfTheDeterminantAlone) {
+  Lens lens;
+  lens.model = LensModel::simple_radial;
+  lens.distortion[0] = -1;
+  const Definiteness exact(as_polynomials(stage_of(lens)));
+  EXPECT_TRUE(exact.holds_on_circle(0.25));
+  EXPECT_FALSE(exact.holds_on_circle(0.5));
+  EXPECT_FALSE(exact.holds_on_circle(2.0));
+  EXPECT_EQ(exact.holds_on_ring(0.125, 0.25).verdict, Definiteness::Verdict::holds);
+  EXPECT_EQ(exact.holds_on_ring(0.125, 2.0).verdict, Definiteness::Verdict::fails);
+}
+
 class Discs : public ::testing::TestWithParam<LensModel> {};
 INSTANTIATE_TEST_SUITE_P(Lenses, Discs, ::testing::ValuesIn(oracle::stage_models),
                          [](const auto& model) { return std::string(name_of(model.param)); });
@@ -125,7 +138,7 @@ TEST_P(Discs, EndAtTheLastNumber) {
     const auto stage = stage_of(oracle::random_lens(random, GetParam(), 0.4));
     const double q = greatest_disc(stage), next = std::nextafter(q, infinity);
     if (std::isinf(q)) continue;
-    const Definiteness exact(stage.in([](double x) { return ExactPolynomial(x); }));
+    const Definiteness exact(as_polynomials(stage));
     EXPECT_TRUE(exact.holds_on_circle(q));
     EXPECT_TRUE(!exact.holds_on_circle(next) ||
                 exact.denominator().at(next).sign() != Sign::positive);

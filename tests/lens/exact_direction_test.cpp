@@ -122,6 +122,8 @@ TEST_P(Signs, AreZeroAtTies) {
     EXPECT_EQ(d->sign_of(plane), Sign::zero);
     EXPECT_EQ(d->sign_of(ExactVector3{plane[0], plane[1], plane[2] + e}), Sign::positive);
     EXPECT_EQ(d->sign_of(ExactVector3{plane[0], plane[1], plane[2] - e}), Sign::negative);
+    const Dyadic least = Dyadic(1.0).scaled(-3000);  // below what doubled precisions see first
+    EXPECT_EQ(d->sign_of(ExactVector3{plane[0], plane[1], plane[2] + least}), Sign::positive);
     const Dyadic q = tie.x * tie.x + tie.y * tie.y;
     EXPECT_EQ(d->sign_of(QuadraticForm{{1.0, 1.0, -q, 0.0, 0.0, 0.0}}), Sign::zero);
     EXPECT_EQ(d->sign_of(QuadraticForm{{1.0, 1.0, e - q, 0.0, 0.0, 0.0}}), Sign::positive);

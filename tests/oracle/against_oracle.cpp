@@ -107,11 +107,7 @@ oracle::Vector smooth_normal(const Scene& scene, const oracle::Hit& hit, NormalS
 
 /// The square of a component is 0 below this: the error of a bent ray, squared.
 const Q& least_square() {
-  static const Q least = [] {
-    Q power = 1;
-    mpq_div_2exp(power.get_mpq_t(), power.get_mpq_t(), 2 * oracle::zero_bits);
-    return power;
-  }();
+  static const Q least = oracle::power_of_two_below(2 * oracle::zero_bits);
   return least;
 }
 
@@ -190,6 +186,19 @@ oracle::RayCaster cast_at(const Scene& scene, const Camera& camera, const oracle
   oracle::RayCamera bent = ray_camera(camera);
   bent.bent = oracle::lens_rays(bent, lens, greatest_q);
   bent.by_distance = lens.division.has_value();
+  return {bent, triangles_of(scene)};
+}
+
+oracle::RayCaster cast_along(const Scene& scene, const Camera& camera,
+                             const DirectionOfPixel& direction) {
+  oracle::RayCamera bent = ray_camera(camera);
+  bent.bent = [direction](const oracle::Q& u, const oracle::Q& v) -> std::optional<oracle::Vector> {
+    const auto d =
+        direction(static_cast<std::uint32_t>(u.get_d()), static_cast<std::uint32_t>(v.get_d()));
+    if (!d) return std::nullopt;
+    return oracle::Vector{oracle::Q((*d)[0]), oracle::Q((*d)[1]), oracle::Q((*d)[2])};
+  };
+  bent.by_distance = true;
   return {bent, triangles_of(scene)};
 }
 

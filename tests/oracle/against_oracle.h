@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -20,6 +22,12 @@ oracle::RayCaster cast_at(const Scene& scene, const Camera& camera);
 /// The same through a lens whose rays have |m|² ≤ greatest_q.
 oracle::RayCaster cast_at(const Scene& scene, const Camera& camera, const oracle::LensNumbers& lens,
                           double greatest_q);
+
+/// The same along the given directions of pixels; near and far bound distances.
+using DirectionOfPixel =
+    std::function<std::optional<std::array<double, 3>>(std::uint32_t column, std::uint32_t row)>;
+oracle::RayCaster cast_along(const Scene& scene, const Camera& camera,
+                             const DirectionOfPixel& direction);
 
 /// The areas of the pixels of `camera` that the scene covers.
 oracle::Areas areas_at(const Scene& scene, const Camera& camera);

@@ -105,9 +105,7 @@ Q settled(const F& x) {
              Q(shifted + Q(1, 2)).get_den_mpz_t());
   Q few(floor);
   mpq_div_2exp(few.get_mpq_t(), few.get_mpq_t(), 300);
-  Q least = 1;
-  mpq_div_2exp(least.get_mpq_t(), least.get_mpq_t(), zero_bits);
-  return abs(few - q) < least ? few : q;
+  return abs(few - q) < power_of_two_below(zero_bits) ? few : q;
 }
 
 std::optional<Vector> bent_by_polynomial(const LensNumbers& lens, const Q& x, const Q& y,

@@ -1,6 +1,13 @@
 #include "tests/oracle/ray_caster.h"
 
 namespace fathom::oracle {
+
+Q power_of_two_below(int bits) {
+  Q power = 1;
+  mpq_div_2exp(power.get_mpq_t(), power.get_mpq_t(), static_cast<mp_bitcnt_t>(bits));
+  return power;
+}
+
 namespace {
 
 Vector minus(const Vector& a, const Vector& b) {
@@ -121,11 +128,7 @@ std::optional<RayCaster::Meeting> RayCaster::meet(const Triangle& triangle, int 
 namespace {
 
 int sign_at_bent_ray(const Q& value) {
-  static const Q least = [] {
-    Q power = 1;
-    mpq_div_2exp(power.get_mpq_t(), power.get_mpq_t(), zero_bits);
-    return power;
-  }();
+  static const Q least = power_of_two_below(zero_bits);
   return abs(value) < least ? 0 : sgn(value);
 }
 
@@ -152,17 +155,13 @@ std::optional<RayCaster::Meeting> RayCaster::meet_bent(const Triangle& triangle,
     return std::nullopt;
   Meeting m{here.t / here.determinant, here.beta / here.determinant, here.gamma / here.determinant};
   if (sgn(m.depth) <= 0) return std::nullopt;
-  const auto before = [&](const Q& limit) {
-    const Q z = m.depth * d[2];
-    return camera_.by_distance ? sign_at_bent_ray(m.depth * m.depth * dot(d, d) - limit * limit) < 0
-                               : sign_at_bent_ray(z - limit) < 0;
+  // −1 before a limit, 1 beyond it.
+  const auto beside = [&](const Q& limit) {
+    if (!camera_.by_distance) return sign_at_bent_ray(m.depth * d[2] - limit);
+    return sign_at_bent_ray(m.depth * m.depth * dot(d, d) - limit * limit);
   };
-  const auto beyond = [&](const Q& limit) {
-    const Q z = m.depth * d[2];
-    return camera_.by_distance ? sign_at_bent_ray(m.depth * m.depth * dot(d, d) - limit * limit) > 0
-                               : sign_at_bent_ray(z - limit) > 0;
-  };
-  if (before(camera_.near) || (camera_.far && beyond(*camera_.far))) return std::nullopt;
+  if (beside(camera_.near) < 0) return std::nullopt;
+  if (camera_.far && beside(*camera_.far) > 0) return std::nullopt;
   return m;
 }
 

@@ -33,6 +33,9 @@ struct RayCamera {
 /// their neighbours, are 0: products of two subnormal numbers are greater.
 inline constexpr int lens_bits = 3500, zero_bits = 2600;
 
+/// 2^−bits
+Q power_of_two_below(int bits);
+
 struct Hit {
   std::uint32_t triangle = 0;
   Q depth;               // z in the camera frame

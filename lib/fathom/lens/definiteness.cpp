@@ -1,9 +1,10 @@
 #include "fathom/lens/definiteness.h"
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
 #include <utility>
+#include <vector>
 
 #include "fathom/numeric/big_interval.h"
 
@@ -159,7 +160,7 @@ class EnclosedFunction {
       : constant_(f.constant), x_(f.linear[0]), y_(f.linear[1]), xx_(f.xx), xy_(f.xy), yy_(f.yy) {}
 
   [[nodiscard]] BigInterval at(const Dyadic& x, const Dyadic& y) const {
-    return value(number(x), number(y), number(x * x + y * y));
+    return sum(&Coefficient::value, number(x), number(y), number(x * x + y * y));
   }
 
   /// The sign of all values where the square meets the ring inner ≤ |m|² ≤ outer; Sign::zero if
@@ -169,7 +170,7 @@ class EnclosedFunction {
     const BigInterval q = square(x) + square(y);
     const auto [low, high] = q.ends();
     const BigInterval within(std::max(low, ring.low), std::min(high, ring.high), ring_bits);
-    const Sign sign = value(x, y, within).sign();
+    const Sign sign = sum(&Coefficient::value, x, y, within).sign();
     return sign != Sign::zero ? sign : from_the_middle(s, x, y, q).sign();
   }
 
@@ -186,9 +187,10 @@ class EnclosedFunction {
     std::vector<BigInterval> value, slope;
   };
 
-  [[nodiscard]] BigInterval value(const BigInterval& x, const BigInterval& y,
-                                  const BigInterval& q) const {
-    const auto of = [&q](const Coefficient& c) { return horner(c.value, q); };
+  /// The function with these parts of its coefficients: its value, or its slope along q alone.
+  [[nodiscard]] BigInterval sum(std::vector<BigInterval> Coefficient::*part, const BigInterval& x,
+                                const BigInterval& y, const BigInterval& q) const {
+    const auto of = [&](const Coefficient& c) { return horner(c.*part, q); };
     return of(constant_) + x * of(x_) + y * of(y_) + square(x) * of(xx_) + x * y * of(xy_) +
            square(y) * of(yy_);
   }
@@ -196,10 +198,8 @@ class EnclosedFunction {
   /// The mean value theorem: the value in the middle, and the slopes times the distances.
   [[nodiscard]] BigInterval from_the_middle(const Square& s, const BigInterval& x,
                                             const BigInterval& y, const BigInterval& q) const {
-    const auto slope = [&q](const Coefficient& c) { return horner(c.slope, q); };
     const auto of = [&q](const Coefficient& c) { return horner(c.value, q); };
-    const BigInterval by_q = slope(constant_) + x * slope(x_) + y * slope(y_) +
-                             square(x) * slope(xx_) + x * y * slope(xy_) + square(y) * slope(yy_);
+    const BigInterval by_q = sum(&Coefficient::slope, x, y, q);
     const BigInterval two_x = x + x, two_y = y + y, xy = of(xy_);
     const BigInterval by_x = two_x * by_q + of(x_) + two_x * of(xx_) + y * xy;
     const BigInterval by_y = two_y * by_q + of(y_) + two_y * of(yy_) + x * xy;

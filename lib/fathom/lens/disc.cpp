@@ -100,7 +100,7 @@ class DiscSearch {
 
 double greatest_disc(const StageNumbers<double>& numbers) {
   const StandardArithmetic standard;
-  const Definiteness stage(numbers.in([](double x) { return ExactPolynomial(x); }));
+  const Definiteness stage(as_polynomials(numbers));
   return is_radial(numbers) ? radial_disc(stage) : DiscSearch(stage).run();
 }
 

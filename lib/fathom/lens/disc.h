@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "fathom/lens/stage.h"
 
 namespace fathom::lens {

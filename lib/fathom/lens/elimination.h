@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "fathom/lens/sample_plane.h"
 #include "fathom/lens/stage.h"
 
 /// The preimages of a point under a stage as roots of one polynomial, over any arithmetic.
@@ -14,12 +15,6 @@
 /// preimage: A is positive there, which makes other zeroes (where w = 0) minima with the value 0,
 /// beyond the preimage.
 namespace fathom::lens {
-
-/// y = (a/c, b/c), c > 0.
-template <class T>
-struct HomogeneousPoint {
-  T a, b, c;
-};
 
 template <class T>
 struct Elimination {

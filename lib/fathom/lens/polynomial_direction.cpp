@@ -1,14 +1,13 @@
 #include "fathom/lens/polynomial_direction.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "fathom/lens/elimination.h"
 #include "fathom/lens/root_estimate.h"
 #include "fathom/numeric/big_interval.h"
-#include "fathom/numeric/certified_interval.h"
 
 namespace fathom::lens {
 namespace {
@@ -21,13 +20,16 @@ BigInterval number(const Dyadic& x, long bits) {
   return {x, bits};
 }
 
+/// The conversion to intervals of so many bits.
+auto to_bits(long bits) {
+  return [bits](const Dyadic& x) { return number(x, bits); };
+}
+
 /// F and the direction of one point, in intervals of so many bits.
 class EnclosedElimination {
  public:
   EnclosedElimination(const PolynomialStage& stage, const DistortedPoint& y, long bits)
-      : bits_(bits),
-        numbers_(stage.exact.in([bits](const Dyadic& x) { return number(x, bits); })),
-        y_{number(y.a, bits), number(y.b, bits), number(y.c, bits)} {}
+      : bits_(bits), numbers_(stage.exact.in(to_bits(bits))), y_(y.in(to_bits(bits))) {}
 
   [[nodiscard]] Elimination<BigInterval> at(const DyadicInterval& q) const {
     return eliminate(numbers_, y_, BigInterval(q, bits_));
@@ -40,7 +42,7 @@ class EnclosedElimination {
 };
 
 Sign exact_sign_of_f(const PolynomialStage& stage, const DistortedPoint& y, const Dyadic& q) {
-  return eliminate<Dyadic>(stage.exact, {y.a, y.b, y.c}, q).f.sign();
+  return eliminate(stage.exact, y, q).f.sign();
 }
 
 /// How many bits the ends of an interval of positive numbers share, about.
@@ -140,8 +142,8 @@ template <class Form>
 Polynomials polynomials_of(const PolynomialStage& stage, const DistortedPoint& y,
                            const Form& form) {
   const auto constant = [](const Dyadic& x) { return ExactPolynomial(x); };
-  const Elimination<ExactPolynomial> e = eliminate<ExactPolynomial>(
-      stage.exact.in(constant), {y.a, y.b, y.c}, ExactPolynomial::variable());
+  const Elimination<ExactPolynomial> e =
+      eliminate(as_polynomials(stage.exact), y.in(constant), ExactPolynomial::variable());
   return {primitive(e.f), primitive(form_at(converted(form, constant), e.direction))};
 }
 
@@ -192,12 +194,8 @@ std::optional<PolynomialDirection> PolynomialDirection::find(const PolynomialSta
   if (!q) return std::nullopt;
   PolynomialDirection direction(stage, y, std::move(*q), {});
   const std::array<DyadicInterval, 3> d = direction.enclosure(box_bits);
-  for (std::size_t i = 0; i < 3; ++i) direction.box_[i] = fathom::enclose(d[i]);
+  for (std::size_t i = 0; i < 3; ++i) direction.box_[i] = enclose(d[i]);
   return direction;
-}
-
-DyadicInterval PolynomialDirection::squared_radius(long bits) const {
-  return RootNarrowing(*stage_, y_, q_).to(bits);
 }
 
 // The third component is positive at the root: intervals that are narrow enough show it. They lose
@@ -219,7 +217,7 @@ std::array<DyadicInterval, 3> PolynomialDirection::enclosure(long bits) const {
 template <class Form>
 Sign PolynomialDirection::sign_of_form(const Form& form) const {
   DyadicInterval q = RootNarrowing(*stage_, y_, q_).to(first_bits);
-  const auto enclosed = converted(form, [](const Dyadic& x) { return number(x, first_bits); });
+  const auto enclosed = converted(form, to_bits(first_bits));
   const EnclosedElimination elimination(*stage_, y_, first_bits + spare_bits);
   const Sign sign = form_at(enclosed, elimination.at(q).direction).sign();
   if (sign != Sign::zero) return sign;

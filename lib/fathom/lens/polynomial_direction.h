@@ -31,9 +31,6 @@ class PolynomialDirection {
   /// Binary64 intervals that contain (m, 1).
   [[nodiscard]] const std::array<Interval, 3>& box() const { return box_; }
 
-  /// Encloses |m|². The upper end is at most 1 + 2^−bits times the lower one.
-  [[nodiscard]] DyadicInterval squared_radius(long bits) const;
-
  private:
   PolynomialDirection(const PolynomialStage& stage, const DistortedPoint& y, DyadicInterval q,
                       const std::array<Interval, 3>& box);

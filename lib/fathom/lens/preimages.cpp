@@ -1,22 +1,19 @@
 #include "fathom/lens/preimages.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
 
+#include "fathom/failures/errors.h"
 #include "fathom/numeric/big_interval.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::lens {
 namespace {
 
-bool is_division(LensModel model) {
-  return model == LensModel::simple_division || model == LensModel::division ||
-         model == LensModel::fisheye_stereographic;
-}
-
-/// The k of d = (x_d, y_d, 1 + k·r²).
+/// The k of d = (x_d, y_d, 1 + k·r²), of a model that is not of the plane.
 double division_term(const Lens& lens) {
   return lens.model == LensModel::fisheye_stereographic ? -0.25 : lens.distortion[0];
 }
@@ -48,9 +45,21 @@ bool is_within_radius(const DistortedPoint& m, double radius) {
   return m.a * m.a + m.b * m.b <= bound * bound;
 }
 
+/// The direction, times a power of two that brings its greatest component between ½ and 1: binary64
+/// intervals contain it closely whatever its length is.
+RationalDirection scaled_direction(const DirectionTable::Direction& d) {
+  ExactVector3 vector{d[0], d[1], d[2]};
+  std::optional<long> top;
+  for (const Dyadic& component : vector) {
+    if (!component.is_zero()) top = std::max(top.value_or(component.top()), component.top());
+  }
+  for (Dyadic& component : vector) component = component.scaled(-*top);
+  return RationalDirection(std::move(vector));
+}
+
 PolynomialStage prepared_stage(const Lens& lens) {
   constexpr double no_bound = std::numeric_limits<double>::infinity();
-  if (is_division(lens.model)) return {stage_of(Lens()), no_bound};
+  if (!entry_of(lens.model).is_plane) return {stage_of(Lens()), no_bound};
   return {stage_of(lens), lens.max_radius};
 }
 
@@ -61,8 +70,11 @@ Preimages::Preimages(const Projection& projection, const Lens& lens)
 
 std::optional<ExactDirection> Preimages::of(const Dyadic& u, const Dyadic& v) const {
   const StandardArithmetic standard;
+  if (lens_.directions) {
+    throw UsageError("the lens TABLE: has directions of the centres of its pixels only");
+  }
   std::optional<DistortedPoint> y = plane_.at(u, v);
-  if (is_division(lens_.model)) {
+  if (!entry_of(lens_.model).is_plane) {
     std::optional<RationalDirection> d = divide(*y, division_term(lens_));
     if (!d || !is_within_angle(d->vector(), lens_.max_radius)) return std::nullopt;
     return ExactDirection(std::move(*d));
@@ -77,6 +89,16 @@ std::optional<ExactDirection> Preimages::of(const Dyadic& u, const Dyadic& v) co
   std::optional<PolynomialDirection> d = PolynomialDirection::find(stage_, *y);
   if (!d) return std::nullopt;
   return ExactDirection(std::move(*d));
+}
+
+std::optional<ExactDirection> Preimages::of_pixel(std::uint32_t column, std::uint32_t row) const {
+  const StandardArithmetic standard;
+  if (!lens_.directions) return of(column + 0.5, row + 0.5);
+  const auto d = lens_.directions->at(column, row);
+  if (!d) return std::nullopt;
+  RationalDirection direction = scaled_direction(*d);
+  if (!is_within_angle(direction.vector(), lens_.max_radius)) return std::nullopt;
+  return ExactDirection(std::move(direction));
 }
 
 }  // namespace fathom::lens

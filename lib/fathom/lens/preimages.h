@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "fathom/camera/lens.h"
@@ -22,10 +23,16 @@ class Preimages {
   /// The direction that the sample (u, v) sees; nullopt if it sees none. u and v in pixels from
   /// the top left corner of the image: the centre of the top left pixel is (½, ½), whatever the
   /// camera's pixel_centre is.
+  /// Fails    UsageError of a table, which has directions of pixels only: of_pixel() finds them.
   [[nodiscard]] std::optional<ExactDirection> of(const Dyadic& u, const Dyadic& v) const;
   [[nodiscard]] std::optional<ExactDirection> of(const ImagePoint& sample) const {
     return of(sample.u, sample.v);
   }
+
+  /// The direction that a pixel's sample sees, its centre; nullopt if it sees none.
+  /// Needs    of a table, a pixel that it has.
+  [[nodiscard]] std::optional<ExactDirection> of_pixel(std::uint32_t column,
+                                                       std::uint32_t row) const;
 
   /// Q: rays of a model with a stage have |m|² ≤ Q, and max_radius may narrow that. +∞ if there is
   /// no bound, or no stage.

@@ -1,7 +1,6 @@
 #include "fathom/lens/root_estimate.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "fathom/lens/elimination.h"

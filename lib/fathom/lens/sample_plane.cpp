@@ -1,7 +1,5 @@
 #include "fathom/lens/sample_plane.h"
 
-#include "fathom/numeric/standard_arithmetic.h"
-
 namespace fathom::lens {
 
 SamplePlane::SamplePlane(const Projection& projection)

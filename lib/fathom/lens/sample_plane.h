@@ -5,12 +5,21 @@
 
 namespace fathom::lens {
 
-/// The plane in which lenses distort: (x_d, y_d) = K⁻¹·(u, v), of a sample (u, v) of the image.
-///
-/// Exact    (x_d, y_d) = (a/c, b/c) with dyadic a, b and c > 0.
-struct DistortedPoint {
-  Dyadic a, b, c;
+/// The point (a/c, b/c) of a plane, c > 0, over any arithmetic.
+template <class T>
+struct HomogeneousPoint {
+  T a, b, c;
+
+  /// The same point in another arithmetic.
+  template <class Convert>
+  [[nodiscard]] auto in(const Convert& convert) const {
+    return HomogeneousPoint<decltype(convert(a))>{convert(a), convert(b), convert(c)};
+  }
 };
+
+/// A point of the plane in which lenses distort: (x_d, y_d) = K⁻¹·(u, v), of a sample (u, v) of the
+/// image, exactly.
+using DistortedPoint = HomogeneousPoint<Dyadic>;
 
 /// K⁻¹, for the samples of one camera.
 class SamplePlane {

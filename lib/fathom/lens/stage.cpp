@@ -43,6 +43,7 @@ StageNumbers<double> stage_of(const Lens& lens) {
     case LensModel::simple_division:
     case LensModel::division:
     case LensModel::fisheye_stereographic:
+    case LensModel::table:
       break;
   }
   throw std::logic_error("the lens model has no stage");
@@ -54,7 +55,7 @@ bool is_radial(const StageNumbers<double>& n) {
 }
 
 bool is_identity(const StageNumbers<double>& n) {
-  return is_radial(n) && n.numerator.size() == 1 && n.denominator.size() == 1;
+  return n.numerator.size() == 1 && n.denominator.size() == 1 && is_radial(n);
 }
 
 }  // namespace fathom::lens

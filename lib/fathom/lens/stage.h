@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "fathom/camera/lens.h"
@@ -34,8 +34,13 @@ struct StageNumbers {
   }
 };
 
-/// The stage of a model of the class DirectionClass::polynomial. Leading zeroes of N and D are left
-/// out.
+/// The same numbers as constant polynomials.
+template <class T>
+StageNumbers<ExactPolynomial> as_polynomials(const StageNumbers<T>& numbers) {
+  return numbers.in([](const T& number) { return ExactPolynomial(number); });
+}
+
+/// The stage of a model of the plane. Leading zeroes of N and D are left out.
 StageNumbers<double> stage_of(const Lens& lens);
 
 /// Whether L is all that there is.

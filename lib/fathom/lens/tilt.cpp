@@ -1,5 +1,7 @@
 #include "fathom/lens/tilt.h"
 
+#include <utility>
+
 #include "fathom/numeric/grid_trigonometry.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
@@ -41,11 +43,6 @@ Matrix tilt_matrix(double tau_x, double tau_y) {
   return projection * R;
 }
 
-/// The inverse times the determinant.
-Matrix adjugate_of(const Matrix& m) {
-  return transposed({cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])});
-}
-
 }  // namespace
 
 // The determinant of M is positive, so the adjugate is a positive multiple of the inverse: it is
@@ -55,7 +52,7 @@ Matrix adjugate_of(const Matrix& m) {
 Tilt::Tilt(double tau_x, double tau_y) {
   const StandardArithmetic standard;
   matrix_ = tilt_matrix(tau_x, tau_y);
-  adjugate_ = adjugate_of(matrix_);
+  adjugate_ = transposed(cofactors(matrix_));
 }
 
 std::optional<Tilt> Tilt::of(const Lens& lens) {

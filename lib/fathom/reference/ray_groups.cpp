@@ -1,7 +1,6 @@
 #include "fathom/reference/ray_groups.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "fathom/threads/threads.h"
 
@@ -9,10 +8,6 @@ namespace fathom::reference {
 using triangle::ProjectedTriangle;
 
 namespace {
-
-std::uint32_t half_of(std::uint32_t count) {
-  return count / 2 + count % 2;
-}
 
 bool holds(const PixelBox& outer, const PixelBox& inner) {
   return !outer.is_empty() && outer.contains(inner.first_column, inner.first_row) &&
@@ -48,15 +43,11 @@ bool RayGroups::Directions::may_meet(const ProjectedTriangle& t) const {
   });
 }
 
-RayGroups::Directions RayGroups::around(const lens::Preimages& preimages, const PixelBox& area,
-                                        std::uint64_t& samples_with_ray) {
+RayGroups::Directions RayGroups::around(const lens::Preimages& preimages, const PixelBox& area) {
   Directions all;
   for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
     for (std::uint32_t column = area.first_column; column <= area.last_column; ++column) {
-      const auto d = preimages.of({column + 0.5, row + 0.5});
-      if (!d) continue;
-      ++samples_with_ray;
-      all.add({d->box(), false});
+      if (const auto d = preimages.of_pixel(column, row)) all.add({d->box(), false});
     }
   }
   return all;
@@ -66,16 +57,12 @@ RayGroups::RayGroups(const lens::Preimages& preimages, std::uint32_t width, std:
     : width_(width), height_(height) {
   Level level{(width - 1) / pixels + 1, (height - 1) / pixels + 1, {}};
   level.groups.resize(std::size_t{level.columns} * level.rows);
-  std::vector<std::uint64_t> counts(level.groups.size());
   parallel_for(std::size_t{0}, level.groups.size(), [&](std::size_t i) {
     const auto column = static_cast<std::uint32_t>(i % level.columns) * pixels;
     const auto row = static_cast<std::uint32_t>(i / level.columns) * pixels;
-    level.groups[i] = around(
-        preimages,
-        {column, std::min(column + pixels, width) - 1, row, std::min(row + pixels, height) - 1},
-        counts[i]);
+    level.groups[i] = around(preimages, {column, std::min(column + pixels, width) - 1, row,
+                                         std::min(row + pixels, height) - 1});
   });
-  samples_with_ray_ = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
   levels_.push_back(std::move(level));
   add_levels();
 }
@@ -83,7 +70,7 @@ RayGroups::RayGroups(const lens::Preimages& preimages, std::uint32_t width, std:
 void RayGroups::add_levels() {
   while (levels_.back().groups.size() > 1) {
     const Level& below = levels_.back();
-    Level level{half_of(below.columns), half_of(below.rows), {}};
+    Level level{(below.columns + 1) / 2, (below.rows + 1) / 2, {}};
     level.groups.resize(std::size_t{level.columns} * level.rows);
     for (std::uint32_t row = 0; row < below.rows; ++row) {
       for (std::uint32_t column = 0; column < below.columns; ++column) {

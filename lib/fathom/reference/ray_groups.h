@@ -21,8 +21,6 @@ class RayGroups {
 
   /// A box that contains every pixel whose sample the triangle covers; empty if there is none.
   [[nodiscard]] PixelBox box_of(const triangle::ProjectedTriangle& t) const;
-  /// The share of samples that have a ray.
-  [[nodiscard]] std::uint64_t samples_with_ray() const { return samples_with_ray_; }
 
  private:
   /// Around the directions of some samples, none of which need have a ray.
@@ -39,14 +37,12 @@ class RayGroups {
     std::vector<Directions> groups;
   };
 
-  [[nodiscard]] static Directions around(const lens::Preimages& preimages, const PixelBox& area,
-                                         std::uint64_t& samples_with_ray);
+  [[nodiscard]] static Directions around(const lens::Preimages& preimages, const PixelBox& area);
   void add_levels();
   void extend(PixelBox& box, const triangle::ProjectedTriangle& t, std::size_t level,
               std::uint32_t column, std::uint32_t row) const;
 
   std::uint32_t width_, height_;
-  std::uint64_t samples_with_ray_ = 0;
   /// From single groups to a group that is the whole image.
   std::vector<Level> levels_;
 };

@@ -172,7 +172,7 @@ class Band {
     rays_.reserve(nearest_.size());
     for (std::uint32_t row = first_row_; row <= last_row_; ++row) {
       for (std::uint32_t column = 0; column < width_; ++column) {
-        rays_.push_back(view.preimages->of(centre_of_pixel(column, row)));
+        rays_.push_back(view.preimages->of_pixel(column, row));
       }
     }
   }

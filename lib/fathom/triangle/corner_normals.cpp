@@ -6,10 +6,6 @@
 
 namespace fathom::triangle {
 
-std::array<ExactVector3, 3> cofactors(const std::array<ExactVector3, 3>& rows) {
-  return {cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])};
-}
-
 std::array<ExactVector3, 3> linear_part(const WorldFromMesh& placement) {
   std::array<ExactVector3, 3> linear;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -79,9 +79,6 @@ inline std::array<MeshPoint, 3> corners_of(const Mesh& mesh, std::uint32_t trian
   return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
 }
 
-/// Row i of the cofactors is the cross product of the other two rows, in cyclic order.
-std::array<ExactVector3, 3> cofactors(const std::array<ExactVector3, 3>& rows);
-
 /// The linear part of a placement.
 std::array<ExactVector3, 3> linear_part(const WorldFromMesh& placement);
 

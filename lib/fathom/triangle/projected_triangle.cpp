@@ -19,16 +19,6 @@ bool is_left_or_top(const ExactVector3& l) {
   return l[1].sign() == Sign::positive;
 }
 
-/// Σ aᵢ·lᵢ, the numerator of an interpolated value as a form on the image.
-ExactVector3 weighted_sum(const std::array<LinearForm, 3>& edges,
-                          const std::array<Dyadic, 3>& values) {
-  ExactVector3 sum;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += values[i] * edges[i].coefficients()[k];
-  }
-  return sum;
-}
-
 /// sign·(b × c), sign·(c × a) and sign·(a × b).
 std::array<LinearForm, 3> edges_of(const std::array<ExactVector3, 3>& corners, Sign sign) {
   std::array<LinearForm, 3> edges;
@@ -51,8 +41,8 @@ void set_forms_on_image(ProjectedTriangle& t, const Projection& projection, Tier
     t.left_or_top[i] = is_left_or_top(t.edges[i].coefficients());
   }
   const auto& [A, B, C] = t.camera;
-  t.depth_numerator = LinearForm(weighted_sum(t.edges, {A.z, B.z, C.z}));
-  t.weight = LinearForm(weighted_sum(t.edges, {1.0, 1.0, 1.0}));
+  t.depth_numerator = interpolated_form(t, {A.z, B.z, C.z});
+  t.weight = interpolated_form(t, {1.0, 1.0, 1.0});
 }
 
 /// Whether a sample on the edge counts where rays are bent: its direction is moved by an
@@ -74,8 +64,8 @@ void set_forms_on_rays(ProjectedTriangle& t, const Projection& projection, TierC
   for (std::size_t i = 0; i < 3; ++i) {
     t.left_or_top[i] = moves_inside(t.edges[i].coefficients(), projection);
   }
-  t.weight = LinearForm(weighted_sum(t.edges, {1.0, 1.0, 1.0}));
-  t.volume = abs(determinant(corners[0], corners[1], corners[2]));
+  t.weight = interpolated_form(t, {1.0, 1.0, 1.0});
+  t.volume = dot(corners[0], t.edges[0].coefficients());
   t.depth_numerator = LinearForm({0.0, 0.0, t.volume});
 }
 
@@ -139,6 +129,16 @@ bool is_kept(const ProjectedTriangle& triangle, Cull cull) {
       break;
   }
   return true;
+}
+
+LinearForm interpolated_form(const ProjectedTriangle& triangle,
+                             const std::array<Dyadic, 3>& corner_values) {
+  ExactVector3 sum;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ExactVector3& edge = triangle.edges[i].coefficients();
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += corner_values[i] * edge[k];
+  }
+  return LinearForm(sum);
 }
 
 Ratio interpolate(const ProjectedTriangle& triangle, const ImagePoint& s,

@@ -50,6 +50,10 @@ bool covers(const ProjectedTriangle& triangle, const Sample& s, TierCounts& coun
 /// Whether culling keeps a triangle.
 bool is_kept(const ProjectedTriangle& triangle, Cull cull);
 
+/// Σ eᵢ·aᵢ: the numerator of interpolated corner values.
+LinearForm interpolated_form(const ProjectedTriangle& triangle,
+                             const std::array<Dyadic, 3>& corner_values);
+
 /// Σ eᵢ·aᵢ / Σ eᵢ at a covered sample: perspective-correct interpolation of corner values.
 Ratio interpolate(const ProjectedTriangle& triangle, const ImagePoint& s,
                   const std::array<Dyadic, 3>& corner_values);

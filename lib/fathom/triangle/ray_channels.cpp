@@ -23,14 +23,9 @@ QuadraticForm times(const Dyadic& factor, const QuadraticForm& form) {
   return factor * form;
 }
 
-/// Σ eᵢ·valueᵢ
-LinearForm interpolated(const ProjectedTriangle& t, const std::array<Dyadic, 3>& corner_values) {
-  ExactVector3 l;
-  for (std::size_t corner = 0; corner < 3; ++corner) {
-    const ExactVector3& e = t.edges[corner].coefficients();
-    for (std::size_t k = 0; k < 3; ++k) l[k] += corner_values[corner] * e[k];
-  }
-  return LinearForm(l);
+Sign sign_at(const ExactDirection& d, const LinearForm& form) {
+  TierCounts uncounted;
+  return Sample(d).sign_of(form, uncounted);
 }
 
 float rounded_root(const Real& squared) {
@@ -77,7 +72,7 @@ std::optional<EncodingFault> ChannelWriter::write_depth(std::size_t pixel,
                                                         const ProjectedTriangle& t,
                                                         const ExactDirection& d) {
   if (encoding_.type == StoredType::scaled_unorm16 &&
-      d.sign_of(t.depth_numerator.coefficients()) != Sign::positive) {
+      sign_at(d, t.depth_numerator) != Sign::positive) {
     return EncodingFault{pixel, "the planar depth is not above 0; store the channel distance"};
   }
   if (float* const values = values_.depth.binary32) {
@@ -129,8 +124,8 @@ void ChannelWriter::write_shading_normal(std::size_t pixel, const ProjectedTrian
   std::array<Sign, 3> signs{};
   QuadraticForm squared_length;
   for (std::size_t i = 0; i < 3; ++i) {
-    m[i] = interpolated(t, {normals[0][i], normals[1][i], normals[2][i]});
-    signs[i] = d.sign_of(m[i].coefficients());
+    m[i] = interpolated_form(t, {normals[0][i], normals[1][i], normals[2][i]});
+    signs[i] = sign_at(d, m[i]);
     squared_length += square_of(m[i].coefficients());
   }
   for (std::size_t i = 0; i < 3; ++i) {
@@ -148,7 +143,7 @@ void ChannelWriter::write_position(std::size_t pixel, const ProjectedTriangle& t
   const auto& [A, B, C] = t.world;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto coordinate = coordinates[k];
-    const LinearForm form = interpolated(t, {A.*coordinate, B.*coordinate, C.*coordinate});
+    const LinearForm form = interpolated_form(t, {A.*coordinate, B.*coordinate, C.*coordinate});
     values_.position[k][pixel] = binary32_at(d, form, t.weight);
   }
 }

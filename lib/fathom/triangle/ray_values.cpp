@@ -17,9 +17,9 @@ namespace {
 /// The direction of a ray as intervals.
 using Direction = std::array<DyadicInterval, 3>;
 
-DyadicInterval value_of(const LinearForm& form, const Direction& d) {
+DyadicInterval value_of(const ExactVector3& form, const Direction& d) {
   DyadicInterval sum;
-  for (std::size_t k = 0; k < 3; ++k) sum = sum + form.coefficients()[k] * d[k];
+  for (std::size_t k = 0; k < 3; ++k) sum = sum + form[k] * d[k];
   return sum;
 }
 
@@ -33,36 +33,24 @@ DyadicInterval value_of(const QuadraticForm& form, const Direction& d) {
   return {std::max(sum.low, Dyadic()), sum.high};
 }
 
-Dyadic value_of(const LinearForm& form, const ExactVector3& d) {
-  return dot(form.coefficients(), d);
+Dyadic value_of(const ExactVector3& form, const ExactVector3& d) {
+  return dot(form, d);
 }
 Dyadic value_of(const QuadraticForm& form, const ExactVector3& d) {
   return form.at(d);
 }
 
-Sign sign_of(const LinearForm& form, const ExactDirection& d) {
-  return d.sign_of(form.coefficients());
+/// a − factor·b
+ExactVector3 difference(ExactVector3 a, const Dyadic& factor, const ExactVector3& b) {
+  for (std::size_t k = 0; k < 3; ++k) a[k] -= factor * b[k];
+  return a;
 }
-Sign sign_of(const QuadraticForm& form, const ExactDirection& d) {
-  return d.sign_of(form);
-}
-
-LinearForm difference(const LinearForm& a, const LinearForm& b, const Dyadic& of_a,
-                      const Dyadic& of_b) {
-  ExactVector3 l;
-  for (std::size_t k = 0; k < 3; ++k) {
-    l[k] = of_a * a.coefficients()[k] - of_b * b.coefficients()[k];
-  }
-  return LinearForm(l);
-}
-QuadraticForm difference(const QuadraticForm& a, const QuadraticForm& b, const Dyadic& of_a,
-                         const Dyadic& of_b) {
-  QuadraticForm form = of_a * a;
-  form -= of_b * b;
-  return form;
+QuadraticForm difference(QuadraticForm a, const Dyadic& factor, const QuadraticForm& b) {
+  a -= factor * b;
+  return a;
 }
 
-/// n / w at a ray; w > 0 there.
+/// n / w at a ray, of two linear or two quadratic forms; w > 0 there.
 template <class Form>
 class QuotientAtRay {
  public:
@@ -81,14 +69,14 @@ class QuotientAtRay {
 
   /// The value where rounding, or rounding of its root, steps.
   [[nodiscard]] std::optional<Ratio> decide() const {
-    if (sign_of(n_, d_) == Sign::zero) return Ratio();
+    if (d_.sign_of(n_) == Sign::zero) return Ratio();
     constexpr long first_bits = 192;
     for (long bits = first_bits;; bits *= 2) {
       const Enclosure e = enclose(bits);
       if (!is_narrow(e)) continue;
       const std::optional<Dyadic> candidate = shortest_within(e);
       if (!candidate) return std::nullopt;
-      const bool is_equal = sign_of(difference(n_, w_, 1.0, *candidate), d_) == Sign::zero;
+      const bool is_equal = d_.sign_of(difference(n_, *candidate, w_)) == Sign::zero;
       return is_equal ? std::optional(Ratio(*candidate)) : std::nullopt;
     }
   }
@@ -131,7 +119,7 @@ Certified<double> certified_at(const ExactDirection& d, const LinearForm& form) 
 
 Real quotient_at(const ExactDirection& d, const LinearForm& numerator,
                  const LinearForm& denominator) {
-  return quotient_of(d, numerator, denominator);
+  return quotient_of(d, numerator.coefficients(), denominator.coefficients());
 }
 
 float binary32_at(const ExactDirection& d, const LinearForm& numerator,
