@@ -29,7 +29,6 @@ DepthAgreement compare_depths(const Scene& reconstruction, const Scene& truth,
   const double step = end / (2 * static_cast<double>(cameras.size()));
   double done = 0;
   for (const Camera& camera : cameras) {
-    require_straight(camera);
     render_into(true_map, truth, camera, rendering,
                 {.kept = &of_truth, .progress = part_of(progress, done, done + step)});
     render_into(
@@ -48,6 +47,7 @@ Evaluation evaluate(const Scene& reconstruction, const Scene& truth,
                     const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   require_meaningful(options);
+  require_comparable(reconstruction, truth, cameras, options);
   const bool has_depths = !cameras.empty() && !is_cloud(reconstruction) && !is_cloud(truth);
   const double depths_end = has_depths ? 0.5 : 0;
   Evaluation evaluation;

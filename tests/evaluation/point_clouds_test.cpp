@@ -15,6 +15,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "tests/evaluation/scenes.h"
+#include "tests/scratch_folder.h"
 
 namespace fathom::evaluation {
 namespace {
@@ -279,13 +280,8 @@ TEST(PointClouds, NeedPointsAndOptionsThatApply) {
   const Scene cloud = cloud_of({{0, 0, 0}}), surface = plate(1);
   const auto message = [](const Scene& made, const Scene& truth,
                           const std::vector<Camera>& cameras = {},
-                          const SurfaceComparisonOptions& options = {}) -> std::string {
-    try {
-      compare_surfaces(made, truth, cameras, options);
-      return "";
-    } catch (const Error& error) {
-      return error.what();
-    }
+                          const SurfaceComparisonOptions& options = {}) {
+    return message_of<Error>([&] { compare_surfaces(made, truth, cameras, options); });
   };
   EXPECT_EQ(message(cloud_of({}), surface), "the reconstruction: has neither faces nor points");
   EXPECT_EQ(message(cloud, Scene()), "the truth: has neither faces nor points");

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "fathom/evaluate.h"
 #include "fathom/evaluation/depth_agreement.h"
 #include "fathom/failures/errors.h"
 #include "tests/evaluation/scenes.h"
@@ -137,6 +138,31 @@ TEST(SurfaceDistances, NeedSurfacesAndPoints) {
   SurfaceComparisonOptions none;
   none.points = 0;
   EXPECT_NE(message(plate(1), plate(1), none), "");
+}
+
+TEST(SurfaceDistances, RefuseCamerasWhoseRaysAreBent) {
+  Camera camera = testing::camera_of(100, 100, 50);
+  Lens& lens = camera.projection.lens.emplace(Lens{LensModel::simple_radial});
+  lens.distortion[0] = -0.2;
+  const Scene cloud = testing::scene_of({{0, 0, 2}}, {});
+  for (const Scene& made : {plate(2), cloud}) {
+    EXPECT_THROW(compare_surfaces(made, plate(2), {camera}, few_points()), UsageError);
+    EXPECT_THROW(evaluate(made, plate(2), {camera}, few_points()), UsageError);
+  }
+}
+
+// The second camera and the density are refused before the first map is rendered.
+TEST(SurfaceDistances, AreRefusedBeforeAnythingIsRendered) {
+  Camera bent = testing::camera_of(100, 100, 50);
+  bent.projection.lens.emplace(Lens{LensModel::simple_radial}).distortion[0] = -0.2;
+  int reports = 0;
+  const auto progress = [&](double) { ++reports; };
+  const Camera camera = testing::camera_of(100, 100, 50);
+  EXPECT_THROW(evaluate(plate(2), plate(2), {camera, bent}, few_points(), progress), UsageError);
+  SurfaceComparisonOptions thin = few_points();
+  thin.density = 0.2;
+  EXPECT_THROW(evaluate(plate(2), plate(2), {camera}, thin, progress), UsageError);
+  EXPECT_EQ(reports, 0);
 }
 
 DepthMap map_of(std::vector<float> depths) {

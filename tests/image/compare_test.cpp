@@ -272,6 +272,17 @@ TEST(Compare, GroupsAndCoverageHaveTheirOwnBackground) {
   EXPECT_THAT(surface_mask(p, p.channels[0]), ElementsAre(0, 1));
 }
 
+// A sample may have a ray and meet nothing.
+TEST(Compare, RaysAreComparedWhereNothingIsSeen) {
+  DepthMap a = map_of(3, 1, "Z", std::vector<float>{2, inf, inf});
+  DepthMap b = a;
+  a.channels.push_back({"valid", std::vector<std::uint32_t>{1, 1, 0}});
+  b.channels.push_back({"valid", std::vector<std::uint32_t>{1, 0, 0}});
+  EXPECT_THAT(surface_mask(a, a.channels[1]), ElementsAre(1, 1, 1));
+  EXPECT_TRUE(compare_maps(a, a, {}).within_tolerance());
+  EXPECT_FALSE(compare_maps(a, b, {}).within_tolerance());
+}
+
 TEST(DifferencePicture, ShowsEachKindInItsColour) {
   // Enlarged 96 times: the middle of each block of pixels.
   const RgbImage image = draw_differences(depths({1, 1, 1, inf, inf}), depths({1, 2, inf, 1, inf}));

@@ -214,6 +214,18 @@ TEST_P(DeepMaps, OfOtherKindsAreRefused) {
   EXPECT_THROW(read_deep_map(folder_ / "missing.exr"), InputError);
 }
 
+TEST(DeepMapFaults, AFileOfSeveralPartsIsNoDeepMap) {
+  const auto begin = [](std::uint8_t flags) {
+    return std::vector<std::byte>{std::byte{0x76}, std::byte{0x2F}, std::byte{0x31},
+                                  std::byte{0x01}, std::byte{2},    std::byte{flags},
+                                  std::byte{0},    std::byte{0}};
+  };
+  EXPECT_TRUE(is_deep_map(begin(0x08)));
+  EXPECT_FALSE(is_deep_map(begin(0x18)));  // any part may be the deep one
+  EXPECT_FALSE(is_deep_map(begin(0x10)));
+  EXPECT_FALSE(is_deep_map(begin(0)));
+}
+
 TEST(DeepMapFaults, OtherCompressionsAndPlaces) {
   EXPECT_THROW(write_deep_map(three_pixels(), "/tmp/never.exr", Compression::piz), UsageError);
   EXPECT_THROW(write_deep_map(three_pixels(), "/nonexistent/deep.exr"), OutputError);

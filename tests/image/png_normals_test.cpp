@@ -12,6 +12,7 @@
 #include "fathom/numeric/rounding.h"
 #include "tests/image/map_samples.h"
 #include "tests/image/run_program.h"
+#include "tests/scratch_folder.h"
 
 /// Normals as the colours of a PNG, and masks of maps.
 namespace fathom {
@@ -101,12 +102,8 @@ for name, kind in (('cv.png', 'uint8'), ('gl.png', 'uint16')):
 
 TEST(NormalPictures, OfWhatIsNoNormalAreRefused) {
   const auto refusal = [](const DepthMap& map, const NormalCoding& coding) {
-    try {
-      encode_map(map, "a.png", MapFormat::png, {.normals = coding});
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return message_of<Error>(
+        [&] { encode_map(map, "a.png", MapFormat::png, {.normals = coding}); });
   };
   EXPECT_EQ(refusal(normals("N", {{0, 0, 1}, {0, 1.5f, 0}}), {}),
             "a.png: pixel (1, 0): N.Y is not from -1 to 1: no normal of length 1");

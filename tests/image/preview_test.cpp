@@ -71,15 +71,16 @@ TEST(Preview, ScalesPlaceValuesByRatiosInversesAndRanks) {
 
 TEST(Preview, LogarithmsAndInversesNeedARangeAboveZero) {
   const DepthMap map = map_of(5, 1, "Z", std::vector<float>{0, 2, 4, 16, inf});
+  const DepthMap empty = map_of(5, 1, "Z", std::vector<float>(5, inf));
   PreviewOptions options;
   for (const ColourScale scale : {ColourScale::log, ColourScale::inverse}) {
     options.scale = scale;
     options.low.reset();
     EXPECT_THROW(draw_preview(map, options), UsageError);
+    EXPECT_NO_THROW(draw_preview(empty, options));
     options.low = 2;
     EXPECT_EQ(block(draw_preview(map, options), 0), of_place(0));
     EXPECT_EQ(block(draw_preview(map, options), 3), of_place(1));
-    EXPECT_NO_THROW(draw_preview(map_of(5, 1, "Z", std::vector<float>{inf, inf, inf, inf, inf})));
   }
 }
 
@@ -134,6 +135,11 @@ TEST(Preview, ErrorsAreWhiteAtZero) {
   const RgbImage viridis = draw_preview(map, {.channel = "Zerror", .colours = ColourMap::viridis});
   EXPECT_EQ(block(viridis, 1), of_place(0));
   EXPECT_EQ(block(viridis, 2), of_place(1));
+  // Also as the first channel of a map that has no Z.
+  const RgbImage alone =
+      draw_preview(map_of(5, 1, "Zerror", std::vector<float>{0, -1, 0.5, -0.5, 0}));
+  EXPECT_EQ(block(alone, 0), (Rgb{255, 255, 255}));
+  EXPECT_EQ(block(alone, 1), colour_at(ColourMap::diverging, 0));
 }
 
 TEST(Preview, OddMapsAreDrawn) {

@@ -261,6 +261,19 @@ void require_meaningful(const SurfaceComparisonOptions& options) {
   require_thread_count(options.threads);
 }
 
+void require_comparable(const Scene& reconstruction, const Scene& truth,
+                        const std::vector<Camera>& cameras,
+                        const SurfaceComparisonOptions& options) {
+  const StandardArithmetic standard;
+  for (const Camera& camera : cameras) {
+    require_valid(camera);
+    require_straight(camera);
+  }
+  require_shape(reconstruction, "the reconstruction");
+  require_shape(truth, "the truth");
+  require_applicable(reconstruction, truth, cameras, options);
+}
+
 SurfaceComparison compare_surfaces(const Scene& reconstruction, const Scene& truth,
                                    const std::vector<Camera>& cameras,
                                    const SurfaceComparisonOptions& options,
@@ -270,10 +283,7 @@ SurfaceComparison compare_surfaces(const Scene& reconstruction, const Scene& tru
   return with_threads(options.threads, [&] {
     require_valid(reconstruction);
     require_valid(truth);
-    for (const Camera& camera : cameras) require_valid(camera);
-    require_shape(reconstruction, "the reconstruction");
-    require_shape(truth, "the truth");
-    require_applicable(reconstruction, truth, cameras, options);
+    require_comparable(reconstruction, truth, cameras, options);
     return compare_in_arena(reconstruction, truth, cameras, options, progress);
   });
 }

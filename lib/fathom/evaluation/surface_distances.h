@@ -72,6 +72,14 @@ struct SurfaceComparisonOptions {
 ///          positive number, and threads that cannot be asked for.
 void require_meaningful(const SurfaceComparisonOptions& options);
 
+/// Refuses two sides that cannot be compared so, and cameras that see along bent rays.
+/// Fails    InputError for a camera with a fault, and a scene that has neither faces nor points, or
+///          meshes and point clouds; UsageError for a lens, cameras of two clouds, and the density
+///          of a surface.
+void require_comparable(const Scene& reconstruction, const Scene& truth,
+                        const std::vector<Camera>& cameras,
+                        const SurfaceComparisonOptions& options);
+
 /// The figures, in addition to Depth L1, by which reconstructions are ranked.
 struct SurfaceComparison {
   /// From the reconstruction to the truth; `shares` are known as precision.
@@ -96,8 +104,7 @@ struct SurfaceComparison {
 ///          machine.
 /// Fails    InputError if a scene or a camera has a fault (find_fault), a scene has neither area
 ///          nor points, or memory does not hold so many points;
-///          UsageError as require_meaningful(), for cameras of two clouds, and for the density of a
-///          surface.
+///          UsageError as require_meaningful() and require_comparable().
 /// Source   [KPZK17] for precision, recall and F-score
 SurfaceComparison compare_surfaces(const Scene& reconstruction, const Scene& truth,
                                    const std::vector<Camera>& cameras,

@@ -7,7 +7,6 @@
 #include "fathom/failures/other_names.h"
 #include "fathom/image/channel_table.h"
 #include "fathom/image/files/npy_array.h"
-#include "fathom/text/small_letters.h"
 
 namespace fathom {
 namespace {

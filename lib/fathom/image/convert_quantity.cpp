@@ -111,13 +111,31 @@ std::string_view name_of(DepthQuantity quantity) {
   return "Z";
 }
 
+namespace {
+
+/// Why a map of a lens is not converted, and what to do instead.
+std::string_view no_lens(DepthQuantity to) {
+  switch (to) {
+    case DepthQuantity::planar_depth:
+      return "a map is not converted with it; render the channel Z instead";
+    case DepthQuantity::ray_distance:
+      return "a map is not converted with it; render the channel distance instead";
+    case DepthQuantity::disparity:
+      return "a disparity is of images without distortion; undistort them, and render without the "
+             "lens";
+  }
+  return computes_on_straight_edges;
+}
+
+}  // namespace
+
 DepthMap convert_quantity(const DepthMap& map, DepthQuantity from, DepthQuantity to,
                           const Camera& camera, const std::optional<StereoRig>& rig,
                           std::optional<double> background) {
   const StandardArithmetic standard;
   require_valid(map);
   require_valid(camera);
-  require_straight(camera, "a map is not converted with it; render the channel distance instead");
+  require_straight(camera, no_lens(to));
   const std::string name(name_of(from));
   const ImageChannel* source = map.find(name);
   if (!source) throw missing_channel(map, name);

@@ -39,6 +39,12 @@ struct Triple {
   }
 };
 
+/// Points and normals need the pose. Points from depths also need rays, which must be straight.
+void require_valid_pose(Camera camera) {
+  camera.projection.lens.reset();
+  require_valid(camera);
+}
+
 /// Where the points come from.
 class Points {
  public:
@@ -138,7 +144,7 @@ std::vector<std::array<double, 3>> points_of(const DepthMap& map, const Camera& 
                                              PointFrame frame) {
   const StandardArithmetic standard;
   require_valid(map);
-  require_valid(camera);
+  require_valid_pose(camera);
   const Points points(map, camera, frame);
   std::vector<Vector> all;
   for (std::size_t k = 0; k < std::size_t{map.width} * map.height; ++k)
@@ -149,7 +155,7 @@ std::vector<std::array<double, 3>> points_of(const DepthMap& map, const Camera& 
 void PointCloud::add(const DepthMap& map, const Camera& camera, const std::string& name) {
   const StandardArithmetic standard;
   require_valid(map);
-  require_valid(camera);
+  require_valid_pose(camera);
   const Points points(map, camera, options_.frame);
   std::vector<std::string> identifiers;
   for (const char* each : {"id", "face", "object"})

@@ -85,27 +85,28 @@ struct Range {
   bool any = false;
 };
 
-/// Of the surface.
-std::vector<double> finite_values(const Reading& values, const std::vector<std::uint8_t>& mask) {
-  std::vector<double> finite;
-  for (std::size_t k = 0; k < mask.size(); ++k)
-    if (mask[k] && std::isfinite(values.value(k))) finite.push_back(values.value(k));
-  return finite;
+/// Calls visit(value) for the finite values of the surface.
+template <class Visit>
+void for_finite(const Reading& values, const std::vector<std::uint8_t>& mask, const Visit& visit) {
+  for (std::size_t k = 0; k < mask.size(); ++k) {
+    const double value = values.value(k);
+    if (mask[k] && std::isfinite(value)) visit(value);
+  }
 }
 
-Range range_of(const std::vector<double>& values) {
+Range range_of(const Reading& values, const std::vector<std::uint8_t>& mask) {
   Range range;
-  for (const double value : values) {
+  for_finite(values, mask, [&](double value) {
     range.low = range.any ? std::min(range.low, value) : value;
     range.high = range.any ? std::max(range.high, value) : value;
     range.any = true;
-  }
+  });
   return range;
 }
 
-Range bar_range(const std::vector<double>& values, const ImageChannel& channel,
-                const PreviewOptions& options) {
-  Range range = channel.name == "A" ? Range{0, 1, true} : range_of(values);
+Range bar_range(const Reading& values, const std::vector<std::uint8_t>& mask,
+                const ImageChannel& channel, const PreviewOptions& options) {
+  Range range = channel.name == "A" ? Range{0, 1, true} : range_of(values, mask);
   if (channel.name == "Zerror" && options.colours == ColourMap::diverging && range.any) {
     range.high = std::max(std::abs(range.low), std::abs(range.high));
     range.low = -range.high;
@@ -124,8 +125,10 @@ void draw_numbers(Sheet& sheet, const DepthMap& map, const ImageChannel& channel
                   const PreviewOptions& options) {
   const Reading values(channel, map.png_scale);
   const std::vector<std::uint8_t> mask = surface_mask(map, channel);
-  const std::vector<double> finite = finite_values(values, mask);
-  const Range range = bar_range(finite, channel, options);
+  const Range range = bar_range(values, mask, channel, options);
+  std::vector<double> finite;
+  if (options.scale == ColourScale::equalised)
+    for_finite(values, mask, [&](double value) { finite.push_back(value); });
   const ScaledRange scaled(range.any ? options.scale : ColourScale::linear, range.low, range.high,
                            finite);
   Specials specials;
@@ -242,13 +245,15 @@ RgbImage draw_preview(const DepthMap& map, const PreviewOptions& given) {
   const StandardArithmetic standard;
   require_valid(map);
   PreviewOptions options = given;
-  if (!options.colours)
-    options.colours = options.channel == "Zerror" ? ColourMap::diverging : ColourMap::viridis;
+  const auto use_colours = [&options](ColourMap colours) {
+    if (!options.colours) options.colours = colours;
+  };
   Sheet sheet;
   sheet.picture = RgbImage(map.width, map.height);
   const std::optional<Channel> asked = channel_named(options.channel);
   if (asked && description_of(*asked).kind == ChannelKind::direction) {
     sheet.title = title_of(map, {options.channel, Samples<float>{}});
+    use_colours(ColourMap::viridis);
     draw_normals(sheet, map, options);
   } else {
     const ImageChannel* channel = options.channel.empty() && !map.find("Z") && !map.channels.empty()
@@ -257,6 +262,7 @@ RgbImage draw_preview(const DepthMap& map, const PreviewOptions& given) {
     if (!channel) throw missing_channel(map, options.channel.empty() ? "Z" : options.channel);
     sheet.title = title_of(map, *channel);
     if (!options.unit.empty()) sheet.title += " [" + options.unit + "]";
+    use_colours(channel->name == "Zerror" ? ColourMap::diverging : ColourMap::viridis);
     if (channel->name == "Zfight" &&
         std::holds_alternative<Samples<std::uint32_t>>(channel->values))
       draw_fights(sheet, map, *channel, background_colour(*options.colours));

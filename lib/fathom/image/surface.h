@@ -44,8 +44,9 @@ BackgroundRule background_of(const DepthMap& map, const ImageChannel& channel);
 const Samples<std::uint32_t>* identifiers_of(const DepthMap& map);
 
 /// One byte per pixel: 1 where `channel` of `map` shows a surface.
-/// `A` shows something at every pixel. If the map has an identifier channel, that decides (unless
-/// `by_identifiers` is false), which distinguishes a depth that overflowed to +∞ from background.
+/// `A` and `valid` show something at every pixel. If the map has an identifier channel, that
+/// decides (unless `by_identifiers` is false), which distinguishes a depth that overflowed to +∞
+/// from background.
 /// Otherwise the channel's own background decides (the rule for depths: given, or background_of());
 /// a channel without one follows the map's `Z`, if there is one; else every pixel counts.
 /// Fails    InputError if the map has a fault (find_fault), or names a background that is none.

@@ -101,9 +101,8 @@ DeepMap decode(ByteView bytes, const std::string& name, const MapMemory& memory)
 }  // namespace
 
 bool is_deep_map(ByteView bytes) {
-  constexpr std::uint32_t flag_deep = 0x800;
   return is_exr(bytes) && bytes.size() >= 8 &&
-         (load<std::uint32_t>(&bytes[4], std::endian::little) & flag_deep) != 0;
+         is_deep_of_one_part(load<std::uint32_t>(&bytes[4], std::endian::little));
 }
 
 DeepMap read_deep_map(const std::filesystem::path& path, const MapMemory& memory) {

@@ -86,7 +86,7 @@ class Claims {
   std::vector<std::size_t> check() {
     const std::uint32_t version = read_version();
     Attributes part = read_attributes();
-    if ((version & flag_deep && !(version & flag_multipart)) || is_deep(part))
+    if (is_deep_of_one_part(version) || is_deep(part))
       fail(
           "deep images are not read as maps, but by DeepMap.read in Python and by read_deep_map in "
           "C++: expected scan lines or tiles");
@@ -101,7 +101,7 @@ class Claims {
   DeepClaims check_deep() {
     const std::uint32_t version = read_version();
     const Attributes part = read_attributes();
-    if (!(version & flag_deep) || (version & flag_multipart) || !has_type(part, "deepscanline"))
+    if (!is_deep_of_one_part(version) || !has_type(part, "deepscanline"))
       fail("not a deep map: expected an EXR of deep scan lines in one part");
     if (attribute(part, "compression", 1)[0] > std::byte{2})
       fail("corrupt: deep images have no such compression");
@@ -268,6 +268,10 @@ class Claims {
 };
 
 }  // namespace
+
+bool is_deep_of_one_part(std::uint32_t version) {
+  return (version & (flag_deep | flag_multipart)) == flag_deep;
+}
 
 std::vector<std::size_t> check_exr_claims(ByteView bytes, const std::string& name) {
   return Claims(bytes, name).check();

@@ -23,12 +23,12 @@ namespace {
 
 /// FLOAT or UINT, and where the values are. OpenEXR takes a non-const pointer but does not write
 /// through it.
-struct Source {
+struct PixelSource {
   Imf::PixelType type;
   const char* values;
 };
 
-Source source_of(const ImageChannel& channel, const std::string& name) {
+PixelSource source_of(const ImageChannel& channel, const std::string& name) {
   if (const auto* floats = std::get_if<Samples<float>>(&channel.values))
     return {Imf::FLOAT, reinterpret_cast<const char*>(floats->data())};
   if (const auto* ids = std::get_if<Samples<std::uint32_t>>(&channel.values))
@@ -68,7 +68,7 @@ Layout layout_of(const DepthMap& map, std::uint32_t height, Compression compress
   layout.header.compression() = compression_of(compression);
   set_attributes(layout.header, map);
   for (const ImageChannel& channel : map.channels) {
-    const Source source = source_of(channel, name);
+    const PixelSource source = source_of(channel, name);
     if (layout.header.channels().findChannel(channel.name))
       throw OutputError(name + ": two channels of the name '" + channel.name + "'");
     layout.header.channels().insert(channel.name, Imf::Channel(source.type));
@@ -169,7 +169,7 @@ std::vector<files::Bytes> exr_chunks(const DepthMap& band, Compression compressi
   const StandardArithmetic standard;
   Imf::FrameBuffer pixels;  // sorts channels as the file does
   for (const ImageChannel& channel : band.channels) {
-    const Source source = source_of(channel, name);
+    const PixelSource source = source_of(channel, name);
     pixels.insert(channel.name, Imf::Slice(source.type, const_cast<char*>(source.values)));
   }
   return zip_chunks(planes_of(pixels), band.width, band.height, rows_of_a_chunk(compression),

@@ -60,6 +60,10 @@ files::Bytes encode_geotiff(const DepthMap& map, const std::optional<Camera>& ca
 /// Recognises the format by the first bytes and decodes.
 DepthMap decode_map(files::ByteView bytes, const std::string& name, const MapMemory& memory = {});
 
+/// Whether the version word of an OpenEXR file, with its flags, is that of one deep part. In a file
+/// of several parts the flag of deep data says that any of them is deep.
+bool is_deep_of_one_part(std::uint32_t version);
+
 /// Fails    InputError if an OpenEXR file's header (its first part) claims more than the file can
 ///          hold, is not that of a plain image, or cannot be followed. See exr_claims.cpp.
 /// Returns the positions of attribute types that OpenEXR must not interpret (see ByteInput).

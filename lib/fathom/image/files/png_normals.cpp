@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 #include "fathom/failures/errors.h"
 #include "fathom/files/byte_order.h"

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "fathom/failures/errors.h"
 #include "fathom/files/byte_order.h"
 #include "fathom/image/channel_names.h"

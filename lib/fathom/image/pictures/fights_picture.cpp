@@ -29,7 +29,6 @@ Square square_around(const RgbImage& picture, std::size_t pixel, std::uint32_t r
 /// How far squares reach: 0 where pixels can be seen as they are. Large pictures are drawn by every
 /// k-th pixel, which a square must not slip through.
 std::uint32_t reach_of_squares(const RgbImage& picture, std::size_t wrong) {
-  constexpr std::uint32_t enlarged_up_to = 240, reduced_from = 2048;
   const std::uint32_t side = std::max(picture.width, picture.height);
   const bool is_seen = side <= enlarged_up_to || wrong > picture.pixels.size() / 200;
   return is_seen ? 0 : std::max(2U, side / reduced_from);

@@ -62,14 +62,14 @@ int legend_width(const Sheet& sheet, const Lettering& letters) {
   return width;
 }
 
+}  // namespace
+
 std::string formatted(double value, int digits) {
   std::array<char, 40> text{};
   const int length =
       std::snprintf(text.data(), text.size(), "%.*g", digits, value == 0 ? 0 : value);
   return {text.data(), static_cast<std::size_t>(length)};
 }
-
-}  // namespace
 
 std::vector<ColourBar::Mark> linear_marks(double low, double high) {
   // Halves, so that the range does not overflow binary64.
@@ -93,18 +93,17 @@ std::vector<ColourBar::Mark> linear_marks(double low, double high) {
 }
 
 FittedPicture fit_to_screen(RgbImage picture) {
-  constexpr std::uint32_t small = 480, large = 2048;
   const std::uint32_t side = std::max(picture.width, picture.height);
-  if (side <= large && side > small / 2) return {std::move(picture), ""};
-  if (side > large) {
-    const std::uint32_t step = (side + large - 1) / large;
+  if (side <= reduced_from && side > enlarged_up_to) return {std::move(picture), ""};
+  if (side > reduced_from) {
+    const std::uint32_t step = (side + reduced_from - 1) / reduced_from;
     RgbImage image((picture.width + step - 1) / step, (picture.height + step - 1) / step);
     for (std::uint32_t y = 0; y < image.height; ++y)
       for (std::uint32_t x = 0; x < image.width; ++x)
         image.at(x, y) = picture.at(x * step, y * step);
     return {std::move(image), "one pixel in " + std::to_string(step) + " of each row and column"};
   }
-  const std::uint32_t factor = small / side;
+  const std::uint32_t factor = 2 * enlarged_up_to / side;
   RgbImage image(picture.width * factor, picture.height * factor);
   for (std::uint32_t y = 0; y < image.height; ++y)
     for (std::uint32_t x = 0; x < image.width; ++x)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -33,10 +34,16 @@ struct Sheet {
   std::vector<LegendEntry> entries;
 };
 
+/// A number as a mark: `digits` significant digits, and no minus before 0.
+std::string formatted(double value, int digits);
+
 /// The marks of a linear scale: both ends, and round numbers between them.
 std::vector<ColourBar::Mark> linear_marks(double low, double high);
 
 RgbImage lay_out(const Sheet& sheet);
+
+/// The greatest side of a picture that is enlarged, and of one that is not reduced, in pixels.
+inline constexpr std::uint32_t enlarged_up_to = 240, reduced_from = 2048;
 
 /// `picture` with every pixel enlarged to a block of k × k if it is small, or only every k-th pixel
 /// of every k-th row if it is large; the remark says so in a few words, or is empty.

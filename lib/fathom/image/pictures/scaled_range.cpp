@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <string>
 
@@ -22,15 +21,6 @@ std::optional<ColourScale> colour_scale_named(const std::string& name) {
 }
 
 namespace image {
-namespace {
-
-std::string to_digits(double value, int digits) {
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.*g", digits, value == 0 ? 0 : value);
-  return text.data();
-}
-
-}  // namespace
 
 ScaledRange::ScaledRange(ColourScale scale, double low, double high,
                          const std::vector<double>& values)
@@ -38,7 +28,7 @@ ScaledRange::ScaledRange(ColourScale scale, double low, double high,
   const bool needs_positive = scale == ColourScale::log || scale == ColourScale::inverse;
   if (needs_positive && !(low > 0)) {
     throw UsageError("scale " + std::string(name_of(scale)) + " needs a range above 0, and " +
-                     to_digits(low, 6) + " is its low end");
+                     formatted(low, 6) + " is its low end");
   }
   if (scale != ColourScale::equalised) return;
   std::ranges::copy_if(values, std::back_inserter(sorted_),
@@ -85,11 +75,11 @@ std::vector<ColourBar::Mark> ScaledRange::marks() const {
   // Enough digits to tell neighbouring marks of a narrow range apart.
   const double widths = greatest / 2 / (high_ / 2 - low_ / 2);
   const int digits = std::clamp(2 + static_cast<int>(std::ceil(std::log10(widths))), 2, 17);
-  std::vector<ColourBar::Mark> marks{{0, to_digits(low_, digits + 2)},
-                                     {1, to_digits(high_, digits + 2)}};
+  std::vector<ColourBar::Mark> marks{{0, formatted(low_, digits + 2)},
+                                     {1, formatted(high_, digits + 2)}};
   constexpr int parts = 8;
   for (int k = 1; k < parts; ++k) {
-    const std::string text = to_digits(value_at(static_cast<double>(k) / parts), digits);
+    const std::string text = formatted(value_at(static_cast<double>(k) / parts), digits);
     const double t = place(std::strtod(text.c_str(), nullptr));
     if (t > 0 && t < 1) marks.push_back({t, text});
   }

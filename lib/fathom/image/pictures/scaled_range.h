@@ -10,7 +10,7 @@ namespace fathom::image {
 /// Places values between the ends of a colour bar, from 0 to 1.
 class ScaledRange {
  public:
-  /// `values` are those of the surface; only `equalised` uses them.
+  /// `values` are the finite ones of the surface; only `equalised` needs them.
   /// Fails    UsageError if `log` or `inverse` has an end that is not above 0.
   ScaledRange(ColourScale scale, double low, double high, const std::vector<double>& values);
 

@@ -1,0 +1,152 @@
+#include "fathom/image/directions.h"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
+#include "fathom/files/sha256.h"
+#include "fathom/image/files/direction_csv.h"
+#include "fathom/image/files/map_codecs.h"
+#include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/text/decimal.h"
+
+namespace fathom {
+using namespace files;
+using namespace image;
+
+namespace {
+
+constexpr std::array exr_names{"d.X", "d.Y", "d.Z"};
+constexpr const char* array_name = "directions";
+
+/// The numbers of three channels of one size, pixel by pixel.
+std::vector<double> interleaved(const std::array<const ImageChannel*, 3>& channels,
+                                const std::string& name) {
+  std::vector<double> numbers;
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::visit(
+        [&](const auto& values) {
+          using Value = typename std::decay_t<decltype(values)>::value_type;
+          if constexpr (!std::is_floating_point_v<Value>) {
+            throw InputError(name + ": has integers, expected directions of binary32 or binary64");
+          } else {
+            numbers.resize(3 * values.size());
+            for (std::size_t i = 0; i < values.size(); ++i) numbers[3 * i + k] = values[i];
+          }
+        },
+        channels[k]->values);
+  }
+  return numbers;
+}
+
+std::vector<double> numbers_of_exr(const DepthMap& map, const std::string& name) {
+  std::array<const ImageChannel*, 3> channels{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    channels[k] = map.find(exr_names[k]);
+    if (!channels[k])
+      throw InputError(name + ": has no channel " + exr_names[k] +
+                       ", expected directions in d.X, d.Y and d.Z");
+  }
+  return interleaved(channels, name);
+}
+
+std::vector<double> numbers_of_array(const DepthMap& map, const std::string& name) {
+  if (map.channels.size() != 3)
+    throw InputError(name + ": has " + std::to_string(map.channels.size()) +
+                     (map.channels.size() == 1 ? " number" : " numbers") +
+                     " for each pixel, expected directions, 3 numbers");
+  return interleaved({&map.channels[0], &map.channels[1], &map.channels[2]}, name);
+}
+
+void require_image_size(const DepthMap& map, std::uint32_t width, std::uint32_t height,
+                        const std::string& name) {
+  if (map.width == width && map.height == height) return;
+  throw InputError(name + ": directions of " + std::to_string(map.width) + "x" +
+                   std::to_string(map.height) + " pixels, expected the size of the image, " +
+                   std::to_string(width) + "x" + std::to_string(height));
+}
+
+std::vector<double> read_numbers(const InputFile& file, std::uint32_t width, std::uint32_t height,
+                                 const std::string& name) {
+  const ByteView bytes = file.bytes();
+  const std::string_view text = file.text();
+  if (text.starts_with("\x76\x2f\x31\x01")) {
+    const DepthMap map = decode_exr(bytes, name);
+    require_image_size(map, width, height, name);
+    return numbers_of_exr(map, name);
+  }
+  const bool is_npz = text.starts_with("PK");
+  if (is_npz || text.starts_with("\x93NUMPY")) {
+    const DepthMap map =
+        is_npz ? decode_npz_array(bytes, array_name, name, {}) : decode_npy(bytes, name);
+    require_image_size(map, width, height, name);
+    return numbers_of_array(map, name);
+  }
+  return numbers_of_csv(text, std::uint64_t{width} * height, name);
+}
+
+}  // namespace
+
+DirectionTable read_directions(const std::filesystem::path& path, std::uint32_t width,
+                               std::uint32_t height, const std::string& name,
+                               const std::filesystem::path& confine) {
+  const StandardArithmetic standard;
+  const InputFile file(path, boundaries_of(confine));
+  std::vector<double> numbers = read_numbers(file, width, height, path.string());
+  file.expect_unchanged();
+  return {width, height, std::move(numbers), {name, sha256(file.bytes()), ""}};
+}
+
+DirectionReader directions_beside(const std::filesystem::path& camera_file,
+                                  const std::filesystem::path& confine) {
+  using Key = std::tuple<std::string, std::uint32_t, std::uint32_t>;
+  using Tables = std::map<Key, std::shared_ptr<const DirectionTable>>;
+  const auto tables = std::make_shared<Tables>();
+  const std::filesystem::path folder = folder_of_input(camera_file);
+  return [=](const std::string& file, std::uint32_t width, std::uint32_t height) {
+    std::shared_ptr<const DirectionTable>& table = (*tables)[{file, width, height}];
+    if (!table) {
+      table = std::make_shared<const DirectionTable>(
+          read_directions(folder / file, width, height, file, confine));
+    }
+    return table;
+  };
+}
+
+DepthMap map_of_directions(const DirectionTable& table, DirectionChannels channels) {
+  DepthMap map;
+  map.width = table.width();
+  map.height = table.height();
+  const auto component = [&]<class Value>(std::size_t k, Value) {
+    Samples<Value> values(table.numbers().size() / 3);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = static_cast<Value>(table.numbers()[3 * i + k]);
+    return values;
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (channels == DirectionChannels::exr) {
+      map.channels.push_back({exr_names[k], component(k, float{})});
+    } else {
+      map.channels.push_back(
+          {std::string(array_name) + "." + std::to_string(k), component(k, double{})});
+    }
+  }
+  return map;
+}
+
+std::string csv_of_directions(const DirectionTable& table) {
+  const StandardArithmetic standard;
+  std::string text = "x,y,z\n";
+  const auto numbers = table.numbers();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    text += text::shortest_decimal(numbers[i]);
+    text += i % 3 == 2 ? '\n' : ',';
+  }
+  return text;
+}
+
+}  // namespace fathom
