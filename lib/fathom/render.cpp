@@ -24,11 +24,6 @@ using namespace rendering;
 
 namespace {
 
-/// Both engines compute the same bits, and the fast engine has no lenses.
-Engine engine_for(const Camera& camera, const RenderOptions& options) {
-  return bends_rays(camera.projection) ? Engine::reference : options.engine;
-}
-
 void describe(const Scene& scene, const Camera& camera, const RenderOptions& options,
               DepthMap& map) {
   describe_map(scene, camera, name_of(engine_for(camera, options)), map);
@@ -104,6 +99,10 @@ Mattes mattes_by_segment(const Scene& scene, const Camera& camera, const RenderO
 }
 
 }  // namespace
+
+Engine engine_for(const Camera& camera, const RenderOptions& options) {
+  return bends_rays(camera.projection) ? Engine::reference : options.engine;
+}
 
 Rendered render(const Scene& scene, const Camera& camera, const RenderOptions& options,
                 const RenderContext& context) {

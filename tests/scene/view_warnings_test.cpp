@@ -53,7 +53,7 @@ Scene scene_of(Mesh mesh) {
   return scene;
 }
 
-constexpr LensChoice lens{.width = 640, .height = 480};
+const LensChoice lens{.width = 640, .height = 480};
 
 Camera looking(const Vector3& eye, const Vector3& target = {}) {
   return look_at(eye, target, {0, 1, 0}, lens);

@@ -78,8 +78,12 @@ bool in_middle(double x, double size, double part) {
   return std::abs(x - size / 2) <= part * size;
 }
 
+bool has_principal_point(const Projection& projection) {
+  return is_perspective(projection) && !(projection.lens && projection.lens->directions);
+}
+
 void add_warning_of_principal_point(const Camera& camera, std::vector<ViewWarning>& warnings) {
-  if (!is_perspective(camera.projection)) return;
+  if (!has_principal_point(camera.projection)) return;
   const auto [x, y] = principal_point(camera.projection);
   const auto lies_in_middle = [&, x = x, y = y](double part) {
     return in_middle(x, camera.width, part) && in_middle(y, camera.height, part);

@@ -164,7 +164,8 @@ class SceneReader {
     if (const auto found = placements.known.find(file); found != placements.known.end()) {
       scene_.objects.insert(scene_.objects.end(), found->second.begin(), found->second.end());
     } else {
-      const InputFile input(placed.file, boundaries_of(options_), reading_of(options_));
+      const InputFile input(placed.file, files::boundaries_of(options_.confine),
+                            reading_of(options_));
       const FileFormat format = recognise(input, placed.file);
       if (format == FileFormat::scene_json)
         throw InputError(file + ": is no mesh, expected a mesh file");

@@ -10,6 +10,7 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/mesh_files/named_files.h"
+#include "fathom/text/base64.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/text_ends.h"
 
@@ -88,36 +89,6 @@ std::string_view as_text(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// The value of a base64 digit, or −1.
-int base64_digit(char c) {
-  if (c >= 'A' && c <= 'Z') return c - 'A';
-  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-  if (c >= '0' && c <= '9') return c - '0' + 52;
-  if (c == '+') return 62;
-  if (c == '/') return 63;
-  return -1;
-}
-
-std::optional<std::vector<std::byte>> decode_base64(std::string_view text) {
-  for (int padding = 0; padding < 2 && !text.empty() && text.back() == '='; ++padding)
-    text.remove_suffix(1);
-  if (text.size() % 4 == 1) return std::nullopt;
-  std::vector<std::byte> bytes;
-  bytes.reserve(text.size() / 4 * 3 + 2);
-  std::uint32_t bits = 0;
-  int available = 0;
-  for (const char c : text) {
-    const int digit = base64_digit(c);
-    if (digit < 0) return std::nullopt;
-    bits = bits << 6U | static_cast<std::uint32_t>(digit);
-    available += 6;
-    if (available < 8) continue;
-    available -= 8;
-    bytes.push_back(static_cast<std::byte>(bits >> static_cast<unsigned>(available) & 0xFFU));
-  }
-  return bytes;
-}
-
 }  // namespace
 
 GltfContainer split_gltf(Bytes file, const std::string& name) {
@@ -162,7 +133,7 @@ GltfBuffers::GltfBuffers(const GltfContainer& container, const JsonValue& root,
       descriptions_(root.find("buffers")),
       folder_(folder_of_input(path)),
       outside_files_(options.outside_files),
-      boundaries_(boundaries_of(options)),
+      boundaries_(files::boundaries_of(options.confine)),
       reading_(reading_of(options)),
       budget_(budget) {
   if (!outside_files_)
