@@ -81,7 +81,11 @@ FATHOM_API fathom_status fathom_scene_bounds(const fathom_scene* scene, double l
 
 /* ------------------------------------------------------------------------------------- cameras */
 
-/* Every number is exact: it means the real number that it denotes. See docs/conventions.md. */
+/* A lens that bends rays: a model with its numbers of distortion. See docs/lenses.md. */
+typedef struct fathom_lens fathom_lens;
+
+/* Every number is exact: it means the real number that it denotes. See docs/conventions.md. Set
+ * the members that you do not need to 0, as `fathom_camera camera = {0};` does. */
 typedef struct {
   uint32_t width, height; /* pixels */
   int orthographic;       /* 0: perspective */
@@ -92,7 +96,32 @@ typedef struct {
   double world_to_camera[3][4]; /* x right, y down, z forward */
   /* range of planar depths that are rendered, in scene units; 0 and INFINITY: all */
   double near_depth, far_depth;
+  /* NULL: the camera has no lens. The camera does not own its lens. fathom_camera_read() makes a
+   * lens, which you free; all other functions set NULL. */
+  fathom_lens* lens;
 } fathom_camera;
+
+/* Makes a lens for the member `lens` of cameras. One lens serves any number of cameras.
+ *
+ *   model        "SIMPLE_RADIAL", "OPENCV", "OPENCV_14", … (docs/lenses.md)
+ *   distortion   the model's numbers of distortion in their order; may be NULL if count is 0
+ *   count        how many; OPENCV_14 has 4, 5, 8, 12 or 14
+ *   max_radius   where the lens ends; INFINITY: where its model does
+ *
+ * Models with one focal length need cameras with fx = fy and skew = 0. FATHOM_USAGE for an unknown
+ * model, another count and a number that is not finite.
+ */
+FATHOM_API fathom_status fathom_lens_new(const char* model, const double* distortion, size_t count,
+                                         double max_radius, fathom_lens** lens);
+/* Frees a lens; NULL is allowed. */
+FATHOM_API void fathom_lens_free(fathom_lens* lens);
+/* The lens's model, valid until the lens is freed; NULL if `lens` is NULL. */
+FATHOM_API const char* fathom_lens_model(const fathom_lens* lens);
+/* The model's numbers of distortion, valid until the lens is freed; NULL if `lens` is NULL.
+ * `count`, which may be NULL, receives their number. */
+FATHOM_API const double* fathom_lens_distortion(const fathom_lens* lens, size_t* count);
+/* Where the lens ends; INFINITY if `lens` is NULL. */
+FATHOM_API double fathom_lens_max_radius(const fathom_lens* lens);
 
 /* Makes a camera at `eye` that looks at `target`, with `up` upwards in the image. `fov` is the
  * vertical field of view in degrees. */
@@ -103,7 +132,8 @@ FATHOM_API fathom_status fathom_camera_look_at(const double eye[3], const double
 FATHOM_API fathom_status fathom_camera_frame(const fathom_scene* scene, double azimuth,
                                              double elevation, uint32_t width, uint32_t height,
                                              double fov, fathom_camera* camera);
-/* Reads a camera file with one camera. */
+/* Reads a camera file with one camera. If it has a lens, free camera->lens with
+ * fathom_lens_free(). */
 FATHOM_API fathom_status fathom_camera_read(const char* file, fathom_camera* camera);
 /* Checks a camera. FATHOM_INPUT if it is invalid. */
 FATHOM_API fathom_status fathom_camera_check(const fathom_camera* camera);
@@ -172,7 +202,8 @@ FATHOM_API const char* fathom_map_name(const fathom_map* map, const char* channe
 FATHOM_API const char* fathom_map_text(const fathom_map* map, const char* name);
 
 /* Computes up to `pixels` pixels of a rendered map again, only with exact arithmetic, and counts
- * the pixels that differ in a bit. Pass the `options` of the render. */
+ * the pixels that differ in a bit. Pass the `options` of the render. FATHOM_USAGE for a camera with
+ * a lens, whose maps are made with exact arithmetic. */
 FATHOM_API fathom_status fathom_verify(const fathom_map* map, const fathom_scene* scene,
                                        const fathom_camera* camera, const fathom_options* options,
                                        uint64_t pixels, uint64_t* differing);

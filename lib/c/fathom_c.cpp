@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <new>
@@ -14,6 +15,7 @@
 
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_making.h"
+#include "fathom/camera/lens_numbers.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/map_files.h"
 #include "fathom/mesh/element_counts.h"
@@ -35,6 +37,11 @@ struct fathom_map {
   explicit fathom_map(DepthMap given) : map(std::move(given)), texts(texts_of(map)) {}
   DepthMap map;
   std::map<std::string, std::string> texts;
+};
+
+struct fathom_lens {
+  Lens lens;
+  std::string model;
 };
 
 namespace {
@@ -115,9 +122,15 @@ Camera camera_of(const fathom_camera* given) {
     std::copy_n(given->world_to_camera[i], 4, camera.world_to_camera[i].begin());
   camera.near = given->near_depth;
   camera.far = given->far_depth;
+  if (given->lens) camera.projection.lens = given->lens->lens;
   return camera;
 }
 
+std::unique_ptr<fathom_lens> handle_of(const Lens& lens) {
+  return std::make_unique<fathom_lens>(fathom_lens{lens, std::string(name_of(lens.model))});
+}
+
+/// All but the lens, which the camera is left without.
 void give(const Camera& camera, fathom_camera* given) {
   require(given, "camera: NULL");
   given->width = camera.width;
@@ -133,6 +146,7 @@ void give(const Camera& camera, fathom_camera* given) {
     std::copy_n(camera.world_to_camera[i].begin(), 4, given->world_to_camera[i]);
   given->near_depth = camera.near;
   given->far_depth = camera.far;
+  given->lens = nullptr;
 }
 
 LensChoice lens_of(std::uint32_t width, std::uint32_t height, double fov) {
@@ -298,6 +312,35 @@ fathom_status fathom_scene_bounds(const fathom_scene* scene, double lower[3], do
   });
 }
 
+fathom_status fathom_lens_new(const char* model, const double* distortion, size_t count,
+                              double max_radius, fathom_lens** lens) {
+  return status_of([&] {
+    require(model && lens, "model and lens: NULL");
+    require(distortion || count == 0, "distortion: NULL");
+    *lens = handle_of(lens_of_numbers(model, {distortion, count}, max_radius)).release();
+  });
+}
+
+void fathom_lens_free(fathom_lens* lens) {
+  answer_of([&] { delete lens; });
+}
+
+const char* fathom_lens_model(const fathom_lens* lens) {
+  return answer_of([&] { return lens ? lens->model.c_str() : nullptr; });
+}
+
+const double* fathom_lens_distortion(const fathom_lens* lens, size_t* count) {
+  return answer_of([&] {
+    if (count) *count = lens ? entry_of(lens->lens.model).distortion.size() : 0;
+    return lens ? lens->lens.distortion.data() : nullptr;
+  });
+}
+
+double fathom_lens_max_radius(const fathom_lens* lens) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return answer_of([&] { return lens ? lens->lens.max_radius : infinity; });
+}
+
 fathom_status fathom_camera_look_at(const double eye[3], const double target[3], const double up[3],
                                     uint32_t width, uint32_t height, double fov,
                                     fathom_camera* camera) {
@@ -322,8 +365,10 @@ fathom_status fathom_camera_read(const char* file, fathom_camera* camera) {
     require(file, "file: NULL");
     const std::vector<Camera> cameras = read_cameras(std::filesystem::path(file));
     if (cameras.size() != 1) throw InputError(std::string(file) + ": expected one camera");
-    require_straight(cameras.front(), "C has no lenses; render with the command fathom render");
+    const auto& lens = cameras.front().projection.lens;
+    std::unique_ptr<fathom_lens> handle = lens ? handle_of(*lens) : nullptr;
     give(cameras.front(), camera);
+    camera->lens = handle.release();
   });
 }
 

@@ -21,7 +21,8 @@ static int failures = 0;
 static const double vertices[] = {-2, -2, 3, 2, -2, 5, 0, 2, 4};
 static const uint32_t triangles[] = {0, 1, 2};
 static const fathom_camera camera = {
-    64, 48, 0, 40, 40, 32, 24, 0, 0.5, {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, 0, INFINITY};
+    64, 48,       0,   40, 40, 32, 24, 0, 0.5, {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}},
+    0,  INFINITY, NULL};
 
 static fathom_scene* make_scene(const double* pose, int lent) {
   fathom_scene* scene = NULL;
@@ -209,6 +210,106 @@ static void numbers_have_names(const char* folder) {
   remove(path);
 }
 
+/* The depth of the plane where SIMPLE_RADIAL sees it, whose direction is found by iteration. */
+static double bent_depth(double u, double v, double k) {
+  const double xd = (u - 32) / 40, yd = (v - 24) / 40;
+  double x = xd, y = yd;
+  int i;
+  for (i = 0; i < 100; ++i) {
+    const double factor = 1 + k * (x * x + y * y);
+    x = xd / factor;
+    y = yd / factor;
+  }
+  return 4 / (1 - x / 2);
+}
+
+static void a_lens_bends_rays(void) {
+  const double k = -0.1;
+  fathom_scene* scene = make_scene(NULL, 0);
+  fathom_camera bent = camera;
+  fathom_map* map = NULL;
+  uint32_t x, y;
+  int seen = 0;
+  CHECK(fathom_lens_new("SIMPLE_RADIAL", &k, 1, INFINITY, &bent.lens) == FATHOM_OK);
+  CHECK(fathom_camera_check(&bent) == FATHOM_OK);
+  CHECK(fathom_render(scene, &bent, "Z,valid", NULL, &map) == FATHOM_OK);
+  const float* const depths = fathom_map_float32(map, "Z");
+  for (y = 0; y < 48; ++y) {
+    for (x = 0; x < 64; ++x) {
+      const float depth = depths[y * 64 + x];
+      if (depth == INFINITY) continue;
+      ++seen;
+      CHECK(fabs(depth - bent_depth(x + 0.5, y + 0.5, k)) < 4 * FLT_EPSILON * depth);
+      CHECK(fathom_map_uint32(map, "valid")[y * 64 + x] == 1);
+    }
+  }
+  CHECK(seen > 500);
+  CHECK(strstr(fathom_map_text(map, "fathom.camera"), "SIMPLE_RADIAL") != NULL);
+  fathom_map_free(map);
+  fathom_lens_free(bent.lens);
+  fathom_scene_free(scene);
+}
+
+static void lenses_come_from_files(const char* folder) {
+  char path[4096];
+  fathom_camera view;
+  size_t count = 0;
+  snprintf(path, sizeof path, "%s/fathom_c_lens.json", folder);
+  FILE* const file = fopen(path, "w");
+  CHECK(file != NULL);
+  fputs(
+      "{\"width\": 8, \"height\": 6, \"model\": \"OPENCV\", \"fx\": 8, \"fy\": 8, \"cx\": 4, "
+      "\"cy\": 3, \"k1\": -0.25, \"p2\": 0.5, \"max_radius\": 0.75, \"pixel_centre\": 0.5, "
+      "\"world_to_camera\": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]}",
+      file);
+  fclose(file);
+  CHECK(fathom_camera_read(path, &view) == FATHOM_OK);
+  CHECK(strcmp(fathom_lens_model(view.lens), "OPENCV") == 0);
+  const double* const numbers = fathom_lens_distortion(view.lens, &count);
+  CHECK(count == 4 && numbers[0] == -0.25 && numbers[1] == 0 && numbers[3] == 0.5);
+  CHECK(fathom_lens_distortion(view.lens, NULL) == numbers);
+  CHECK(fathom_lens_max_radius(view.lens) == 0.75);
+  fathom_lens_free(view.lens);
+  CHECK(fathom_lens_distortion(NULL, &count) == NULL && count == 0);
+  CHECK(fathom_lens_model(NULL) == NULL && fathom_lens_max_radius(NULL) == INFINITY);
+  fathom_lens_free(NULL);
+  remove(path);
+}
+
+static void lenses_are_refused(void) {
+  const double numbers[] = {0.1, 0.2, 0.3, NAN};
+  fathom_scene* scene = make_scene(NULL, 0);
+  fathom_camera bent = camera;
+  fathom_lens* lens = NULL;
+  fathom_map* map = NULL;
+  uint64_t differing = 7;
+  CHECK(fathom_lens_new("OPENC", numbers, 4, INFINITY, &lens) == FATHOM_USAGE &&
+        strstr(fathom_error(), "did you mean 'OPENCV'?") != NULL);
+  CHECK(fathom_lens_new("OPENCV", numbers, 3, INFINITY, &lens) == FATHOM_USAGE &&
+        strstr(fathom_error(), "found 3 numbers, OPENCV has 4") != NULL);
+  CHECK(fathom_lens_new("OPENCV", numbers, SIZE_MAX, INFINITY, &lens) == FATHOM_USAGE);
+  CHECK(fathom_lens_new("OPENCV", numbers, 4, INFINITY, &lens) == FATHOM_USAGE &&
+        strstr(fathom_error(), "p2") != NULL);
+  CHECK(fathom_lens_new("RADIAL", numbers, 2, 0, &lens) == FATHOM_USAGE &&
+        strstr(fathom_error(), "max_radius") != NULL);
+  CHECK(fathom_lens_new(NULL, numbers, 2, INFINITY, &lens) == FATHOM_USAGE);
+  CHECK(fathom_lens_new("RADIAL", NULL, 2, INFINITY, &lens) == FATHOM_USAGE);
+  CHECK(fathom_lens_new("RADIAL", numbers, 2, INFINITY, NULL) == FATHOM_USAGE && lens == NULL);
+  CHECK(fathom_lens_new("RADIAL", numbers, 2, INFINITY, &lens) == FATHOM_OK);
+  bent.lens = lens;
+  CHECK(fathom_render(scene, &bent, "Z,A", NULL, &map) == FATHOM_USAGE &&
+        strstr(fathom_error(), "the lens RADIAL: channel A") != NULL && map == NULL);
+  CHECK(fathom_render(scene, &bent, "Z", NULL, &map) == FATHOM_OK);
+  CHECK(fathom_verify(map, scene, &bent, NULL, 9, &differing) == FATHOM_USAGE && differing == 7 &&
+        strstr(fathom_error(), "the lens RADIAL") != NULL);
+  bent.fy = 41;
+  CHECK(fathom_camera_check(&bent) == FATHOM_INPUT &&
+        strstr(fathom_error(), "RADIAL has one focal length") != NULL);
+  fathom_map_free(map);
+  fathom_lens_free(lens);
+  fathom_scene_free(scene);
+}
+
 int main(int count, char** arguments) {
   if (count != 3) {
     fprintf(stderr, "usage: fathom_c_test MESH FOLDER\n");
@@ -222,6 +323,9 @@ int main(int count, char** arguments) {
   numbers_have_names(arguments[2]);
   progress_can_stop_it();
   failures_say_why();
+  a_lens_bends_rays();
+  lenses_come_from_files(arguments[2]);
+  lenses_are_refused();
   if (failures == 0) puts("all is well");
   return failures == 0 ? 0 : 1;
 }

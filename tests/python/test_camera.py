@@ -169,7 +169,7 @@ def test_distorted_cameras_are_left_out_with_a_warning(tmp_path):
 
 def test_importers_are_class_methods():
     importers = [name for name in vars(fathom.Camera) if name.startswith("from_")]
-    assert len(importers) == 15
+    assert len(importers) == 16
     for name in importers:
         assert isinstance(inspect.getattr_static(fathom.Camera, name), classmethod), name
         assert "cls" not in inspect.signature(getattr(fathom.Camera, name)).parameters, name

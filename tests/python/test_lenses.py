@@ -116,6 +116,8 @@ def test_lenses_are_kept():
     one = fathom.Camera(*size, pixel_centre=0.5, model="SIMPLE_RADIAL", params=[50, 32, 24, -0.2])
     other = one.scaled(size=(64, 24))
     assert (other.model, other.distortion, other.fx, other.fy) == ("OPENCV", [-0.2, 0, 0, 0], 50, 25)
+    skewed = fathom.Camera(*size, pixel_centre=0, model="OPENCV", params=[52, 55, 32.5, 23.25, 0, 0, 0, 0], skew=0.5)
+    assert skewed.skew == 0.5
     plain = fathom.Camera(*size, 52, 55, 32.5, 23.25, pixel_centre=0)
     assert (plain.model, plain.distortion, plain.max_radius) == (None, [], np.inf)
 
@@ -138,6 +140,13 @@ def test_what_has_no_ray_shows_nothing():
     ({"model": "OPENVC", "distortion": [0.1]}, ValueError, "did you mean 'OPENCV'"),
     ({"model": "OPENCV", "distortion": [0.1]}, ValueError, "found 1 number, OPENCV has 4"),
     ({"model": "OPENCV", "distortion": [np.nan] * 4}, ValueError, "distortion"),
+    ({"distortion": [-0.2, 0.1, 0, 0]}, ValueError, "distortion: expected a model"),
+    ({"max_radius": 0.5}, ValueError, "max_radius: expected a model"),
+    ({"model": "OPENCV", "near": np.nan}, ValueError, "near: expected a finite number"),
+    ({"model": "OPENCV", "far": np.nan}, ValueError, "far: expected a finite number"),
+    ({"model": "OPENCV", "far": -np.inf}, ValueError, "far: expected a finite number"),
+    ({"model": "OPENCV", "max_radius": np.nan}, ValueError, "max_radius: expected a finite number"),
+    ({"model": "OPENCV", "skew": np.inf}, ValueError, "skew: expected a finite number"),
     ({"params": [50, 32, 24, 0]}, ValueError, "params: expected a model"),
     ({"model": "SIMPLE_RADIAL", "params": [50, 32, 24, 0]}, ValueError, "params: has fx"),
     ({"model": "OPENCV", "projection": "orthographic"}, ValueError, "an orthographic camera has no lens"),

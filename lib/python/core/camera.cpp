@@ -12,6 +12,8 @@
 #include "fathom/camera/camera_making.h"
 #include "fathom/camera/data_set_cameras.h"
 #include "fathom/camera/image_points.h"
+#include "fathom/camera_directions.h"
+#include "fathom/image/directions.h"
 #include "fathom/scene/framing.h"
 #include "fathom/threads/threads.h"
 #include "objects.h"
@@ -176,6 +178,12 @@ void bind_image_points(Module& core) {
   });
   core.def("resized", &resized);
   core.def("scaled", &scaled);
+  core.def("with_size", [](Camera camera, std::uint32_t width, std::uint32_t height) {
+    camera.width = width;
+    camera.height = height;
+    require_valid(camera);
+    return camera;
+  });
 }
 
 void bind_importing(Module& core) {
@@ -198,13 +206,62 @@ void bind_importing(Module& core) {
     return named(import_gltf(file, width, height), file, false);
   });
   core.def("camera_from_opengl", &camera_from_opengl);
-  core.def("cameras_from_json", [](const std::string& text, const std::string& name) {
+  core.def("cameras_from_json", [](const std::string& text, const std::string& name, bool is_file) {
     Warnings warnings;
-    auto cameras = read_cameras(std::string_view(text), name, warnings);
+    const DirectionReader directions = is_file ? directions_beside(name) : DirectionReader();
+    auto cameras = read_cameras(std::string_view(text), name, warnings, directions);
     return std::pair(std::move(cameras), std::move(warnings));
   });
   core.def("cameras_to_json", [](const std::vector<Camera>& cameras) { return to_json(cameras); });
   core.def("camera_to_json", [](const Camera& camera) { return to_json(camera); });
+}
+
+/// Of a camera with a table: whether the table is from a file, and has been read.
+struct TableState {
+  bool is_read, has_file;
+};
+std::optional<TableState> table_state(const Camera& camera) {
+  if (!camera.projection.lens || !camera.projection.lens->directions) return std::nullopt;
+  const DirectionTable& table = *camera.projection.lens->directions;
+  return TableState{table.is_read(), !table.source().path.empty()};
+}
+
+/// H×W×3.
+py::array array_of(const DirectionTable& table) {
+  Samples<double> numbers(table.numbers().size());
+  std::ranges::copy(table.numbers(), numbers.begin());
+  return python::array_of(std::move(numbers),
+                          {static_cast<py::ssize_t>(table.height()),
+                           static_cast<py::ssize_t>(table.width()), py::ssize_t{3}});
+}
+
+/// A camera file's text with a table that is not read, and the numbers of the table.
+Camera camera_with_table(const std::string& text, const Numbers& numbers) {
+  Camera camera = read_cameras(text, "camera").at(0);
+  std::shared_ptr<const DirectionTable>& table = camera.projection.lens->directions;
+  table = std::make_shared<const DirectionTable>(
+      camera.width, camera.height,
+      std::vector<double>(numbers.data(), numbers.data() + numbers.size()), table->source());
+  require_valid(camera);
+  return camera;
+}
+
+void bind_directions(Module& core) {
+  core.def("directions_of", [](const Camera& camera) {
+    return array_of(run([&](const auto& progress) {
+      return directions_of(camera, DirectionRounding::binary64, progress);
+    }));
+  });
+  core.def("camera_with_table", &camera_with_table);
+  core.def("table_of", [](const Camera& camera) -> std::optional<py::array> {
+    const std::optional<TableState> state = table_state(camera);
+    if (!state || !state->is_read) return std::nullopt;
+    return array_of(*camera.projection.lens->directions);
+  });
+  core.def("has_table_without_file", [](const Camera& camera) {
+    const std::optional<TableState> state = table_state(camera);
+    return state && !state->has_file;
+  });
 }
 
 PoseDirection direction_of(bool camera_to_world) {
@@ -294,6 +351,7 @@ void bind_camera(Module& core) {
   bind_image_points(core);
   bind_importing(core);
   bind_data_sets(core);
+  bind_directions(core);
 }
 
 }  // namespace fathom::python

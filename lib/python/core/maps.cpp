@@ -118,12 +118,13 @@ void write_mask(const SharedMap& map, const std::filesystem::path& path,
   run([&](const auto&) { files::write_file(path, encode_mask(*map, path.string(), object)); });
 }
 
-/// One cloud of the points of all maps.
+/// One cloud of the points of all maps; of a stack each point has the number of its view.
 void write_points(const std::vector<SharedMap>& maps, const std::vector<Camera>& cameras,
-                  const std::filesystem::path& path, const std::string& frame, bool binary64) {
+                  const std::filesystem::path& path, const std::string& frame, bool binary64,
+                  bool is_stack) {
   const PointFrame chosen = named_value("frame", all_point_frames, frame);
   run([&](const auto&) {
-    PointCloud cloud({.frame = chosen, .binary64 = binary64, .numbers_views = maps.size() > 1});
+    PointCloud cloud({.frame = chosen, .binary64 = binary64, .numbers_views = is_stack});
     for (std::size_t i = 0; i < maps.size(); ++i) {
       cloud.add(*maps[i], cameras[i], "view " + std::to_string(i));
     }

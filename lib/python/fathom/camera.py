@@ -69,11 +69,11 @@ class Camera:
     world_to_camera  4×4 or 3×4, [R | t]; x right, y down, z forward (OpenCV's axes). R need not be
                      a rotation.
     near, far        range of planar depths that are rendered, in scene units; of ray distances for
-                     the models DIVISION, SIMPLE_DIVISION and FISHEYE_STEREOGRAPHIC
+                     the models DIVISION, SIMPLE_DIVISION, FISHEYE_STEREOGRAPHIC and TABLE
     name             name of the camera's image; it does not change the map
     model            model of the lens, as "OPENCV" (docs/lenses.md); without it the lens bends no ray
     distortion       its numbers of distortion, in the model's order
-    params           all parameters of the model in its order, in place of fx, fy, cx, cy, skew and
+    params           all parameters of the model in its order, in place of fx, fy, cx, cy and
                      distortion
     max_radius       where the lens ends, on the plane z = 1
 
@@ -118,16 +118,22 @@ class Camera:
             if not all(each is None for each in (fx, fy, cx, cy)):
                 raise ValueError("params: has fx, fy, cx and cy; leave these out")
             keys: dict[str, object] = {"params": _list("params", params)}
+            if _finite("skew", skew) != 0:
+                keys["skew"] = _finite("skew", skew)
         else:
             given = {"fx": fx, "fy": fy, "cx": cx, "cy": cy}
             for key, value in given.items():
                 if value is None:
                     raise TypeError(f"{key}: missing")
-            keys = {"K": [[as_number("fx", fx), as_number("skew", skew), as_number("cx", cx)],
-                          [0, as_number("fy", fy), as_number("cy", cy)], [0, 0, 1]]} if model else {}
+            keys = {"K": [[_finite("fx", fx), _finite("skew", skew), _finite("cx", cx)],
+                          [0, _finite("fy", fy), _finite("cy", cy)], [0, 0, 1]]} if model else {}
+        lens = _list("distortion", distortion)
+        if model is None and lens:
+            raise ValueError('distortion: expected a model, as "OPENCV", whose numbers they are')
+        if model is None and as_number("max_radius", max_radius) != math.inf:
+            raise ValueError('max_radius: expected a model, as "OPENCV", whose lens ends there')
         if model is not None:
             pose = _identity if world_to_camera is None else pose_of("world_to_camera", world_to_camera)
-            lens = _list("distortion", distortion)
             keys.update({"distortion": lens} if lens else {})
             keys.update(model=as_text("model", model), projection=one_of("projection", projection, projections))
             self._set_lens(size, keys, pixel_centre, pose, near, far, max_radius, as_text("name", name))
@@ -173,16 +179,17 @@ class Camera:
         name: str = "",
     ) -> None:
         """The camera of a camera file with these keys."""
-        file = {"width": size[0], "height": size[1], **keys, "name": name,
-                "pixel_centre": as_number("pixel_centre", pixel_centre),
-                "world_to_camera": [list(row) for row in pose], "near": as_number("near", near)}
-        for key, value in (("far", far), ("max_radius", max_radius)):
-            number = as_number(key, value)
-            if number != math.inf:
-                file[key] = number
-        with _core.standard_arithmetic():  # Python writes decimals by binary64 arithmetic
-            text = json.dumps(file)
+        keys = {**keys, "pixel_centre": _finite("pixel_centre", pixel_centre)}
+        text = _lens_file(size, keys, pose, near, far, max_radius, name)
         object.__setattr__(self, "_handle", Camera.from_json(text)._handle)
+
+    def _set_table(
+        self, numbers: npt.NDArray[np.float64], pose: Rows, near: object, far: object, max_radius: object, name: str
+    ) -> None:
+        height, width, _ = numbers.shape
+        keys: dict[str, object] = {"model": "TABLE", "directions": None}
+        text = _lens_file((width, height), keys, pose, near, far, max_radius, name)
+        object.__setattr__(self, "_handle", _core.camera_with_table(text, numbers))
 
     @classmethod
     def _of(cls, core: _core.Camera) -> Camera:
@@ -228,6 +235,40 @@ class Camera:
             camera._set_lens(width_and_height, keys, pixel_centre, pose, near, far, math.inf)
         else:
             camera._set(width_and_height, "perspective", intrinsics, pixel_centre, pose, near, far)
+        return camera
+
+    @classmethod
+    def from_directions(
+        cls,
+        directions: npt.ArrayLike,
+        *,
+        world_to_camera: npt.ArrayLike | None = None,
+        near: float = 0,
+        far: float = math.inf,
+        name: str = "",
+        max_radius: float = math.inf,
+    ) -> Camera:
+        """A camera whose pixels see given directions: the model TABLE, for lenses that no model describes.
+
+        directions       H×W×3 in the camera frame, x right, y down, z forward, of any length. Every number is exact. A
+                         pixel with (0, 0, 0) or a NaN has no ray.
+        world_to_camera  4×4 or 3×4, [R | t]
+        near, far        range of ray distances that are rendered, in scene units
+        max_radius       greatest angle between a ray and the z axis, in radians
+
+        Such a camera has no fx, fy, cx, cy, skew and pixel_centre. write_cameras() needs a table that was read from a
+        file. Raises InputError for an infinite number.
+
+        >>> down = np.zeros((2, 3, 3)) + (0, 0.5, 1)
+        >>> Camera.from_directions(down).model
+        'TABLE'
+        """
+        numbers = as_numbers("directions", directions)
+        if numbers.ndim != 3 or numbers.shape[2] != 3 or not numbers.size:
+            raise ValueError(f"directions: expected shape H×W×3, found {in_words(numbers.shape)}")
+        camera = cls.__new__(cls)
+        pose = _identity if world_to_camera is None else pose_of("world_to_camera", world_to_camera)
+        camera._set_table(numbers, pose, near, far, max_radius, as_text("name", name))
         return camera
 
     @classmethod
@@ -539,6 +580,20 @@ class Camera:
             return varying, np.broadcast_to(pose[:3, 2], shape)
         return np.broadcast_to(pose[:3, 3], shape), varying
 
+    def directions(self) -> npt.NDArray[np.float64]:
+        """The directions that the pixels see, H×W×3, in the camera frame: x right, y down, z forward. The component of a
+        direction that is greatest in magnitude is 1 or −1. A pixel without a ray has (0, 0, 0). Works for pinholes, lenses
+        and tables. Raises ValueError for an orthographic camera.
+
+        Exact    each number is exact, rounded once: from_directions() of the result sees the same, but for that
+                 rounding.
+
+        >>> camera = Camera(4, 2, 2, 2, 2, 1, pixel_centre=0.5)
+        >>> camera.directions()[0, 0]
+        array([-0.75, -0.25,  1.  ])
+        """
+        return _core.directions_of(self._handle)
+
     def scaled(self, factor: float | None = None, *, size: Size | None = None) -> Camera:
         """The camera of the same image at another resolution: it shows the same view up to the edges.
 
@@ -565,11 +620,9 @@ class Camera:
     def with_size(self, width: int, height: int) -> Camera:
         """The same camera with another image size and the same principal point in pixels."""
         size = as_size((width, height))
-        with _core.standard_arithmetic():  # Python reads and writes decimals by binary64 arithmetic
-            keys = json.loads(self.to_json())
-            keys["width"], keys["height"] = size
-            text = json.dumps(keys)
-        return Camera.from_json(text)
+        if self.model == "TABLE":
+            raise ValueError("with_size: a table has directions for its own pixels only; make a table of the other size")
+        return Camera._of(_core.with_size(self._handle, *size))
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError("a Camera does not change: make another one")
@@ -581,7 +634,7 @@ class Camera:
         return hash(self.to_json())
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _from_json, (self.to_json(),)
+        return _from_json, (self.to_json(), _core.table_of(self._handle))
 
     def _repr_html_(self) -> str:
         forward, eye = self.camera_to_world[:3, 2], self.camera_to_world[:3, 3]
@@ -608,6 +661,8 @@ class Camera:
                     f'stroke-width="{dot / 2:.6g}"/><circle cx="{x:.6g}" cy="{y:.6g}" r="{dot:.6g}" fill="currentColor"/></svg>')
 
     def __repr__(self) -> str:
+        if self.model == "TABLE":
+            return f"Camera({self.width}×{self.height}, TABLE{f', name={self.name!r}' if self.name else ''})"
         names = ("fx", "fy", "cx", "cy")
         numbers = " ".join(f"{each}={getattr(self, each):.10g}," for each in names)
         skew = f" skew={self.skew:.10g}," if self.skew else ""
@@ -619,14 +674,35 @@ class Camera:
 _identity: Rows = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0))
 
 
-def _from_json(text: str) -> Camera:
-    return Camera.from_json(text)
+def _from_json(text: str, table: npt.NDArray[np.float64] | None = None) -> Camera:
+    """The camera of a camera file's text, and of its table of directions."""
+    return Camera.from_json(text) if table is None else Camera._of(_core.camera_with_table(text, table))
+
+
+def _lens_file(
+    size: tuple[int, int], keys: dict[str, object], pose: Rows, near: object, far: object, max_radius: object, name: str
+) -> str:
+    """The text of a camera file with these keys."""
+    file = {"width": size[0], "height": size[1], **keys, "name": name,
+            "world_to_camera": [list(row) for row in pose], "near": _finite("near", near)}
+    for key, value in (("far", far), ("max_radius", max_radius)):
+        if as_number(key, value) != math.inf:
+            file[key] = _finite(key, value)
+    with _core.standard_arithmetic():  # Python writes decimals by binary64 arithmetic
+        return json.dumps(file)
 
 
 def _list(name: str, value: npt.ArrayLike) -> list[float]:
     """Numbers of any shape, as OpenCV's 1×5."""
     numbers = np.asarray(value, np.float64)
     return [float(each) for each in as_finite(name, numbers.ravel(), (numbers.size,))]
+
+
+def _finite(name: str, value: object) -> float:
+    number = as_number(name, value)
+    if not math.isfinite(number):
+        raise ValueError(f"{name}: expected a finite number, found {number!r}")
+    return number
 
 
 def _point(name: str, value: npt.ArrayLike) -> list[float]:
@@ -651,7 +727,12 @@ def _only(cameras: Sequence[Camera]) -> Camera:
 
 
 def cameras_from_json(text: str, name: str = "camera") -> list[Camera]:
-    """The cameras from the text of a camera file; `name` begins error messages."""
+    """The cameras from the text of a camera file; `name` begins error messages. Tables of directions are in other files,
+    which read_cameras() reads; here they are only named, and such a camera cannot be rendered."""
+    return _cameras_of(text, name, is_file=False)
+
+
+def _cameras_of(text: str, name: str, *, is_file: bool) -> list[Camera]:
     if not isinstance(text, str):
         raise TypeError(f"text: expected a string, found {text!r}")
     try:
@@ -660,7 +741,7 @@ def cameras_from_json(text: str, name: str = "camera") -> list[Camera]:
         message = "text: expected a camera file's text, found one with lone surrogates"
         raise ValueError(message) from None
     # A file's name may stand for any bytes.
-    cameras, notes = _core.cameras_from_json(text, os.fsencode(path_of("name", name)))
+    cameras, notes = _core.cameras_from_json(text, os.fsencode(path_of("name", name)), is_file)
     warn(notes)
     return [Camera._of(each) for each in cameras]
 
@@ -676,14 +757,19 @@ def read_cameras(file: Path) -> list[Camera]:
         raise InputError(f"{name}: cannot be opened: {error.strerror}") from None
     except UnicodeDecodeError:
         raise InputError(f"{name}: is not text, expected a camera file (JSON)") from None
-    return cameras_from_json(text, name)
+    return _cameras_of(text, name, is_file=True)
 
 
 def write_cameras(file: Path, cameras: Iterable[Camera]) -> None:
     """Writes a camera file: an object for a single camera, a list for several. Creates missing
-    folders. Raises OutputError if the file cannot be written."""
+    folders. Names the files of tables of directions as they were named when they were read. Raises OutputError if the
+    file cannot be written, or if a table is from an array and thus in no file."""
     path_of("file", file)
-    text = _core.cameras_to_json([camera_handle(camera) for camera in cameras])
+    handles = [camera_handle(camera) for camera in cameras]
+    if any(_core.has_table_without_file(each) for each in handles):
+        raise OutputError(f"{os.fsdecode(file)}: a table of directions is in no file: write the camera's directions() with "
+                          "numpy.save() and name that file in a camera file")
+    text = _core.cameras_to_json(handles)
     make_folder_of(file)
     try:
         with open(file, "w", encoding="utf-8") as stream:

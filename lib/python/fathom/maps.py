@@ -353,7 +353,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
             maps, cameras = [self.view(i) for i in range(len(self._views))], self.cameras
         handles = [each._handle() for each in maps]
         make_folder_of(file)
-        _core.write_point_cloud(handles, [camera_handle(each) for each in cameras], path, frame, name == "float64")
+        _core.write_point_cloud(handles, [camera_handle(each) for each in cameras], path, frame, name == "float64",
+                                self._views is not None)
 
     def add_cryptomatte(self, scene: Scene, camera: Camera | None = None, *, cull: Cull = "none", threads: int = 0) -> None:
         """Adds Cryptomatte's channels by object, CryptoObject00.R and so on, with exact coverage,
