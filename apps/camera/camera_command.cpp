@@ -1,6 +1,7 @@
 #include <memory>
 #include <optional>
 
+#include "apps/camera/directions_command.h"
 #include "apps/camera/import_sources.h"
 #include "apps/commands.h"
 #include "apps/options/camera_options.h"
@@ -21,11 +22,13 @@ namespace {
 struct LookAtArguments {
   Vector3 eye{}, target{}, up{0, 1, 0};
   LensChoice lens;
+  DistortionOptions distortion;
   std::string output = "-";
 };
 
 int run_look_at(const LookAtArguments& arguments) {
-  const Camera camera = look_at(arguments.eye, arguments.target, arguments.up, arguments.lens);
+  const Camera camera = look_at(arguments.eye, arguments.target, arguments.up,
+                                arguments.distortion.applied(arguments.lens));
   write_text(arguments.output, to_json(camera) + "\n");
   return done;
 }
@@ -35,7 +38,9 @@ void add_look_at(Command& camera) {
   Command& command =
       camera.command("look-at", "Make a camera at a point, looking at another point",
                      "  fathom camera look-at --eye 2,1,3 --target 0,0,0 -o camera.json\n"
-                     "  fathom camera look-at --eye 0,0,5 --orthographic 2 --size 512x512");
+                     "  fathom camera look-at --eye 0,0,5 --orthographic 2 --size 512x512\n"
+                     "  fathom camera look-at --eye 0,0,5 --model RADIAL --distortion "
+                     "-0.2,0.1");
   command
       .option("--eye", "X,Y,Z", into(arguments->eye, parse_vector), "Position of the camera, X,Y,Z")
       .required();
@@ -43,6 +48,7 @@ void add_look_at(Command& camera) {
                  "Point that the camera looks at, X,Y,Z (default 0,0,0)");
   add_up_option(command, arguments->up);
   add_lens_options(command, arguments->lens);
+  arguments->distortion.add_to(command);
   add_range_options(command, arguments->lens);
   add_output_option(command, "FILE", arguments->output,
                     "Write the camera file here (default: standard output)");
@@ -58,13 +64,15 @@ struct OrbitArguments {
   std::optional<Vector3> centre;
   std::optional<double> distance;
   LensChoice lens;
+  DistortionOptions distortion;
   std::string output = "-";
 };
 
 std::vector<Camera> orbit_cameras(const OrbitArguments& a, const Console& console) {
+  const LensChoice lens = a.distortion.applied(a.lens);
   if (a.scene.files.empty()) {
     if (!a.distance) throw UsageError("orbit needs a SCENE to frame, or --distance");
-    return orbit(a.first, a.views, a.centre.value_or(Vector3{}), *a.distance, a.lens);
+    return orbit(a.first, a.views, a.centre.value_or(Vector3{}), *a.distance, lens);
   }
   if (a.distance || a.centre) {
     throw UsageError("--centre and --distance do not go with a SCENE, which decides them");
@@ -73,7 +81,7 @@ std::vector<Camera> orbit_cameras(const OrbitArguments& a, const Console& consol
   if (triangle_count(scene) == 0) {
     throw InputError(a.scene.files[0] + ": no triangle; expected something to frame");
   }
-  return orbit_scene(a.first, a.views, scene, a.lens);
+  return orbit_scene(a.first, a.views, scene, lens);
 }
 
 int run_orbit(const OrbitArguments& arguments, const Console& console) {
@@ -98,6 +106,7 @@ void add_orbit(Command& camera) {
   command.option("--distance", "D", into(arguments->distance, parse_number),
                  "Distance of the eye from the centre");
   add_lens_options(command, arguments->lens);
+  arguments->distortion.add_to(command);
   add_range_options(command, arguments->lens);
   add_output_option(command, "FILE", arguments->output,
                     "Write the camera file here (default: standard output)");
@@ -108,16 +117,18 @@ void add_orbit(Command& camera) {
 
 void add_camera(Command& program) {
   Command& family =
-      program.command("camera", "Make or import a camera file",
+      program.command("camera", "Make or import a camera file, or write its directions",
                       "  fathom camera look-at --eye 2,1,3 --target 0,0,0 -o camera.json\n"
                       "  fathom camera orbit spot.obj --views 12 -o path.json\n"
                       "  fathom camera import colmap sparse/0 -o cameras.json\n"
+                      "  fathom camera directions camera.json -o rays.npy\n"
                       "\nNumbers are rounded to binary64 when they are written; the written "
                       "numbers define the camera.\n"
                       "Keys of camera files: camera-files.md in the documentation.");
   family.requires_command();
   add_look_at(family);
   add_orbit(family);
+  add_directions(family);
   add_import(family);
 }
 

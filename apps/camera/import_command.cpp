@@ -59,13 +59,15 @@ void add_import(Command& camera) {
                      "  fathom camera import nerf transforms.json --size 800x800 -o cameras.json\n"
                      "  fathom camera import tum groundtruth.txt --images depth.txt --K ros \\\n"
                      "    -o cameras.json\n"
-                     "\nCameras with lens distortion are left out with a warning. Formulas and "
-                     "layouts: conventions.md and\n"
-                     "data-sets.md in the documentation.\n"
+                     "\nLenses are imported with the cameras; those that have no model are left "
+                     "out with a warning.\n"
+                     "Models: lenses.md, formulas and layouts: conventions.md and data-sets.md in "
+                     "the documentation.\n"
                      "Each camera has the name of its image: render -o 'maps/{stem}.exr' writes "
                      "maps of the same names.");
   family.requires_command();
   for (const ImportSource& source : program_sources()) add_source(family, source);
+  for (const ImportSource& source : calibration_sources()) add_source(family, source);
   for (const ImportSource& source : data_set_sources()) add_source(family, source);
 }
 

@@ -113,6 +113,8 @@ std::optional<IntrinsicMatrix> parse_intrinsics(const std::string& text) {
   return IntrinsicMatrix{numbers[0], 0, numbers[2], 0, numbers[1], numbers[3], 0, 0, 1};
 }
 
+}  // namespace
+
 GivenLens given_lens(const ImportArguments& a) {
   GivenLens given;
   if (a.size) {
@@ -133,6 +135,12 @@ void add_pixel_centre(Command& command, ImportArguments& a, const std::string& o
       into(a.pixel_centre, [](const std::string& text) { return parse_word(text, pixel_centres); }),
       "Coordinate that cx and cy give the centre of the first pixel" + otherwise);
 }
+
+std::vector<NamedPose> read_poses_argument(const std::string& file) {
+  return names_array(file) ? poses_of_array(file) : read_poses(file);
+}
+
+namespace {
 
 void add_lens_options(Command& command, ImportArguments& a) {
   command.option("--K", "fx,fy,cx,cy", a.K,
@@ -176,8 +184,8 @@ Cameras read_matrices(const ImportArguments& a, Warnings&) {
   else
     K = names_array(a.K) ? intrinsics_of_array(a.K) : read_intrinsic_matrices(a.K);
   const auto [width, height] = *a.size;
-  return import_matrices(names_array(a.input) ? poses_of_array(a.input) : read_poses(a.input), K,
-                         {*a.direction, *a.axes, *a.pixel_centre}, width, height, a.input);
+  return import_matrices(read_poses_argument(a.input), K, {*a.direction, *a.axes, *a.pixel_centre},
+                         width, height, a.input);
 }
 
 void declare_tum(Command& command, ImportArguments& a) {

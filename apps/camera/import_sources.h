@@ -25,6 +25,7 @@ struct ImportArguments {
   std::optional<CameraAxes> axes;
   /// Files beside INPUT: a list of images, poses.
   std::string images, poses;
+  bool camera_to_world = false;
   std::optional<std::uint32_t> number;
   ScanNetStream stream = ScanNetStream::depth;
 };
@@ -44,6 +45,13 @@ struct ImportSource {
 
 /// --size, for sources whose files may not have one.
 void add_size_option(Command& command, ImportArguments& arguments);
+/// --pixel-centre; `otherwise` ends its help.
+void add_pixel_centre(Command& command, ImportArguments& arguments, const std::string& otherwise);
+/// The values that --size, --K and --pixel-centre give.
+/// Fails    UsageError where --K is not fx,fy,cx,cy.
+GivenLens given_lens(const ImportArguments& arguments);
+/// Poses as text or in an array of NumPy: .txt, .npy, .npz or .npz:ARRAY.
+std::vector<NamedPose> read_poses_argument(const std::string& file);
 /// --ignore-distortion.
 void add_distortion_option(Command& command, CameraChoice& choice);
 
@@ -52,7 +60,10 @@ std::vector<ImportSource> program_sources();
 /// Layouts of data sets, and matrices of any origin.
 std::vector<ImportSource> data_set_sources();
 
-/// `fathom camera import colmap | nerf | bop | opengl`
+/// Calibrations of a camera.
+std::vector<ImportSource> calibration_sources();
+
+/// `fathom camera import colmap | nerf | …`
 void add_import(Command& camera);
 
 }  // namespace fathom::app

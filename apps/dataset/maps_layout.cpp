@@ -33,7 +33,8 @@ files::Bytes encoded_sidecar(const DepthMap& map, const MapPlan&, const std::str
 
 int run_maps(MapsArguments& arguments, const Console& console) {
   Views views;
-  views.cameras = arguments.camera_changes.applied(read_camera_file(arguments.input, console));
+  views.cameras = arguments.camera_changes.applied(
+      read_cameras_with_lenses(arguments.input, arguments.render.scene.limits, console));
   views.noun = "map";
   arguments.render.output =
       arguments.pattern.empty() ? default_pattern(views.cameras) : arguments.pattern;
@@ -74,11 +75,7 @@ void add_maps_layout(Command& family) {
                  "suffix (default {stem}.exr, or {index:06}.exr if cameras have no names)");
   command.option(
       "--channels", "LIST",
-      [arguments](const std::string& text) {
-        Contents contents = parse_contents(text);
-        arguments->render.channels = std::move(contents.channels);
-        arguments->render.is_mask = contents.is_mask;
-      },
+      [arguments](const std::string& text) { arguments->render.take(parse_contents(text)); },
       "Channels, as for render (default Z,A in EXR and NPZ, Z in other formats), or mask");
   arguments->render.storage.add_to(command);
   command.option("--background", "D", into(arguments->render.storage.background, parse_background),

@@ -83,16 +83,18 @@ std::string ViewMaker::inputs_of(std::size_t camera) const {
 }
 
 std::size_t ViewMaker::memory_of(std::size_t camera) const {
-  const std::size_t of_value = plan_.rendering.depth_encoding.type == DepthEncoding::Type::binary64
+  const RenderOptions rendering = plan_.rendering_for(cameras_[camera]);
+  const std::size_t of_value = rendering.depth_encoding.type == DepthEncoding::Type::binary64
                                    ? sizeof(double)
                                    : sizeof(float);
   return std::size_t{cameras_[camera].width} * cameras_[camera].height * of_value *
-         count_parts(plan_.rendering.channels);
+         count_parts(rendering.channels);
 }
 
 std::shared_ptr<const DepthMap> ViewMaker::make(std::size_t camera, const std::string& name) {
+  const RenderOptions options = plan_.rendering_for(cameras_[camera]);
   Rendered rendered = about_output(
-      name, [&] { return render(scene_, cameras_[camera], plan_.rendering, {.kept = &memory_}); });
+      name, [&] { return render(scene_, cameras_[camera], options, {.kept = &memory_}); });
   warnings_.note(scene_, cameras_[camera], rendered.statistics.pixels_with_surface);
   codes_beyond_.note(rendered.map);
   return std::make_shared<const DepthMap>(plan_.storage.dressed(

@@ -124,11 +124,8 @@ int write_points(const ConvertArguments& arguments, const Console& console) {
 
 /// The mask of a map without a channel of this name.
 int write_mask(const DepthMap& map, const ConvertArguments& arguments, MapFormat format) {
-  if (format != MapFormat::png) {
-    throw UsageError(arguments.output +
-                     ": a mask is an 8-bit PNG, 255 where a surface is; expected .png");
-  }
-  if (arguments.to) throw UsageError("--to does not go with a mask");
+  arguments.storage.check_pictures(arguments.output, format, {.channels = {}, .is_mask = true});
+  if (arguments.to || arguments.from) throw UsageError("--to and --from do not go with a mask");
   OutputFile output(arguments.output);
   output.write(encode_mask(map, arguments.output));
   output.commit();
@@ -220,6 +217,12 @@ WriteOptions write_options(const DepthMap& map, const ConvertArguments& argument
   return options;
 }
 
+/// The contents of the file of a map. A PNG of a channel `mask` is a mask.
+StoredContents contents_of_file(const DepthMap& map, MapFormat format) {
+  return {.channels = names_of_channels(map),
+          .is_mask = format == MapFormat::png && map.values<float>("mask") != nullptr};
+}
+
 /// The map and, if requested, the description of its codes.
 void write_outputs(const DepthMap& map, const ConvertArguments& arguments, MapFormat format,
                    const WriteOptions& options) {
@@ -250,6 +253,7 @@ int run_convert(const ConvertArguments& arguments, const Console& console) {
   if (arguments.to) dress.background.reset();
   const DepthMap map = dress.dressed(
       stored(converted(std::move(read), arguments, console), arguments, format), arguments.output);
+  arguments.storage.check_pictures(arguments.output, format, contents_of_file(map, format));
   write_outputs(map, arguments, format, write_options(map, arguments, format, console));
   warn_of_codes_beyond(map, arguments.output, console);
   return done;

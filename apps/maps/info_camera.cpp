@@ -46,6 +46,16 @@ double disc_of(const Projection& projection) {
   return lens::Preimages(projection, *projection.lens).disc();
 }
 
+const DirectionTable* directions_of(const Projection& projection) {
+  return projection.lens ? projection.lens->directions.get() : nullptr;
+}
+
+/// The share of the pixels of a table that have no ray.
+double share_without_ray(const DirectionTable& table) {
+  return static_cast<double>(table.pixels_without_ray()) /
+         (static_cast<double>(table.width()) * table.height());
+}
+
 Json describe(const Camera& camera) {
   Json answer = text::parse_json<Json>(fathom::to_json(camera));
   const LineOfSight sight = line_of_sight(camera);
@@ -55,7 +65,11 @@ Json describe(const Camera& camera) {
     answer["fov_degrees"] = {degrees_of(camera.width, camera.projection.fx),
                              degrees_of(camera.height, camera.projection.fy)};
   }
-  if (camera.projection.lens) answer["lens_disc"] = disc_of(camera.projection);
+  if (const DirectionTable* const table = directions_of(camera.projection)) {
+    answer["share_without_ray"] = share_without_ray(*table);
+  } else if (camera.projection.lens) {
+    answer["lens_disc"] = disc_of(camera.projection);
+  }
   return answer;
 }
 
@@ -73,19 +87,39 @@ std::string describe_lens(const Projection& projection) {
   return lines + (std::isinf(end) ? "\n" : fmt::format(", max_radius {}\n", end));
 }
 
+/// The file of a table, and how many of its pixels have a ray.
+std::string describe_table(const Lens& lens) {
+  const DirectionTable& table = *lens.directions;
+  std::string lines = fmt::format(
+      "    lens          {}, {}x{} directions from {}\n    sha256        {}\n"
+      "    has rays      except at {} of {} pixels ({:.2f} %)",
+      name_of(lens.model), table.width(), table.height(), text::printable(table.source().path),
+      table.sha256(), table.pixels_without_ray(), std::uint64_t{table.width()} * table.height(),
+      100 * share_without_ray(table));
+  if (std::isfinite(lens.max_radius)) lines += fmt::format(", max_radius {}", lens.max_radius);
+  return lines + "\n";
+}
+
+/// fx, fy, cx, cy and skew, and the lens.
+std::string describe_projection(const Projection& projection) {
+  if (directions_of(projection)) return describe_table(*projection.lens);
+  std::string lines = fmt::format(
+      "    fx, fy        {}, {}\n    cx, cy        {}, {}   (the centre of the top left pixel is "
+      "{})\n"
+      "    skew          {}\n",
+      projection.fx, projection.fy, projection.cx, projection.cy, projection.pixel_centre,
+      projection.skew);
+  if (projection.lens) lines += describe_lens(projection);
+  return lines;
+}
+
 std::string describe_as_text(const Camera& camera) {
   const LineOfSight sight = line_of_sight(camera);
   std::string lines = fmt::format("  {} camera of {}x{} pixels\n", name_of(camera.projection.model),
                                   camera.width, camera.height);
   if (!camera.name.empty())
     lines += fmt::format("    name          {}\n", text::printable(camera.name));
-  lines += fmt::format(
-      "    fx, fy        {}, {}\n    cx, cy        {}, {}   (the centre of the top left pixel is "
-      "{})\n"
-      "    skew          {}\n",
-      camera.projection.fx, camera.projection.fy, camera.projection.cx, camera.projection.cy,
-      camera.projection.pixel_centre, camera.projection.skew);
-  if (camera.projection.lens) lines += describe_lens(camera.projection);
+  lines += describe_projection(camera.projection);
   if (has_field_of_view(camera.projection)) {
     lines += fmt::format("    field of view {:.4f} x {:.4f} degrees\n",
                          degrees_of(camera.width, camera.projection.fx),

@@ -44,7 +44,8 @@ int run_info(const InfoArguments& arguments, const Console& console) {
   const AnswerForm form = arguments.json ? AnswerForm::json : AnswerForm::text;
   if (kind == FileKind::camera) {
     Warnings warnings;
-    const std::vector<Camera> cameras = read_cameras(input.text(), file, warnings);
+    const std::vector<Camera> cameras =
+        read_cameras(input.text(), file, warnings, arguments.scene.limits.directions_beside(file));
     input.expect_unchanged();
     console.warn(warnings);
     print(info_of_cameras(cameras, file, form));

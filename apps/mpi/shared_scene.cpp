@@ -204,7 +204,7 @@ std::vector<Camera> cameras_of(const Ranks& ranks, const RenderArguments& argume
                                const Console& console) {
   std::vector<Camera> cameras;
   together(ranks, [&] {
-    cameras = arguments.camera.get(scene.outline(), console);
+    cameras = arguments.camera.get(scene.outline(), arguments.scene.limits, console);
     scene.place(arguments.motion);
     warn_of_missing_segments(scene.triangles(), channels, console);
   });

@@ -11,8 +11,10 @@
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_import.h"
 #include "fathom/camera/image_points.h"
+#include "fathom/camera/lens_numbers.h"
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
+#include "fathom/image/directions.h"
 #include "fathom/image/map_files.h"
 #include "fathom/scene/framing.h"
 
@@ -51,10 +53,43 @@ Camera framing_camera(const Scene& scene, const View& view, const LensChoice& le
   }
 }
 
+/// "k1,k2,p1,p2"
+std::string joined_names(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) text += (text.empty() ? "" : ",") + std::string(name);
+  return text;
+}
+
 std::vector<Camera> cameras_of_map(std::span<const std::byte> bytes, const std::string& file) {
   const std::optional<Camera> camera = camera_of(read_map_argument(bytes, file), file);
   if (!camera) throw InputError(file + ": the map carries no camera, expected a camera file");
   return {*camera};
+}
+
+/// The cameras of a camera file or a map, without fault.
+std::vector<Camera> read_any_cameras(const std::string& file, const DirectionReader& directions,
+                                     const Console& console) {
+  note_input(file);
+  if (is_colmap_model(file)) {
+    throw InputError(fmt::format(
+        "{0}: is a COLMAP model, expected a camera file; 'fathom camera import colmap {0} -o "
+        "cameras.json' makes one",
+        file));
+  }
+  const files::InputFile input(file);
+  Warnings warnings;
+  std::vector<Camera> cameras = is_map(input.bytes())
+                                    ? cameras_of_map(input.bytes(), file)
+                                    : read_cameras(input.text(), file, warnings, directions);
+  console.warn(warnings);
+  if (cameras.empty()) throw InputError(file + ": an empty list; expected at least one camera");
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (const auto fault = find_fault(cameras[i])) {
+      throw InputError(cameras.size() == 1 ? fmt::format("{}: {}", file, *fault)
+                                           : fmt::format("{}: camera {}: {}", file, i, *fault));
+    }
+  }
+  return cameras;
 }
 
 }  // namespace
@@ -103,6 +138,39 @@ std::vector<Option> add_lens_options(Command& command, LensChoice& lens) {
   return {size, angle, length, parallel};
 }
 
+void DistortionOptions::add_to(Command& command) {
+  command.option("--model", "NAME", model_,
+                 "Lens model, e.g. SIMPLE_RADIAL, OPENCV or OPENCV_14 (default: a pinhole). Focal "
+                 "length and framing are those of the pinhole without distortion");
+  command.option(
+      "--distortion", "K1,K2,...",
+      [this](const std::string& text) {
+        numbers_.emplace();
+        for (const std::string& number : parse_list(text))
+          numbers_->push_back(parse_number(number));
+      },
+      "Numbers of distortion in the model's order, e.g. k1,k2,p1,p2 for OPENCV; OPENCV_14 takes 4, "
+      "5, 8, 12 or 14");
+}
+
+LensChoice DistortionOptions::applied(LensChoice lens) const {
+  if (model_.empty()) {
+    if (numbers_) throw UsageError("--distortion needs --model, whose numbers they are");
+    return lens;
+  }
+  if (lens.model == ProjectionModel::orthographic) {
+    throw UsageError("--model: an orthographic camera has no lens");
+  }
+  const auto model = lens_model_named(model_);
+  if (!model) throw UsageError("--model: " + unknown_lens_model(model_));
+  const std::vector<double> numbers = numbers_.value_or(std::vector<double>{});
+  if (const auto fault = distortion_count_fault(entry_of(*model), numbers.size())) {
+    throw UsageError("--distortion: " + *fault + ": " + joined_names(entry_of(*model).distortion));
+  }
+  lens.distortion = about_option("--distortion", [&] { return lens_of_numbers(model_, numbers); });
+  return lens;
+}
+
 void add_range_options(Command& command, LensChoice& lens) {
   command.option("--near", "D", into(lens.near, parse_number),
                  "Nearest depth that is rendered (default 0)");
@@ -148,14 +216,15 @@ void CameraOptions::add_to(Command& command) {
   changes_.add_to(command);
 }
 
-std::vector<Camera> CameraOptions::get(const Scene& scene, const Console& console) const {
-  if (from_file()) return changes_.applied(read_cameras_with_lenses(file_, console));
+std::vector<Camera> CameraOptions::get(const Scene& scene, const ReadLimits& limits,
+                                       const Console& console) const {
+  if (from_file()) return changes_.applied(read_cameras_with_lenses(file_, limits, console));
   return changes_.applied({framing_camera(scene, view_, changes_.applied(lens_))});
 }
 
-Camera CameraOptions::get_one(const Scene& scene, const char* command,
+Camera CameraOptions::get_one(const Scene& scene, const ReadLimits& limits, const char* command,
                               const Console& console) const {
-  std::vector<Camera> cameras = get(scene, console);
+  std::vector<Camera> cameras = get(scene, limits, console);
   if (cameras.size() != 1) {
     throw UsageError(fmt::format("--camera: a path of {} cameras; {} takes a single one",
                                  cameras.size(), command));
@@ -164,32 +233,17 @@ Camera CameraOptions::get_one(const Scene& scene, const char* command,
 }
 
 std::vector<Camera> read_camera_file(const std::string& file, const Console& console) {
-  std::vector<Camera> cameras = read_cameras_with_lenses(file, console);
+  const auto refuse = [](const std::string&, auto, auto) -> std::shared_ptr<const DirectionTable> {
+    throw UsageError("the lens TABLE: " + std::string(computes_on_straight_edges));
+  };
+  std::vector<Camera> cameras = read_any_cameras(file, refuse, console);
   for (const Camera& camera : cameras) require_straight(camera);
   return cameras;
 }
 
-std::vector<Camera> read_cameras_with_lenses(const std::string& file, const Console& console) {
-  note_input(file);
-  if (is_colmap_model(file)) {
-    throw InputError(fmt::format(
-        "{0}: is a COLMAP model, expected a camera file; 'fathom camera import colmap {0} -o "
-        "cameras.json' makes one",
-        file));
-  }
-  const files::InputFile input(file);
-  Warnings warnings;
-  std::vector<Camera> cameras = is_map(input.bytes()) ? cameras_of_map(input.bytes(), file)
-                                                      : read_cameras(input.text(), file, warnings);
-  console.warn(warnings);
-  if (cameras.empty()) throw InputError(file + ": an empty list; expected at least one camera");
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    if (const auto fault = find_fault(cameras[i])) {
-      throw InputError(cameras.size() == 1 ? fmt::format("{}: {}", file, *fault)
-                                           : fmt::format("{}: camera {}: {}", file, i, *fault));
-    }
-  }
-  return cameras;
+std::vector<Camera> read_cameras_with_lenses(const std::string& file, const ReadLimits& limits,
+                                             const Console& console) {
+  return read_any_cameras(file, limits.directions_beside(file), console);
 }
 
 }  // namespace fathom::app

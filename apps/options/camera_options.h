@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/options/scene_options.h"
 #include "apps/shell/command.h"
 #include "apps/shell/console.h"
 #include "fathom/camera/camera.h"
@@ -22,6 +23,18 @@ Option add_up_option(Command& command, Vector3& up);
 /// `--size --fov --focal --orthographic`: the lens of a camera that is made; `--fov` is the
 /// vertical angle.
 std::vector<Option> add_lens_options(Command& command, LensChoice& lens);
+
+/// `--model --distortion`: how the lens of a camera that is made bends rays.
+class DistortionOptions {
+ public:
+  void add_to(Command& command);
+  /// The lens with this distortion. Fails with UsageError.
+  [[nodiscard]] LensChoice applied(LensChoice lens) const;
+
+ private:
+  std::string model_;
+  std::optional<std::vector<double>> numbers_;
+};
 
 /// `--near --far`: the depth range of a camera that is made.
 void add_range_options(Command& command, LensChoice& lens);
@@ -46,11 +59,13 @@ class CameraOptions {
   void add_to(Command& command);
   /// Whether the cameras come from a file.
   [[nodiscard]] bool from_file() const { return !file_.empty(); }
-  /// Warnings of the file go to the console.
+  /// `limits` bound the files that the camera file may name. Warnings of the file go to the
+  /// console.
   /// Fails with InputError where the file holds no camera, or the scene no triangle to frame.
-  [[nodiscard]] std::vector<Camera> get(const Scene& scene, const Console& console) const;
+  [[nodiscard]] std::vector<Camera> get(const Scene& scene, const ReadLimits& limits,
+                                        const Console& console) const;
   /// For a command that takes a single camera. Fails with UsageError for a path of cameras.
-  [[nodiscard]] Camera get_one(const Scene& scene, const char* command,
+  [[nodiscard]] Camera get_one(const Scene& scene, const ReadLimits& limits, const char* command,
                                const Console& console) const;
 
  private:
@@ -61,9 +76,11 @@ class CameraOptions {
 };
 
 /// The cameras of a camera file, or the camera that a map carries, each without fault; warnings go
-/// to the console. Fails with InputError, and with UsageError for a lens that bends rays.
+/// to the console. Fails with InputError, and with UsageError for a lens that bends rays; opens no
+/// table of directions.
 std::vector<Camera> read_camera_file(const std::string& file, const Console& console);
 /// The same for a command that takes lenses, or calls functions that refuse them.
-std::vector<Camera> read_cameras_with_lenses(const std::string& file, const Console& console);
+std::vector<Camera> read_cameras_with_lenses(const std::string& file, const ReadLimits& limits,
+                                             const Console& console);
 
 }  // namespace fathom::app

@@ -29,16 +29,10 @@ MapMemory allowed_memory() {
 }  // namespace
 
 std::vector<Channel> parse_channels(const std::string& list) {
-  std::vector<Channel> channels;
-  for (const std::string& name : parse_list(list)) {
-    const std::optional<Channel> channel = channel_named(name);
-    if (!channel) throw unknown_channel(name);
-    if (std::find(channels.begin(), channels.end(), *channel) != channels.end()) {
-      throw UsageError("'" + name + "' is there twice");
-    }
-    channels.push_back(*channel);
-  }
-  return channels;
+  return parse_distinct(list, [](const std::string& name) {
+    if (const std::optional<Channel> channel = channel_named(name)) return *channel;
+    throw unknown_channel(name);
+  });
 }
 
 std::string text_of(const std::vector<Channel>& channels) {

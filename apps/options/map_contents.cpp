@@ -26,6 +26,11 @@ const ContentsName* contents_named(const std::string& name) {
   return found == contents_table.end() ? nullptr : &*found;
 }
 
+bool is_mask(const std::string& name) {
+  const ContentsName* const known = contents_named(name);
+  return known != nullptr && known->is_mask;
+}
+
 Channel channel_of(const std::string& name) {
   if (const ContentsName* const known = contents_named(name)) return known->channel;
   if (const auto channel = channel_named(name)) return *channel;
@@ -41,21 +46,14 @@ Channel channel_of(const std::string& name) {
 
 Contents parse_contents(const std::string& list) {
   Contents contents;
-  const std::vector<std::string> names = parse_list(list);
-  for (const std::string& name : names) {
+  contents.channels = parse_distinct(list, [&](const std::string& name) {
     const Channel channel = channel_of(name);
-    const ContentsName* const known = contents_named(name);
-    if (known != nullptr && known->is_mask) {
-      if (names.size() > 1) {
-        throw UsageError("'" + name + "' is a file of its own: -o " + name + "=FILE.png");
-      }
-      contents.is_mask = true;
+    if (is_mask(name) && name != list) {
+      throw UsageError("'" + name + "' is a file of its own: -o " + name + "=FILE.png");
     }
-    if (std::ranges::find(contents.channels, channel) != contents.channels.end()) {
-      throw UsageError("'" + name + "' is there twice");
-    }
-    contents.channels.push_back(channel);
-  }
+    return channel;
+  });
+  contents.is_mask = is_mask(list);
   return contents;
 }
 

@@ -17,8 +17,10 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
 #include "fathom/files/sha256.h"
+#include "fathom/image/directions.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/map_texts.h"
+#include "fathom/mesh_files/named_files.h"
 #include "fathom/rendering/option_names.h"
 #include "fathom/scene/read_scene.h"
 
@@ -79,12 +81,26 @@ Cull parse_cull(const std::string& text) {
 void ReadLimits::add_to(Command& command) {
   command.flag("--outside-files", outside_files,
                "Allow glTF assets to name files outside their folder");
-  command.option(
-      "--confine", "DIR", into(confine, parse_folder),
-      "Allow scene files and glTF to open files only below this folder (default: anywhere)");
+  add_confine_to(command);
   command.option("--max-expansion", "N", into(max_expansion, parse_count),
                  "Limit a mesh in memory to 64 MiB plus N times the bytes of its files (default "
                  "64); raise it for glTF and scene files that reuse the same data many times");
+}
+
+void ReadLimits::add_confine_to(Command& command) {
+  command.option(
+      "--confine", "DIR", into(confine, parse_folder),
+      "Allow scene files, camera files and glTF to open files only below this folder (default: "
+      "anywhere)");
+}
+
+DirectionReader ReadLimits::directions_beside(const std::string& camera_file) const {
+  const std::filesystem::path folder = files::folder_of_input(camera_file);
+  const DirectionReader read = fathom::directions_beside(camera_file, confine);
+  return [=](const std::string& file, std::uint32_t width, std::uint32_t height) {
+    note_input(folder / file);
+    return read(file, width, height);
+  };
 }
 
 ReadOptions ReadLimits::read_options() const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/shell/command.h"
+#include "fathom/camera/camera_files.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/mesh_files/read_options.h"
 #include "fathom/rendering/options.h"
@@ -23,6 +24,10 @@ struct ReadLimits {
   std::uint64_t max_expansion = ReadOptions().max_expansion;
 
   void add_to(Command& command);
+  /// `--confine` alone, for a command that reads no scene.
+  void add_confine_to(Command& command);
+  /// Reads the tables that a camera file names, which are inputs of this run.
+  [[nodiscard]] DirectionReader directions_beside(const std::string& camera_file) const;
   /// With the limits, and with the program that reads foreign formats; all else by default.
   [[nodiscard]] ReadOptions read_options() const;
 };

@@ -55,7 +55,29 @@ std::vector<ChannelName> parse_channel_names(const std::string& text) {
   return names;
 }
 
+constexpr const char* no_sidecar =
+    "--png-sidecar is for depths and numbers, not for masks and normals";
+
+/// Whether `name` is one of the parts of a channel: "N.X" of "N".
+bool is_part(const std::string& name, const std::string& channel) {
+  const auto whole = channel_named(channel);
+  return whole && std::ranges::count(part_names(*whole), name) > 0;
+}
+
 }  // namespace
+
+bool StoredContents::are_normals() const {
+  if (is_mask || channels.size() != 1) return false;
+  const auto channel = channel_named(channels.front());
+  return channel && description_of(*channel).kind == ChannelKind::direction;
+}
+
+StoredContents contents_of(const std::vector<Channel>& channels, bool is_mask) {
+  StoredContents contents{{}, is_mask};
+  for (const Channel channel : channels)
+    contents.channels.emplace_back(description_of(channel).name);
+  return contents;
+}
 
 double parse_background(const std::string& text) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -125,8 +147,34 @@ void StorageOptions::check_png_options(const std::string& target, MapFormat form
   if (given != nullptr) throw UsageError(std::string(given) + " is for .png, not for " + target);
 }
 
-StorageOptions StorageOptions::fitting(const std::string& target) const {
+void StorageOptions::check_pictures(const std::string& target, MapFormat format,
+                                    const StoredContents& contents) const {
+  if (contents.is_mask && format != MapFormat::png) {
+    throw UsageError(target + ": a mask is an 8-bit PNG, 255 where a surface is; expected .png");
+  }
+  if (png_sidecar && (contents.is_mask || contents.are_normals())) {
+    throw UsageError(no_sidecar);
+  }
+  if (!contents.are_normals() && (normal_bits || normal_axes)) {
+    throw UsageError("--normal-bits and --normal-axes are for a PNG of N, Nc or Ns");
+  }
+  if (normal_axes == NormalAxes::opengl && contents.channels.front() != "Nc") {
+    throw UsageError("--normal-axes opengl is for Nc, normals in the camera's frame, not for " +
+                     contents.channels.front());
+  }
+}
+
+StorageOptions StorageOptions::fitting(const std::string& target,
+                                       const StoredContents& contents) const {
   StorageOptions fit = *this;
+  if (contents.is_mask || contents.are_normals()) fit.png_sidecar = false;
+  if (!contents.are_normals()) fit.normal_bits.reset();
+  if (!contents.are_normals() || contents.channels.front() != "Nc") fit.normal_axes.reset();
+  std::erase_if(fit.channel_names, [&](const ChannelName& name) {
+    return std::ranges::none_of(contents.channels, [&](const std::string& channel) {
+      return name.channel == channel || is_part(name.channel, channel);
+    });
+  });
   const std::optional<MapFormat> format = map_format_of(target);
   if (!format) return fit;
   if (*format != MapFormat::exr) fit.compression.reset();
@@ -143,8 +191,31 @@ StorageOptions StorageOptions::fitting(const std::string& target) const {
   return fit;
 }
 
-void StorageOptions::require_effect(const std::vector<std::string>& targets) const {
-  std::array<StorageOptions, 8> alone;
+void StorageOptions::require_effect(const std::vector<std::string>& targets,
+                                    const std::vector<StorageOptions>& fitted) const {
+  require_formats(targets);
+  const auto none = [&](const auto& has) { return std::ranges::none_of(fitted, has); };
+  if (png_sidecar && none(&StorageOptions::png_sidecar)) throw UsageError(no_sidecar);
+  if (normal_bits && none([](const StorageOptions& fit) { return fit.normal_bits.has_value(); })) {
+    throw UsageError("--normal-bits is for a PNG of N, Nc or Ns, and no output is one");
+  }
+  if (normal_axes && none([](const StorageOptions& fit) { return fit.normal_axes.has_value(); })) {
+    throw UsageError("--normal-axes is for a PNG of Nc, and no output is one");
+  }
+  for (const ChannelName& name : channel_names) {
+    const auto renames = [&](const StorageOptions& fit) {
+      return std::ranges::find(fit.channel_names, name.channel, &ChannelName::channel) !=
+             fit.channel_names.end();
+    };
+    if (!none(renames)) continue;
+    throw UsageError(fmt::format("--channel-name: no {} of the outputs has a channel '{}'",
+                                 suffixes_of_complete_maps(" or "), name.channel));
+  }
+}
+
+/// For each option, some output has a format that has it.
+void StorageOptions::require_formats(const std::vector<std::string>& targets) const {
+  std::array<StorageOptions, 9> alone;
   alone[0].compression = compression;
   alone[1].png_scale = png_scale;
   alone[2].png_beyond_is_none = png_beyond_is_none;
@@ -153,6 +224,7 @@ void StorageOptions::require_effect(const std::vector<std::string>& targets) con
   alone[5].channel_names = channel_names;
   alone[6].normal_bits = normal_bits;
   alone[7].normal_axes = normal_axes;
+  alone[8].background = background;
   for (const StorageOptions& option : alone) {
     const auto takes = [&](const std::string& target) {
       try {

@@ -7,10 +7,24 @@
 #include "apps/shell/command.h"
 #include "apps/shell/console.h"
 #include "fathom/image/channel_names.h"
+#include "fathom/image/channel_table.h"
 #include "fathom/image/map_files.h"
 #include "fathom/rendering/options.h"
 
 namespace fathom::app {
+
+/// The contents of a file, for options that suit some contents only.
+struct StoredContents {
+  /// As users name them: "Z", "N".
+  std::vector<std::string> channels;
+  /// Whether the file is the mask of a map.
+  bool is_mask = false;
+
+  /// Whether a PNG has them as its colours.
+  [[nodiscard]] bool are_normals() const;
+};
+
+StoredContents contents_of(const std::vector<Channel>& channels, bool is_mask);
 
 /// How a map is stored: `--compression --png-scale --png-beyond --png-sidecar --normal-bits
 /// --normal-axes --dtype --channel-name`, each only where the format has it, and `--background`,
@@ -32,10 +46,17 @@ struct StorageOptions {
   /// The format of the suffix of `target`; EXR for a device or a pipe. Fails with UsageError if no
   /// format has this suffix, or an option does not apply to the format.
   [[nodiscard]] MapFormat format_of(const std::string& target) const;
-  /// Those options that the format of `target` has, for one of several outputs.
-  [[nodiscard]] StorageOptions fitting(const std::string& target) const;
-  /// Fails with UsageError where an option applies to none of several outputs.
-  void require_effect(const std::vector<std::string>& targets) const;
+  /// Refuses a mask that is no PNG, and options that do not suit the contents of `target`, a file
+  /// of this format that format_of() accepts. Fails with UsageError.
+  void check_pictures(const std::string& target, MapFormat format,
+                      const StoredContents& contents) const;
+  /// The options that suit the format and the contents of `target`, for one of several outputs.
+  [[nodiscard]] StorageOptions fitting(const std::string& target,
+                                       const StoredContents& contents) const;
+  /// `fitted` are the options that suit each of several outputs, as fitting() returns them. Fails
+  /// with UsageError where an option applies to no output.
+  void require_effect(const std::vector<std::string>& targets,
+                      const std::vector<StorageOptions>& fitted) const;
   [[nodiscard]] DepthEncoding encoding_for(MapFormat format) const;
   [[nodiscard]] WriteOptions write_options(int threads) const;
   /// Applies --background and --channel-name to a map that will be written as `target`; `now` is
@@ -51,6 +72,7 @@ struct StorageOptions {
 
  private:
   void check_png_options(const std::string& target, MapFormat format) const;
+  void require_formats(const std::vector<std::string>& targets) const;
 };
 
 /// Reports the number of surfaces of a map, written as `target`, that lie beyond its codes, unless

@@ -10,6 +10,7 @@
 #include "fathom/area/sampled_coverage.h"
 #include "fathom/image/map_texts.h"
 #include "fathom/reference/verify.h"
+#include "fathom/render.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::app {
@@ -35,7 +36,7 @@ void drop_helpers(DepthMap& map, const DepthBufferPlan& plan) {
 /// Adds to the choice all pixels at which a bound nearly failed to settle a decision. Returns their
 /// number.
 std::uint64_t choose_nearly_unsettled(const RenderedFrom& from, PixelChoice& chosen) {
-  if (from.options.engine != Engine::fast) return 0;
+  if (engine_for(from.camera, from.options) != Engine::fast) return 0;
   RenderOptions options = from.options;
   options.fast.widening = 16;
   options.fast.find_doubtful = true;

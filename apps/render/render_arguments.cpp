@@ -24,10 +24,6 @@ EngineName parse_engine(const std::string& text) {
                                        {"pipeline", EngineName::pipeline}});
 }
 
-bool has_normals(Channel channel) {
-  return description_of(channel).kind == ChannelKind::direction;
-}
-
 /// "1000" or "all", the greatest number.
 std::uint64_t parse_pixels(const std::string& text) {
   constexpr auto all = std::numeric_limits<std::uint64_t>::max();
@@ -37,17 +33,12 @@ std::uint64_t parse_pixels(const std::string& text) {
 
 /// "material" or "object,material"
 std::vector<MatteKind> parse_mattes(const std::string& list) {
-  std::vector<MatteKind> kinds;
-  for (const std::string& name : parse_list(list)) {
-    const auto kind = parse_word<MatteKind>(name, {{"object", std::nullopt},
-                                                   {"material", Segmentation::material},
-                                                   {"group", Segmentation::group},
-                                                   {"part", Segmentation::part}});
-    if (std::ranges::find(kinds, kind) != kinds.end())
-      throw UsageError("'" + name + "' is there twice");
-    kinds.push_back(kind);
-  }
-  return kinds;
+  return parse_distinct(list, [](const std::string& name) {
+    return parse_word<MatteKind>(name, {{"object", std::nullopt},
+                                        {"material", Segmentation::material},
+                                        {"group", Segmentation::group},
+                                        {"part", Segmentation::part}});
+  });
 }
 
 void add_scene(Command& command, RenderArguments& arguments) {
@@ -70,11 +61,7 @@ void add_contents(Command& command, RenderArguments& arguments) {
   command.begin_group("Channels and engine");
   command.option(
       "--channels", "LIST",
-      [&arguments](const std::string& text) {
-        Contents contents = parse_contents(text);
-        arguments.channels = std::move(contents.channels);
-        arguments.is_mask = contents.is_mask;
-      },
+      [&arguments](const std::string& text) { arguments.take(parse_contents(text)); },
       "Channels of the map, from " + joined(names_of_channels(), ", ") + "; also " +
           names_of_contents() +
           " (default Z,A in EXR and NPZ; Z in other formats and with --engine pipeline)");
@@ -184,6 +171,12 @@ void RenderArguments::add_background(Command& command) {
       "0,0,0)");
 }
 
+void RenderArguments::take(Contents contents) {
+  channels = std::move(contents.channels);
+  is_mask = contents.is_mask;
+  object = contents.object;
+}
+
 void RenderArguments::refuse_pipeline_options() const {
   if (picture_background_) {
     throw UsageError(
@@ -217,35 +210,28 @@ std::vector<std::string> RenderArguments::patterns() const {
   return all;
 }
 
+StorageOptions RenderArguments::storage_of(std::size_t number) const {
+  if (outputs.size() < 2) return storage;
+  const OutputArgument& chosen = outputs[number];
+  // The default channels depend on the format and the camera.
+  StoredContents contents = contents_of(
+      channels.value_or(std::vector{Channel::Z, Channel::A, Channel::distance}), is_mask);
+  if (chosen.contents) contents = contents_of(chosen.contents->channels, chosen.contents->is_mask);
+  return storage.fitting(chosen.pattern, contents);
+}
+
 RenderArguments RenderArguments::of_output(std::size_t number) const {
   RenderArguments only = *this;
   if (outputs.empty()) return only;
   const OutputArgument& chosen = outputs[number];
   only.outputs = {{std::nullopt, chosen.pattern}};
   only.output = chosen.pattern;
-  if (chosen.contents) {
-    only.channels = chosen.contents->channels;
-    only.is_mask = chosen.contents->is_mask;
-    only.object = chosen.contents->object;
-  }
-  if (outputs.size() == 1) {
-    if (chosen.contents && channels) {
-      throw UsageError("--channels is for an -o without names; this one is NAME=FILE");
-    }
-    return only;
-  }
-  only.storage = storage.fitting(chosen.pattern);
-  const bool is_normal = only.channels && std::ranges::any_of(*only.channels, has_normals);
-  if (is_normal || only.is_mask) only.storage.png_sidecar = false;
-  if (!is_normal) only.storage.normal_bits.reset();
-  if (only.channels != std::vector{Channel::Nc}) only.storage.normal_axes.reset();
+  only.storage = storage_of(number);
   if (!chosen.contents) return only;
-  const auto is_elsewhere = [&](const ChannelName& name) {
-    return std::ranges::none_of(*only.channels, [&](Channel channel) {
-      return std::ranges::count(part_names(channel), name.channel) > 0;
-    });
-  };
-  std::erase_if(only.storage.channel_names, is_elsewhere);
+  if (outputs.size() == 1 && channels) {
+    throw UsageError("--channels is for an -o without names; this one is NAME=FILE");
+  }
+  only.take(*chosen.contents);
   return only;
 }
 

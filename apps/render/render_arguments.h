@@ -64,12 +64,17 @@ struct RenderArguments {
   std::string save_camera, statistics;
 
   void add_to(Command& command);
+  /// Takes the contents of a map in place of the previous ones.
+  void take(Contents contents);
   /// For the exact engines. Fails with UsageError where an option of the pipeline is given.
   void refuse_pipeline_options() const;
   /// The requested layers of Cryptomatte.
   [[nodiscard]] std::vector<MatteKind> mattes() const;
   /// The patterns of all outputs.
   [[nodiscard]] std::vector<std::string> patterns() const;
+  /// How this output is stored: with the options that its format and contents have, if it is one of
+  /// several.
+  [[nodiscard]] StorageOptions storage_of(std::size_t number) const;
   /// The arguments as if this output were the only one, with the options that its format has.
   /// Fails    UsageError where both the output and --channels name channels.
   [[nodiscard]] RenderArguments of_output(std::size_t number) const;

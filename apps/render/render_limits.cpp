@@ -7,6 +7,7 @@
 #include <exception>
 
 #include "apps/options/map_arguments.h"
+#include "apps/render/map_additions.h"
 #include "apps/shell/max_memory.h"
 
 namespace fathom::app {
@@ -34,12 +35,21 @@ void check_size(const Camera& camera, const MapPlan& plan) {
                map + memory_to_encode(plan.format, plan.writing.compression, camera.height, map));
 }
 
+/// Lenses bend the edges of triangles, and additions to a map are computed on straight edges.
+void check_lens(const Camera& camera, const MapPlan& plan) {
+  if (plan.verified_pixels) {
+    require_straight(camera, "--verify is for maps without a lens; leave out --verify");
+  }
+  if (has_additions(plan)) require_straight(camera);
+}
+
 }  // namespace
 
 void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,
                    const std::string& output, bool in_bands) {
   const Camera* before = nullptr;
   for (const Camera& camera : cameras) {
+    check_lens(camera, plan);
     require_size(plan.format, camera.width, camera.height, output);
     if (plan.format == MapFormat::tiff) require_place_in_world(camera, output);
     // Querying free memory is slower than reading a camera: skip it if the size is unchanged.

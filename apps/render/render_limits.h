@@ -12,7 +12,8 @@
 namespace fathom::app {
 
 /// Refuses cameras, before the first is rendered, if the file or the depth format cannot hold their
-/// maps, or if a map and the memory for writing it exceed available memory or --max-memory.
+/// maps, if they have a lens and the plan adds to or verifies the maps, or if a map and the memory
+/// for writing it exceed available memory or --max-memory.
 /// `output` is their name for messages. Fails with OutputError, InputError and UsageError.
 /// `in_bands`: only a few rows of a map are in memory at a time.
 void check_cameras(const std::vector<Camera>& cameras, const MapPlan& plan,

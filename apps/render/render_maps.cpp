@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "apps/options/scene_options.h"
 #include "apps/render/map_additions.h"
@@ -15,7 +16,6 @@
 #include "fathom/camera/camera.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/failures/errors.h"
-#include "fathom/files/file_bytes.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/image/png_files.h"
@@ -98,20 +98,36 @@ Rendered RenderInput::render(const Camera& camera, const RenderOptions& options,
              : fathom::render(scene_, camera, options, context);
 }
 
-/// What an output has of the map of its pass.
-DepthMap part_for(const OutputPlan& output, const DepthMap& map) {
-  DepthMap part = map;
-  part.channels.clear();
-  for (const Channel channel : output.plan.rendering.channels) {
+/// The channels of the first of these outputs, taken from the map of their pass. A channel that a
+/// later output has too is copied, any other is moved.
+std::vector<ImageChannel> take_channels(DepthMap& map, std::span<const OutputPlan> outputs,
+                                        const Camera& camera) {
+  std::vector<ImageChannel> channels;
+  for (const Channel channel : outputs.front().plan.rendering_for(camera).channels) {
+    const bool is_needed_later = std::ranges::any_of(outputs.subspan(1), [&](const auto& later) {
+      return std::ranges::count(later.plan.rendering_for(camera).channels, channel) > 0;
+    });
     for (const std::string& name : part_names(channel)) {
-      // Of a lens the default channels are fewer.
-      if (const ImageChannel* const found = map.find(name)) part.channels.push_back(*found);
+      ImageChannel& found = *map.find(name);
+      channels.push_back(is_needed_later ? found : std::move(found));
     }
   }
-  if (output.plan.rendering.depth_encoding.type != DepthEncoding::Type::scaled_unorm16) {
-    part.png_scale.reset();
-    part.codes_beyond.reset();
+  return channels;
+}
+
+/// The map of the first of these outputs as a rendering of its own would make it: its channels, and
+/// the scale, counts, names and texts that belong to them.
+DepthMap part_for(DepthMap& map, std::span<const OutputPlan> outputs, const Scene& scene,
+                  const Camera& camera, const RenderStatistics& statistics) {
+  const RenderOptions options = outputs.front().plan.rendering_for(camera);
+  DepthMap part;
+  part.width = map.width;
+  part.height = map.height;
+  part.channels = take_channels(map, outputs, camera);
+  if (options.depth_encoding.type == DepthEncoding::Type::scaled_unorm16) {
+    part.png_scale = map.png_scale;
   }
+  finish_map(part, scene, camera, options, statistics);
   return part;
 }
 
@@ -121,9 +137,7 @@ void write_output(const OutputPlan& output, DepthMap map, RenderOutputs& outputs
   const std::string& name = outputs.map_name(camera, output.number);
   const MapPlan& plan = output.plan;
   map = plan.storage.dressed(std::move(map), name, std::numeric_limits<double>::infinity());
-  outputs.map(camera, output.number).write([&](const auto& path) {
-    files::write_file(path, encode_planned(map, plan, name));
-  });
+  outputs.map(camera, output.number).write(encode_planned(map, plan, name));
   if (plan.storage.png_sidecar) outputs.sidecar(camera, output.number).write(png_sidecar(map));
   warn_of_codes_beyond(map, name, console);
 }
@@ -134,8 +148,8 @@ MapReport make_map(const RenderPass& pass, const RenderInput& scene, const Motio
                    const RenderContext& context, const Console& console) {
   const MapPlan& plan = pass.plan;
   const std::string& name = outputs.map_name(number, pass.outputs.front().number);
-  MapReport report{.map = name, .engine = plan.rendering.engine};
-  const RenderOptions options = plan.rendering_for(camera);
+  MapReport report{.map = name, .engine = engine_for(camera, plan.rendering)};
+  const RenderOptions options = pass.rendering_for(camera);
   Stopwatch stopwatch;
   // The message about a depth that the file cannot hold names the map.
   Rendered rendered = about_output(name, [&] { return scene.render(camera, options, context); });
@@ -157,8 +171,10 @@ MapReport make_map(const RenderPass& pass, const RenderInput& scene, const Motio
   if (pass.outputs.size() == 1) {
     write_output(pass.outputs.front(), std::move(map), outputs, number, console);
   } else {
-    for (const OutputPlan& output : pass.outputs) {
-      write_output(output, part_for(output, map), outputs, number, console);
+    for (std::span<const OutputPlan> left = pass.outputs; !left.empty(); left = left.subspan(1)) {
+      DepthMap part = part_for(map, left, scene.outline(), camera, report.statistics);
+      motion.describe(part, motion.time_or_start());
+      write_output(left.front(), std::move(part), outputs, number, console);
     }
   }
   report.seconds.write = stopwatch.lap();
@@ -213,7 +229,8 @@ int render_maps(RenderArguments arguments, const Console& console) {
   const double seconds_reading = stopwatch.lap();
   arguments.outputs = with_objects(arguments.outputs, scene.outline().objects.size());
   passes = plan_passes(arguments);
-  const std::vector<Camera> cameras = arguments.camera.get(scene.outline(), console);
+  const std::vector<Camera> cameras =
+      arguments.camera.get(scene.outline(), arguments.scene.limits, console);
   scene.place(arguments.motion);
   warn_of_missing_segments(scene.triangles(), channels_of(passes), console);
   check_passes(cameras, passes, arguments.patterns());
@@ -254,7 +271,7 @@ int render_deep_maps(const RenderArguments& arguments, const DeepMapPlan& plan,
   const RenderOptions& options = plan.rendering;
   const ThreadLimit limit(options.threads);
   Scene scene = arguments.scene.read(console, {.hash = true});
-  const std::vector<Camera> cameras = arguments.camera.get(scene, console);
+  const std::vector<Camera> cameras = arguments.camera.get(scene, arguments.scene.limits, console);
   scene = arguments.motion.placed(std::move(scene));
   check_cameras(cameras, plan, arguments.output);
   RenderOutputs outputs(arguments, cameras);

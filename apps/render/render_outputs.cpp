@@ -29,7 +29,7 @@ RenderOutputs::RenderOutputs(const RenderArguments& arguments, const std::vector
     maps.names = names_of_outputs("-o", patterns[number], cameras);
     require_different(all, maps.names);
     for (const std::string& name : maps.names) maps.files.emplace_back(name);
-    const StorageOptions storage = arguments.of_output(number).storage;
+    const StorageOptions storage = arguments.storage_of(number);
     if (!storage.png_sidecar) continue;
     for (const std::string& name : maps.names) maps.sidecars.emplace_back(storage.sidecar_of(name));
   }

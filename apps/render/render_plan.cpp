@@ -48,12 +48,6 @@ void check_stream(const RenderArguments& a, const std::vector<Channel>& channels
   if (!a.mattes().empty()) throw UsageError("--cryptomatte is not for --stream");
 }
 
-/// Whether a PNG of these channels has normals as its colours.
-bool is_normals(MapFormat format, const std::vector<Channel>& channels) {
-  return format == MapFormat::png && channels.size() == 1 &&
-         description_of(channels.front()).kind == ChannelKind::direction;
-}
-
 /// Refuses options that need more channels than the file format holds.
 void check_single_channel(const RenderArguments& a, MapFormat format,
                           const std::vector<Channel>& channels) {
@@ -72,7 +66,7 @@ void check_single_channel(const RenderArguments& a, MapFormat format,
   }
   // The parts of one are an array of pixels with several.
   if (holds_parts(format) && channels.size() == 1) return;
-  if (is_normals(format, channels)) return;
+  if (format == MapFormat::png && contents_of(channels, a.is_mask).are_normals()) return;
   if (count_parts(channels) != 1) {
     throw UsageError(fmt::format("{} holds one channel, not '{}'; {} hold them all", a.output,
                                  text_of(channels), suffixes_of_complete_maps()));
@@ -82,25 +76,6 @@ void check_single_channel(const RenderArguments& a, MapFormat format,
     throw UsageError(
         fmt::format("{}: a PNG holds depths, normals or numbers, not {}; there is .exr", a.output,
                     text_of(channels)));
-  }
-}
-
-/// Refuses what pictures of normals and masks do not have.
-void check_pictures(const RenderArguments& a, MapFormat format,
-                    const std::vector<Channel>& channels) {
-  if (a.is_mask && format != MapFormat::png) {
-    throw UsageError(a.output + ": a mask is an 8-bit PNG, 255 where a surface is; expected .png");
-  }
-  const bool normals = is_normals(format, channels);
-  if (a.storage.png_sidecar && (a.is_mask || normals)) {
-    throw UsageError("--png-sidecar is for depths and numbers, not for masks and normals");
-  }
-  if (!normals && (a.storage.normal_bits || a.storage.normal_axes)) {
-    throw UsageError("--normal-bits and --normal-axes are for a PNG of N, Nc or Ns");
-  }
-  if (a.storage.normal_axes == NormalAxes::opengl && channels != std::vector{Channel::Nc}) {
-    throw UsageError("--normal-axes opengl is for Nc, normals in the camera's frame, not for " +
-                     text_of(channels));
   }
 }
 
@@ -151,7 +126,7 @@ MapPlan plan_of_output(const RenderArguments& a) {
   std::vector<Channel> channels = channels_of(a, plan.format);
   check_stream(a, channels);
   check_single_channel(a, plan.format, channels);
-  check_pictures(a, plan.format, channels);
+  a.storage.check_pictures(a.output, plan.format, contents_of(channels, a.is_mask));
   plan.depth_buffer = depth_buffer_of(a.depth_buffer, channels);
   if (plan.depth_buffer && plan.depth_buffer->drops_id) channels.push_back(Channel::id);
 
@@ -180,19 +155,11 @@ void check_several(const RenderArguments& a, const std::vector<std::string>& pat
   if (a.channels && std::ranges::none_of(a.outputs, is_unnamed)) {
     throw UsageError("--channels is for an -o without names; each of these is NAME=FILE");
   }
-  a.storage.require_effect(patterns);
-  bool codes_normals = false, turns_normals = false;
+  std::vector<StorageOptions> fitted;
   for (std::size_t number = 0; number < patterns.size(); ++number) {
-    const StorageOptions storage = a.of_output(number).storage;
-    codes_normals = codes_normals || storage.normal_bits;
-    turns_normals = turns_normals || storage.normal_axes;
+    fitted.push_back(a.storage_of(number));
   }
-  if (a.storage.normal_bits && !codes_normals) {
-    throw UsageError("--normal-bits is for a PNG of N, Nc or Ns, and no output is one");
-  }
-  if (a.storage.normal_axes && !turns_normals) {
-    throw UsageError("--normal-axes is for a PNG of Nc, and no output is one");
-  }
+  a.storage.require_effect(patterns, fitted);
 }
 
 bool has_depths(const MapPlan& plan) {
@@ -208,6 +175,13 @@ bool fit_together(const MapPlan& a, const MapPlan& b) {
          (x.type == y.type && x.scale == y.scale && x.beyond_is_none == y.beyond_is_none);
 }
 
+/// Adds those of `more` that are not there yet.
+void add_missing(std::vector<Channel>& channels, const std::vector<Channel>& more) {
+  for (const Channel channel : more) {
+    if (!contains(channels, channel)) channels.push_back(channel);
+  }
+}
+
 /// Adds an output to the first pass that it fits, or to a new one.
 void add_to_passes(std::vector<RenderPass>& passes, OutputPlan output) {
   const auto pass = std::ranges::find_if(
@@ -216,12 +190,9 @@ void add_to_passes(std::vector<RenderPass>& passes, OutputPlan output) {
     passes.push_back({output.plan, {std::move(output)}});
     return;
   }
-  if (!output.plan.channels_by_default) pass->plan.channels_by_default = false;
   RenderOptions& whole = pass->plan.rendering;
   if (!has_depths(pass->plan)) whole.depth_encoding = output.plan.rendering.depth_encoding;
-  for (const Channel channel : output.plan.rendering.channels) {
-    if (!contains(whole.channels, channel)) whole.channels.push_back(channel);
-  }
+  add_missing(whole.channels, output.plan.rendering.channels);
   pass->outputs.push_back(std::move(output));
 }
 
@@ -237,6 +208,15 @@ RenderOptions MapPlan::rendering_for(const Camera& camera) const {
   std::erase(options.channels, Channel::A);
   if (keeps_all_channels(format) && counts_distance(camera.projection))
     options.channels.push_back(Channel::distance);
+  return options;
+}
+
+RenderOptions RenderPass::rendering_for(const Camera& camera) const {
+  RenderOptions options = plan.rendering;
+  options.channels.clear();
+  for (const OutputPlan& output : outputs) {
+    add_missing(options.channels, output.plan.rendering_for(camera).channels);
+  }
   return options;
 }
 

@@ -62,6 +62,9 @@ struct OutputPlan {
 struct RenderPass {
   MapPlan plan;
   std::vector<OutputPlan> outputs;
+
+  /// The plan's `rendering`, with the channels that each output has of this camera.
+  [[nodiscard]] RenderOptions rendering_for(const Camera& camera) const;
 };
 
 /// The file of a map, or of its mask; `name` is its name for messages.

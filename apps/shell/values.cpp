@@ -126,6 +126,10 @@ std::vector<std::string> parse_list(const std::string& text) {
   return parts;
 }
 
+void refuse_repeated(const std::string& name) {
+  throw UsageError("'" + name + "' is there twice");
+}
+
 void refuse_word(const std::string& text, const std::vector<std::string>& words,
                  const std::string& other) {
   std::string message = fmt::format("'{}' is not one of {}", text, joined(words));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -7,6 +8,7 @@
 #include <ranges>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -57,6 +59,22 @@ std::vector<std::string> parse_list(const std::string& text);
 /// The names of a list, each checked.
 std::vector<std::string> parse_names(const std::string& list,
                                      const std::function<void(const std::string&)>& check);
+
+/// Fails    UsageError: "'name' is there twice".
+[[noreturn]] void refuse_repeated(const std::string& name);
+
+/// The values of the names of a list, each parsed by `parse`.
+/// Fails    UsageError where two names have the same value; as `parse`.
+template <class Parse>
+auto parse_distinct(const std::string& list, const Parse& parse) {
+  std::vector<std::invoke_result_t<Parse, const std::string&>> values;
+  for (const std::string& name : parse_list(list)) {
+    auto value = parse(name);
+    if (std::ranges::find(values, value) != values.end()) refuse_repeated(name);
+    values.push_back(std::move(value));
+  }
+  return values;
+}
 
 /// Fails    UnknownName: "'text' is not one of …", with a suggestion. `other` is what else it could
 ///          have been: "a number".

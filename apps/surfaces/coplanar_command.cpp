@@ -83,7 +83,8 @@ int run_coplanar(const CoplanarArguments& arguments, const Console& console) {
   options.cull = arguments.cull;
   options.threads = arguments.scene.threads;
   const Scene scene = arguments.scene.read(console);
-  const Camera camera = arguments.camera.get_one(scene, "coplanar", console);
+  const Camera camera =
+      arguments.camera.get_one(scene, arguments.scene.limits, "coplanar", console);
   std::vector<CoplanarPair> pairs;
   {
     Progress progress(console, "comparing");

@@ -38,7 +38,7 @@ std::vector<CoveringTriangle> covering(const Scene& scene, const Camera& camera,
 int run_probe(const ProbeArguments& arguments, const Console& console) {
   const auto [x, y] = arguments.pixel;
   const Scene scene = arguments.scene.read(console, {.segments = true});
-  const Camera camera = arguments.camera.get_one(scene, "probe", console);
+  const Camera camera = arguments.camera.get_one(scene, arguments.scene.limits, "probe", console);
   if (x >= camera.width || y >= camera.height) {
     throw UsageError(fmt::format("--pixel: {},{} is outside the image of {}x{} pixels", x, y,
                                  camera.width, camera.height));

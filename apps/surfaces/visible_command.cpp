@@ -126,7 +126,7 @@ int run_visible(const VisibleArguments& arguments, const Console& console) {
   options.cull = arguments.cull;
   options.threads = arguments.scene.threads;
   const Scene scene = arguments.scene.read(console);
-  const Camera camera = arguments.camera.get_one(scene, "visible", console);
+  const Camera camera = arguments.camera.get_one(scene, arguments.scene.limits, "visible", console);
   TextOutput output(arguments.output);
   VisibleAreas areas;
   {

@@ -1,7 +1,8 @@
 #include "apps/view/deep_data.h"
 
-#include <array>
+#include <algorithm>
 #include <bit>
+#include <functional>
 #include <numeric>
 
 namespace fathom::view {
@@ -15,35 +16,30 @@ std::array<std::uint32_t, 5> words_of(const DeepSample& sample) {
           sample.id};
 }
 
-std::size_t sum_of(const DeepMap& deep, std::size_t first, std::size_t end) {
-  const auto at = [&](std::size_t k) {
-    return deep.counts.begin() + static_cast<std::ptrdiff_t>(k);
-  };
-  return std::accumulate(at(first), at(end), std::size_t{0});
-}
-
 }  // namespace
 
-void write_samples(const DeepMap& deep, const TilePlace& tile, const std::string& prefix,
-                   const std::string& end, const Sink& sink) {
-  const std::uint32_t width = deep.description.width;
+std::vector<std::size_t> begins_of(const DeepMap& deep) {
+  std::vector<std::size_t> begins(deep.counts.size() + 1);
+  std::inclusive_scan(deep.counts.begin(), deep.counts.end(), begins.begin() + 1, std::plus<>(),
+                      std::size_t{0});
+  return begins;
+}
+
+std::array<std::string, 5> packed_samples(const DeepMap& deep, std::span<const std::size_t> begins,
+                                          const TilePlace& tile) {
   std::array<Words, 5> planes;
-  const std::size_t first = std::size_t{tile.y} * width + tile.x;
-  std::size_t next = sum_of(deep, 0, first);
-  for (std::uint32_t row = 0; row < tile.rows; ++row) {
-    const std::size_t from = first + std::size_t{row} * width, to = from + tile.columns;
-    const std::size_t after = next + sum_of(deep, from, to);
-    for (; next < after; ++next) {
-      const auto words = words_of(deep.samples[next]);
+  for (std::size_t row = tile.y; row < std::size_t{tile.y} + tile.rows; ++row) {
+    const std::size_t first = row * deep.description.width + tile.x;
+    for (std::size_t k = begins[first]; k < begins[first + tile.columns]; ++k) {
+      const auto words = words_of(deep.samples[k]);
       for (std::size_t plane = 0; plane < planes.size(); ++plane) {
         planes[plane].push_back(words[plane]);
       }
     }
-    if (row + 1 < tile.rows) next += sum_of(deep, to, from + width);
   }
-  for (std::size_t plane = 0; plane < planes.size(); ++plane) {
-    sink(script_text(prefix + std::to_string(plane) + end, packed(planes[plane])));
-  }
+  std::array<std::string, 5> texts;
+  std::ranges::transform(planes, texts.begin(), [](const Words& words) { return packed(words); });
+  return texts;
 }
 
 }  // namespace fathom::view

@@ -1,6 +1,7 @@
 #include "apps/view/map_data.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <type_traits>
@@ -69,6 +70,21 @@ void write_plane(std::span<const Word> plane, const ImageSize& size, const std::
     });
     for (std::size_t k = 0; k < tiles.size(); ++k) {
       sink(script_text(id + "-" + std::to_string(level) + "-" + std::to_string(k), tiles[k]));
+    }
+  }
+}
+
+void write_samples(const DeepMap& deep, const ImageSize& size, const std::string& id,
+                   const Sink& sink, Progress& progress) {
+  const std::vector<std::size_t> begins = begins_of(deep);
+  std::vector<std::array<std::string, 5>> tiles(tiles_at(size, 0));
+  parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t k) {
+    tiles[k] = packed_samples(deep, begins, tile_of(size, 0, k));
+    progress.part_done();
+  });
+  for (std::size_t k = 0; k < tiles.size(); ++k) {
+    for (std::size_t plane = 0; plane < tiles[k].size(); ++plane) {
+      sink(script_text(id + std::to_string(plane) + "-0-" + std::to_string(k), tiles[k][plane]));
     }
   }
 }
@@ -170,11 +186,11 @@ Json describe_camera(const Camera& camera) {
 
 }  // namespace
 
-std::uint64_t tiles_of_channels(const DepthMap& map) {
-  const ImageSize size{map.width, map.height};
+std::uint64_t count_tiles(const ViewedMap& viewed) {
+  const ImageSize size{viewed.map.width, viewed.map.height};
   std::uint64_t tiles = 0;
   for (unsigned level = 0; level < size.levels(); ++level) tiles += tiles_at(size, level);
-  return tiles * map.channels.size();
+  return tiles * viewed.map.channels.size() + (viewed.deep ? tiles_at(size, 0) : 0);
 }
 
 Json write_planes(const ViewedMap& viewed, const std::string& prefix, const Sink& sink,
@@ -186,7 +202,10 @@ Json write_planes(const ViewedMap& viewed, const std::string& prefix, const Sink
             {"height", map.height},
             {"levels", size.levels()},
             {"channels", Json::array()}};
-  if (viewed.camera) told["camera"] = describe_camera(*viewed.camera);
+  // The page computes world points itself, on straight rays.
+  if (viewed.camera && !bends_rays(viewed.camera->projection)) {
+    told["camera"] = describe_camera(*viewed.camera);
+  }
   if (map.png_scale) told["scale"] = *map.png_scale;
   Masks masks;
   for (std::size_t k = 0; k < map.channels.size(); ++k) {
@@ -203,10 +222,7 @@ Json write_planes(const ViewedMap& viewed, const std::string& prefix, const Sink
   }
   if (viewed.deep) {
     told["deep"] = true;
-    for (std::size_t k = 0; k < tiles_at(size, 0); ++k) {
-      write_samples(*viewed.deep, tile_of(size, 0, k), prefix + "-d", "-0-" + std::to_string(k),
-                    sink);
-    }
+    write_samples(*viewed.deep, size, prefix + "-d", sink, progress);
   }
   return told;
 }

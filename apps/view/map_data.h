@@ -12,7 +12,8 @@ namespace fathom::view {
 inline constexpr std::uint32_t tile_size = 512;
 
 /// Writes the planes of a map as script elements and returns what the page has to know of it: size,
-/// levels, camera, and of each channel its name, type, kind, names and which plane shows where it
+/// levels, camera of straight rays, and of each channel its name, type, kind, names and which plane
+/// shows where it
 /// has values. Level n has every 2ⁿ-th pixel. A tile is the element `PREFIX-PLANE-LEVEL-NUMBER`;
 /// planes are `c0`, `c1`, … of channels and `k0`, … of masks. The samples of a deep map are the
 /// planes `d0` to `d4`, in the order of pixels within each tile of level 0: Z, ZBack, area, A and
@@ -20,7 +21,8 @@ inline constexpr std::uint32_t tile_size = 512;
 nlohmann::json write_planes(const ViewedMap& viewed, const std::string& prefix, const Sink& sink,
                             Progress& progress);
 
-/// How many tiles the channels of a map have, of all levels: so many parts write_planes() reports.
-std::uint64_t tiles_of_channels(const DepthMap& map);
+/// How many tiles the channels of a map have, of all levels, and the samples of a deep map: so many
+/// parts write_planes() reports.
+std::uint64_t count_tiles(const ViewedMap& viewed);
 
 }  // namespace fathom::view

@@ -76,7 +76,7 @@ void write_page(const std::vector<ViewedMap>& maps, Questions questions, const S
             {"scales", names_of(all_colour_scales)},
             {"probes", questions == Questions::probes}};
   std::uint64_t tiles = 0;
-  for (const ViewedMap& viewed : maps) tiles += tiles_of_channels(viewed.map);
+  for (const ViewedMap& viewed : maps) tiles += count_tiles(viewed);
   Progress tiles_done(progress, tiles);
   for (std::size_t k = 0; k < maps.size(); ++k) {
     data["maps"].push_back(write_planes(maps[k], "m" + std::to_string(k), sink, tiles_done));
@@ -86,8 +86,8 @@ void write_page(const std::vector<ViewedMap>& maps, Questions questions, const S
   sink("<script type=\"module\">\n");
   for (const std::string_view module :
        {web::numbers, web::planes, web::channels, web::colours, web::statistics, web::difference,
-        web::state, web::painting, web::picture, web::reading, web::deep, web::histogram,
-        web::profile, web::comparison, web::controls, web::start}) {
+        web::state, web::painting, web::picture, web::reading, web::deep, web::probe,
+        web::histogram, web::profile, web::comparison, web::controls, web::start}) {
     write_module(module, sink);
   }
   sink("</script>\n</body></html>\n");

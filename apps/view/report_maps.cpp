@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fathom/failures/errors.h"
+#include "fathom/text/base64.h"
 #include "fathom/text/parse_json.h"
 
 namespace fathom::view {
@@ -34,26 +35,6 @@ OrderedJson data_of(std::string_view page, const char* id) {
   return text::parse_json<OrderedJson>(rest.substr(0, rest.find(end_of_data)));
 }
 
-Bytes from_base64(const std::string& text) {
-  constexpr std::string_view letters =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  Bytes bytes;
-  bytes.reserve(text.size() / 4 * 3);
-  std::uint32_t word = 0;
-  int bits = 0;
-  for (const char letter : text) {
-    if (letter == '=') break;
-    const std::size_t value = letters.find(letter);
-    if (value == std::string_view::npos) throw InputError("its values are no base64");
-    word = word << 6 | static_cast<std::uint32_t>(value);
-    bits += 6;
-    if (bits < 8) continue;
-    bits -= 8;
-    bytes.push_back(static_cast<std::uint8_t>(word >> bits));
-  }
-  return bytes;
-}
-
 struct FreeDecompressor {
   void operator()(libdeflate_decompressor* decompressor) const {
     libdeflate_free_decompressor(decompressor);
@@ -61,14 +42,15 @@ struct FreeDecompressor {
 };
 
 /// What is neither more nor less than `size` bytes.
-Bytes inflated(const OrderedJson& text, std::size_t size) {
-  const Bytes packed = from_base64(text.get_ref<const std::string&>());
+Bytes inflated(const OrderedJson& base64, std::size_t size) {
+  const auto packed = text::decode_base64(base64.get_ref<const std::string&>());
+  if (!packed) throw InputError("its values are no base64");
   const std::unique_ptr<libdeflate_decompressor, FreeDecompressor> decompressor(
       libdeflate_alloc_decompressor());
   if (!decompressor) throw std::bad_alloc();
   Bytes bytes(size);
   std::size_t found = 0;
-  if (libdeflate_zlib_decompress(decompressor.get(), packed.data(), packed.size(), bytes.data(),
+  if (libdeflate_zlib_decompress(decompressor.get(), packed->data(), packed->size(), bytes.data(),
                                  bytes.size(), &found) != LIBDEFLATE_SUCCESS ||
       found != size) {
     throw InputError("a map in it is damaged");
@@ -77,8 +59,8 @@ Bytes inflated(const OrderedJson& text, std::size_t size) {
 }
 
 /// As the report has them: first the lowest byte of all words.
-Words words_of(const OrderedJson& text, std::size_t count) {
-  const Bytes bytes = inflated(text, 4 * count);
+Words words_of(const OrderedJson& base64, std::size_t count) {
+  const Bytes bytes = inflated(base64, 4 * count);
   Words words(count);
   for (std::size_t k = 0; k < count; ++k) {
     for (std::size_t byte = 0; byte < 4; ++byte) {

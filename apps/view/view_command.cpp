@@ -67,8 +67,6 @@ std::vector<ViewedMap> read_viewed(const std::string& file) {
       viewed.map = read_map_argument(input.bytes(), file);
     }
     viewed.camera = camera_of(viewed.map, file);
-    // The page computes world points itself, on straight rays.
-    if (viewed.camera && bends_rays(viewed.camera->projection)) viewed.camera.reset();
   }
   input.expect_unchanged();
   for (const ViewedMap& viewed : maps) require_valid(viewed.map);
@@ -149,6 +147,7 @@ int run_view(const ViewArguments& arguments, const Console& console) {
       throw UsageError("--serve: " + viewed.name +
                        " carries no camera, so that no pixel of it can be probed");
     }
+    require_straight(*viewed.camera);
   }
   return serve(arguments, std::move(maps), console);
 }

@@ -10,6 +10,6 @@ extern const std::string_view head, style, body;
 
 /// The modules, in an order in which each follows those that it imports.
 extern const std::string_view numbers, planes, channels, colours, statistics, difference, state,
-    painting, picture, reading, deep, histogram, profile, comparison, controls, start;
+    painting, picture, reading, deep, probe, histogram, profile, comparison, controls, start;
 
 }  // namespace fathom::view::web

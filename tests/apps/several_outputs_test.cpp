@@ -14,6 +14,7 @@ namespace fathom::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class SeveralOutputs : public ::testing::Test {
  protected:
@@ -95,6 +96,111 @@ TEST_F(SeveralOutputs, WithOneTypeOfDepthRenderEachViewOnce) {
                "mask=m{index}.png", "-o", "normal=n{index}.png", "-o", "id=i{index}.exr", "--stats",
                "stats.json"});
   EXPECT_EQ(nlohmann::json::parse(folder_.read("stats.json")).size(), 2u);
+}
+
+TEST_F(SeveralOutputs, OfALensHaveTheDefaultChannelsOfRunsOfTheirOwn) {
+  folder_.write("lens.json", camera_with("model", R"("FISHEYE_STEREOGRAPHIC")"));
+  const std::vector<std::string> view{"render", "square.obj", "--camera", "lens.json"};
+  const auto expect_rendered = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = view;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_done(arguments);
+  };
+  expect_rendered({"-o", "alone.exr", "--stats", "alone.json"});
+  expect_rendered({"--channels", "mask", "-o", "alone.png"});
+  // The first has fewer channels than the second, and the third requests its own.
+  expect_rendered({"-o", "first.pfm", "-o", "second.exr", "-o", "mask=third.png"});
+  EXPECT_TRUE(folder_.read("second.exr") == folder_.read("alone.exr"));
+  EXPECT_TRUE(folder_.read("third.png") == folder_.read("alone.png"));
+  EXPECT_THAT(fathom({"info", "second.exr"}).out, HasSubstr("distance"));
+  // The fast engine has no lenses.
+  EXPECT_EQ(nlohmann::json::parse(folder_.read("alone.json"))["engine"], "reference");
+}
+
+TEST_F(SeveralOutputs, OfALensAreRefusedBeforeTheRenderingWhereEdgesMustBeStraight) {
+  folder_.write("lens.json", camera_with("model", R"("FISHEYE_STEREOGRAPHIC")"));
+  const auto refused = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"render", "square.obj", "--camera", "lens.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = fathom(arguments);
+    EXPECT_EQ(outcome.status, 2);
+    return outcome.err;
+  };
+  EXPECT_THAT(refused({"-o", "a.exr", "--verify", "10"}), HasSubstr("leave out --verify"));
+  EXPECT_THAT(refused({"-o", "a.exr", "--samples", "4"}), HasSubstr("edges are straight"));
+  EXPECT_THAT(refused({"-o", "a.exr", "--cryptomatte"}), HasSubstr("edges are straight"));
+  // Nothing was rendered: the depths 2 have no code, which --verify would have hidden.
+  EXPECT_THAT(refused({"-o", "a.png", "--png-scale", "60000", "--verify", "10"}),
+              HasSubstr("leave out --verify"));
+}
+
+TEST_F(SeveralOutputs, HaveNoCountsNamesAndTextsOfTheOthers) {
+  folder_.write("named.obj", "usemtl red\n" + square_obj);
+  const std::vector<std::string> coded{"--png-scale", "31900", "--png-beyond", "none"};
+  const auto rendered = [&](const std::vector<std::string>& outputs,
+                            const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"render", "named.obj", "--camera", "camera.json"};
+    arguments.insert(arguments.end(), outputs.begin(), outputs.end());
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = fathom(arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.err;
+  };
+  // At this scale all depths have codes, and the distances of the outer pixels have none.
+  const std::string said = rendered(
+      {"-o", "depth=z.png", "-o", "distance=d.png", "-o", "mask=m.png", "-o", "object=o.png"},
+      coded);
+  EXPECT_THAT(said, HasSubstr("d.png: 12 of 48 pixels lie deeper"));
+  for (const char* file : {"z.png", "m.png", "o.png"}) EXPECT_THAT(said, Not(HasSubstr(file)));
+  EXPECT_EQ(rendered({"-o", "depth=alone.png"}, coded), "");
+  EXPECT_TRUE(folder_.read("z.png") == folder_.read("alone.png"));
+  // Names of materials and the source of Ns belong to the outputs with these channels.
+  rendered({"-o", "id=i.exr", "-o", "material,Ns=ns.exr"}, {"--normals", "vertex"});
+  rendered({"-o", "id=alone.exr"}, {});
+  EXPECT_TRUE(folder_.read("i.exr") == folder_.read("alone.exr"));
+  rendered({"-o", "material,Ns=alone.exr"}, {"--normals", "vertex"});
+  EXPECT_TRUE(folder_.read("ns.exr") == folder_.read("alone.exr"));
+}
+
+TEST_F(SeveralOutputs, ApplyOptionsOrRefuseThem) {
+  expect_refused({"-o", "depth=z.png", "-o", "mask=m.png", "--background", "nan"},
+                 "--background: it is always 0 in a .png, which z.png is");
+  expect_refused({"-o", "depth=z.exr", "-o", "N=n.exr", "--channel-name", "id=Y"},
+                 "--channel-name: no .exr or .npz of the outputs has a channel 'id'");
+  expect_refused({"-o", "depth=z.pfm", "-o", "N=n.exr", "--channel-name", "Z=Y"},
+                 "no .exr or .npz of the outputs has a channel 'Z'");
+  expect_refused({"-o", "mask=m.png", "-o", "normal=n.png", "--png-sidecar"},
+                 "--png-sidecar is for depths and numbers");
+  // A name applies to the outputs that have the channel, also next to one with the default
+  // channels.
+  const std::vector<std::string> view{"--camera", "camera.json", "--channel-name", "N.X=Y"};
+  expect_done(
+      {"render", "square.obj", "-o", "z.exr", "-o", "N=n.exr", view[0], view[1], view[2], view[3]});
+  expect_done({"render", "square.obj", "-o", "N=alone.exr", view[0], view[1], view[2], view[3]});
+  EXPECT_TRUE(folder_.read("n.exr") == folder_.read("alone.exr"));
+}
+
+TEST_F(SeveralOutputs, ConvertRefusesTheOptionsThatRenderRefuses) {
+  expect_done(
+      {"render", "square.obj", "--camera", "camera.json", "--channels", "Z,id,N", "-o", "map.exr"});
+  const auto refused = [&](const std::string& channel, const std::vector<std::string>& more,
+                           const std::string& said) {
+    std::vector<std::string> arguments{"convert", "map.exr", "--channel", channel, "-o", "c.png"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = fathom(arguments);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(said));
+  };
+  refused("mask", {"--png-sidecar"}, "--png-sidecar is for depths and numbers");
+  refused("mask", {"--normal-bits", "8"}, "are for a PNG of N, Nc or Ns");
+  refused("mask", {"--from", "Z"}, "--to and --from do not go with a mask");
+  refused("Z", {"--normal-bits", "8"}, "are for a PNG of N, Nc or Ns");
+  refused("N", {"--png-sidecar"}, "--png-sidecar is for depths and numbers");
+  refused("N", {"--normal-axes", "opengl"}, "--normal-axes opengl is for Nc");
+  expect_done({"convert", "map.exr", "--channel", "mask", "-o", "m.png"});
+  const Outcome again = fathom({"convert", "m.png", "-o", "c.png", "--png-sidecar"});
+  EXPECT_THAT(again.err, HasSubstr("--png-sidecar is for depths and numbers"));
+  EXPECT_THAT(folder_.names(), Not(::testing::Contains("c.png")));
 }
 
 TEST_F(SeveralOutputs, MasksAreEightBitsAndNormalsColours) {

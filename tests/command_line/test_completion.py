@@ -85,9 +85,9 @@ LAST_WORDS = [
     ("fathom camera look-at --up ", ["x", "y", "z", "-x", "-y", "-z"]),
     ("fathom convert --to di", ["distance", "disparity"]),
     ("fathom completion ", ["bash", "zsh", "fish"]),
-    ("fathom help camera ", ["look-at", "orbit", "import"]),
-    ("fathom --quiet camera import ", ["colmap", "nerf", "bop", "sfmdata", "gltf", "opengl", "matrices", "tum", "7scenes",
-                                       "scannet", "scannetpp", "replica", "kitti"]),
+    ("fathom help camera ", ["look-at", "orbit", "directions", "import"]),
+    ("fathom --quiet camera import ", ["colmap", "nerf", "bop", "sfmdata", "gltf", "opengl", "opencv", "ros", "matrices", "tum",
+                                       "7scenes", "scannet", "scannetpp", "replica", "kitti"]),
     ("fathom render --texture chec", ["checker"]),
 ]
 

@@ -56,7 +56,7 @@ def test_lines_fit_a_terminal(name):
 
 # First words of the commands' descriptions. A new one is added here if it is a verb in the imperative.
 VERBS = {"Check", "Clip", "Compare", "Compute", "Convert", "Count", "Draw", "Encode", "Explain", "Find", "Follow", "Import",
-         "Make", "Measure", "Print", "Rasterize", "Render", "Run", "Show", "Trace"}
+         "Make", "Measure", "Print", "Rasterize", "Render", "Run", "Show", "Trace", "Write"}
 
 
 @pytest.mark.parametrize("name", names)

@@ -74,7 +74,7 @@ int run_trace(const TraceArguments& arguments, const Console& console) {
   stages.depth_format = arguments.depth_format;
   pipeline::require_meaningful(stages);
   const Scene scene = arguments.scene.read(console, {.attributes = true, .primitives = true});
-  const Camera camera = arguments.camera.get_one(scene, "trace", console);
+  const Camera camera = arguments.camera.get_one(scene, arguments.scene.limits, "trace", console);
   const auto& pixel = arguments.pixel;
   if (pixel && (pixel->x >= camera.width || pixel->y >= camera.height)) {
     throw UsageError(fmt::format("--pixel: {},{} is outside the image of {}x{} pixels", pixel->x,

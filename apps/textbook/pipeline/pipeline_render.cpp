@@ -173,6 +173,12 @@ PipelineRendering rendering_of(Drawn& drawn, const Camera& camera, const Pipelin
                                     plan.with_picture);
 }
 
+PipelineRendering timed_rendering_of(Drawn& drawn, const Camera& camera, const PipelinePlan& plan,
+                                     const Console& console) {
+  const ElapsedTime elapsed(console, "rendering");
+  return rendering_of(drawn, camera, plan);
+}
+
 int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const Console& console) {
   if (plan.stages.texture != "checker") note_input(plan.stages.texture);
   Scene scene =
@@ -180,7 +186,7 @@ int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const 
                                      .attributes = plan.with_picture,
                                      .primitives = true,
                                      .segments = !segmentations_of(plan.channels).empty()});
-  const std::vector<Camera> cameras = arguments.camera.get(scene, console);
+  const std::vector<Camera> cameras = arguments.camera.get(scene, arguments.scene.limits, console);
   Drawn drawn = drawn_from(std::move(scene), plan, arguments);
   const double time = plan.shutter ? plan.shutter->close : arguments.motion.time_or_start();
   RenderOutputs outputs(arguments, cameras);
@@ -188,9 +194,8 @@ int carry_out(const PipelinePlan& plan, const RenderArguments& arguments, const 
 
   std::vector<PipelineReport> reports;
   std::vector<Camera> used;
-  const ElapsedTime elapsed(console, "rendering");
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    PipelineRendering rendering = rendering_of(drawn, cameras[i], plan);
+    PipelineRendering rendering = timed_rendering_of(drawn, cameras[i], plan, console);
     arguments.motion.describe(rendering.map, time);
     if (plan.with_depth_buffer) add_depth_buffer(rendering);
     used.push_back(rendering.camera);

@@ -8,6 +8,7 @@
 #include "apps/validate/report/report_formats.h"
 #include "apps/validate/report/reported_result.h"
 #include "fathom/image/pictures/legend.h"
+#include "fathom/image/preview.h"
 
 namespace fathom::validation {
 namespace {
@@ -25,14 +26,6 @@ constexpr std::array<Rgb, pixel_class_count> class_colours{{{226, 232, 240},
                                                             {235, 110, 60},
                                                             {200, 20, 30}}};
 constexpr Rgb white{255, 255, 255}, missing{20, 20, 20}, added{120, 60, 160};
-
-/// From -1, blue, by white to 1, orange; as in page/colours.js.
-Rgb diverging(double t) {
-  const auto mixed = [t](double blue, double orange) {
-    return static_cast<std::uint8_t>(std::lround(255 + (t < 0 ? blue : -orange) * t));
-  };
-  return {mixed(220, 40), mixed(150, 180), mixed(40, 215)};
-}
 
 image::Sheet sheet_of(const ValidationCase& c, const std::string& title) {
   image::Sheet sheet;
@@ -95,7 +88,8 @@ RgbImage difference_picture(const ValidationCase& c) {
     const bool seen = std::isfinite(c.other.depths[i]),
                is_there = std::isfinite(c.truth->depths[i]);
     if (seen && is_there) {
-      pixel = diverging(std::clamp(relative_difference(c, i) / end, -1.0, 1.0));
+      const double t = std::clamp(relative_difference(c, i) / end, -1.0, 1.0);
+      pixel = colour_at(ColourMap::diverging, 0.5 + t / 2);
     } else if (is_there) {
       pixel = missing;
       ++lost;
@@ -105,7 +99,7 @@ RgbImage difference_picture(const ValidationCase& c) {
     }
   }
   sheet.bar = image::ColourBar{
-      [](double t) { return diverging(2 * t - 1); },
+      [](double t) { return colour_at(ColourMap::diverging, t); },
       {{0, fmt::format("{:.2g}", -end)}, {1, fmt::format("{:.2g}", end)}, {0.5, "0"}}};
   if (lost > 0) sheet.entries.push_back({missing, fmt::format("surface missing: {}", lost)});
   if (gained > 0) sheet.entries.push_back({added, fmt::format("surface added: {}", gained)});

@@ -1,5 +1,5 @@
 /// The samples of a deep map.
-import { channelOf, page } from "./channels.js";
+import { channelOf } from "./channels.js";
 import { textOf } from "./numbers.js";
 import { remembered, unpacked } from "./planes.js";
 import { byId, element } from "./reading.js";
@@ -39,24 +39,4 @@ export async function showSamples(map, pixel) {
     return row;
   }));
   byId("deep-said").textContent = samples.length ? "nearest first" : "no sample";
-}
-
-/// The answer of `fathom probe` to a pixel, from the server of this page.
-export class Probe {
-  constructor() { this.turn = 0; }
-  async show(map, pixel) {
-    const mine = ++this.turn, answer = byId("probe");
-    byId("probe-section").hidden = !page.probes;
-    if (!page.probes) return;
-    answer.textContent = pixel ? "probing …" : "Click on a pixel to ask why it has its value.";
-    if (!pixel) return;
-    let text = "";
-    try {
-      const reply = await fetch(`probe?map=${map.number}&x=${pixel[0]}&y=${pixel[1]}`);
-      text = reply.ok ? await reply.text() : "The server does not know this pixel.";
-    } catch {
-      text = "The server has ended: start 'fathom view … --serve' again.";
-    }
-    if (mine === this.turn) answer.textContent = text;
-  }
 }

@@ -4,22 +4,33 @@ import { isLight, css } from "./colours.js";
 import { textWithin } from "./numbers.js";
 
 const numbersFrom = 34, gridFrom = 20; // CSS pixels per pixel of the map
-const mostCanvases = 256;
-const paintTime = 6; // milliseconds of a frame for colouring tiles: the rest of them takes the next frames
+const mostCanvases = 256; // or as many as there are tiles in sight
+const paintTime = 6; // milliseconds of a frame for colouring tiles, from the first on: the rest of them takes the next frames
 const mostLoads = 3; // tiles that are unpacked at once: those that leave the sight meanwhile are not asked for
 
+function coloured(shading, tile) {
+  const canvas = new OffscreenCanvas(tile.columns, tile.rows), colours = shading.paint(tile);
+  const bytes = new Uint8ClampedArray(colours.buffer);
+  canvas.getContext("2d").putImageData(new ImageData(bytes, tile.columns, tile.rows), 0, 0);
+  return canvas;
+}
+
 /// A tile as a picture of its own, remembered by the shading that coloured it; null where it is to be coloured and time is up.
-function canvasOf(shading, level, number, tile, isTimeUp) {
-  const key = `${level}-${number}`, canvases = shading.canvases ??= new Map();
-  if (!canvases.has(key)) {
-    if (isTimeUp()) return null;
-    const canvas = new OffscreenCanvas(tile.columns, tile.rows), colours = shading.paint(tile);
-    const bytes = new Uint8ClampedArray(colours.buffer);
-    canvas.getContext("2d").putImageData(new ImageData(bytes, tile.columns, tile.rows), 0, 0);
-    canvases.set(key, canvas);
-    if (canvases.size > mostCanvases) canvases.delete(canvases.keys().next().value);
-  }
-  return canvases.get(key);
+/// Above `most` pictures, that which was drawn longest ago is forgotten.
+function canvasOf(shading, key, tile, { isTimeUp, most }) {
+  const canvases = shading.canvases ??= new Map(), known = canvases.get(key);
+  if (!known && isTimeUp()) return null;
+  const canvas = known ?? coloured(shading, tile);
+  canvases.delete(key);
+  canvases.set(key, canvas);
+  if (canvases.size > most) canvases.delete(canvases.keys().next().value);
+  return canvas;
+}
+
+/// Whether the time for colouring has passed; it begins with the first question, so that every frame colours a tile.
+function timer() {
+  let end = null;
+  return () => performance.now() > (end ??= performance.now() + paintTime);
 }
 
 /// Calls `visit(number, left, top)` for the tiles of a level that are in sight; lengths in pixels of the map.
@@ -35,24 +46,37 @@ function forTiles(view, source, level, visit) {
 /// The level whose pixels are nearest to those of the screen, and not larger.
 const levelFor = (view, source) => Math.min(source.levels - 1, Math.max(0, Math.floor(-Math.log2(view.zoom * view.ratio))));
 
+/// The levels whose tiles are drawn, one over the other.
+function levelsFor(view, source) {
+  const level = levelFor(view, source), last = source.levels - 1;
+  return level === last ? [level] : [last, level];
+}
+
+function countTiles(view, source, levels) {
+  let count = 0;
+  for (const level of levels) forTiles(view, source, level, () => ++count);
+  return count;
+}
+
 /// Draws the tiles that are there, and calls `missing(promise)` for some that are not. Until these come, tiles of the
 /// coarsest level stand in for them.
 export function paintTiles(context, view, { source, shading }, missing) {
-  const level = levelFor(view, source), end = performance.now() + paintTime, isTimeUp = () => performance.now() > end;
+  const levels = levelsFor(view, source), most = Math.max(mostCanvases, countTiles(view, source, levels));
+  const limits = { isTimeUp: timer(), most };
   let loads = 0;
   context.imageSmoothingEnabled = view.zoom * view.ratio < 1;
-  for (const each of level === source.levels - 1 ? [level] : [source.levels - 1, level]) {
-    forTiles(view, source, each, (number, left, top) => {
-      const tile = source.readyTile(each, number);
+  for (const level of levels) {
+    forTiles(view, source, level, (number, left, top) => {
+      const tile = source.readyTile(level, number);
       if (!tile) {
-        if (++loads <= mostLoads) missing(source.tile(each, number));
+        if (++loads <= mostLoads) missing(source.tile(level, number));
         return;
       }
-      const canvas = canvasOf(shading, each, number, tile, isTimeUp);
+      const canvas = canvasOf(shading, `${level}-${number}`, tile, limits);
       if (!canvas) { missing(Promise.resolve()); return; }
       const x = view.toX(left), y = view.toY(top);
-      const right = view.toX(Math.min(source.width, left + tile.columns * 2 ** each));
-      const bottom = view.toY(Math.min(source.height, top + tile.rows * 2 ** each));
+      const right = view.toX(Math.min(source.width, left + tile.columns * 2 ** level));
+      const bottom = view.toY(Math.min(source.height, top + tile.rows * 2 ** level));
       context.drawImage(canvas, x, y, right - x, bottom - y);
     });
   }

@@ -2,9 +2,10 @@
 import { maps } from "./channels.js";
 import { Flicker, shownBy } from "./comparison.js";
 import { fillControls, fillRange, listen, mended, shortNames } from "./controls.js";
-import { Probe, showSamples } from "./deep.js";
+import { showSamples } from "./deep.js";
 import { Histogram } from "./histogram.js";
 import { Picture } from "./picture.js";
+import { showProbe } from "./probe.js";
 import { Profile } from "./profile.js";
 import { byId, showReading } from "./reading.js";
 import { fragmentOf, stateOf } from "./state.js";
@@ -18,7 +19,7 @@ const picture = new Picture(byId("picture"), {
     hovered = null;
     picture.draw();
     remember();
-    probe.show(maps[state.map], pixel);
+    showProbe(maps[state.map], pixel);
     read().then((text) => { if (by === "key" && text) byId("said").textContent = text; });
   },
   line(line, isDone) {
@@ -32,7 +33,6 @@ const picture = new Picture(byId("picture"), {
   },
   split(share) { change({ split: share }); },
   moved() { lookedAt(); } });
-const probe = new Probe();
 const profile = new Profile(byId("profile"));
 const histogram = new Histogram(byId("histogram"), (low, high) => change({ low, high }));
 const flicker = new Flicker((showsOther) => {
@@ -88,6 +88,7 @@ async function showAll() {
 function change(changes) {
   const isSizeKept = !("map" in changes) || maps[changes.map]?.width === maps[state.map].width && maps[changes.map]?.height === maps[state.map].height;
   state = mended({ ...state, ...changes });
+  if ("map" in changes) showProbe(maps[state.map], state.pixel);
   remember();
   if (!isSizeKept) { picture.centre = null; Object.assign(state, { x: null, y: null, zoom: null }); }
   if (Object.keys(changes).join() === "split" && shown) { fillControls(state); showLayers(false); return; }
@@ -142,6 +143,7 @@ addEventListener("hashchange", () => {
   state = mended(stateOf(location.hash));
   place();
   showAll();
+  showProbe(maps[state.map], state.pixel);
 });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", showAll);
 
@@ -161,4 +163,4 @@ globalThis.fathom = { maps, state: () => state }; // for the console and for tes
 listen(change);
 place();
 showAll();
-probe.show(maps[state.map], state.pixel);
+showProbe(maps[state.map], state.pixel);

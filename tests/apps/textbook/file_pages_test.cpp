@@ -89,7 +89,7 @@ std::vector<std::string> names_of(const std::vector<std::pair<std::string, Json>
 }
 
 TEST_F(Pages, TheFilesAndCommandsOfCameraFilesWork) {
-  EXPECT_EQ(files_of(page("camera-files.md")).size(), 6U);
+  EXPECT_EQ(files_of(page("camera-files.md")).size(), 7U);
   run_examples(page("camera-files.md"), folder_);
 }
 
