@@ -88,7 +88,7 @@ class LensCaseMaker {
         break;
     }
     Projection& projection = c.view.camera.projection;
-    if (entry_of(model).intrinsics.front() == "f") {
+    if (has_one_focal_length(entry_of(model))) {
       projection.fy = projection.fx;
       projection.skew = 0;
     }

@@ -22,7 +22,8 @@ doubles = ctypes.c_double * 3
 class Camera(ctypes.Structure):
     _fields_ = [("width", ctypes.c_uint32), ("height", ctypes.c_uint32), ("orthographic", ctypes.c_int),
                 *((name, ctypes.c_double) for name in ("fx", "fy", "cx", "cy", "skew", "pixel_centre")),
-                ("world_to_camera", ctypes.c_double * 4 * 3), ("near", ctypes.c_double), ("far", ctypes.c_double)]
+                ("world_to_camera", ctypes.c_double * 4 * 3), ("near", ctypes.c_double), ("far", ctypes.c_double),
+                ("lens", ctypes.c_void_p)]
 
 
 for text in re.findall(r"FATHOM_API ([^;(]*?\bfathom_\w+)\(", header):
@@ -31,11 +32,11 @@ for text in re.findall(r"FATHOM_API ([^;(]*?\bfathom_\w+)\(", header):
         "const char*": ctypes.c_char_p, "uint32_t": ctypes.c_uint32, "uint64_t": ctypes.c_uint64, "void": None,
         "const float*": ctypes.POINTER(ctypes.c_float), "const double*": ctypes.POINTER(ctypes.c_double),
         "const uint32_t*": ctypes.POINTER(ctypes.c_uint32), "const uint16_t*": ctypes.POINTER(ctypes.c_uint16),
-        "fathom_status": ctypes.c_int}[kind]
+        "double": ctypes.c_double, "fathom_status": ctypes.c_int}[kind]
 
 
 def camera():
-    view = Camera(8, 6, 0, 8.1, 7.9, 4, 3, 0.1, 0.5, ((1, 0, 0, 0.1), (0, 1, 0, 0), (0, 0, 1, 5e-324)), 0.3, infinity)
+    view = Camera(8, 6, 0, 8.1, 7.9, 4, 3, 0.1, 0.5, ((1, 0, 0, 0.1), (0, 1, 0, 0), (0, 0, 1, 5e-324)), 0.3, infinity, None)
     return view
 
 
@@ -60,6 +61,9 @@ class Given:
         self.camera_file = folder / "camera.json"
         self.camera_file.write_text('{"width": 8, "height": 6, "fx": 8.1, "fy": 7.9, "cx": 4, "cy": 3, "pixel_centre": 0.5,'
                                     '"world_to_camera": [[1, 0, 0, 0.1], [0, 1, 0, 0], [0, 0, 1, 5e-324]]}')
+        self.lens = ctypes.c_void_p()
+        numbers = (ctypes.c_double * 4)(-0.3, 5e-324, 0.1, 0)
+        assert library.fathom_lens_new(b"OPENCV", numbers, ctypes.c_size_t(4), ctypes.c_double(0.7), ctypes.byref(self.lens)) == 0
         self.map_file = folder / "map.exr"
         assert library.fathom_map_write(self.map, bytes(self.map_file), None) == 0
 
@@ -181,6 +185,24 @@ def check(given):
     return library.fathom_camera_check(ctypes.byref(flat)), library.fathom_camera_check(None)
 
 
+def new_lens(given):
+    numbers = (ctypes.c_double * 2)(-0.1, 5e-324)
+    return made(library.fathom_lens_new, b"RADIAL", numbers, ctypes.c_size_t(2), ctypes.c_double(infinity))
+
+
+def lens_model(given):
+    lens = new_lens(given)
+    name = library.fathom_lens_model(lens)
+    library.fathom_lens_free(lens)
+    return name
+
+
+def lens_distortion(given):
+    count = ctypes.c_size_t()
+    numbers = library.fathom_lens_distortion(given.lens, ctypes.byref(count))
+    return ctypes.string_at(numbers, 8 * count.value)
+
+
 def verify(given):
     differing, view, options = ctypes.c_uint64(7), camera(), Options(0, 0, 1, None, None)
     status = library.fathom_verify(given.map, given.scene, ctypes.byref(view), ctypes.byref(options), ctypes.c_uint64(30),
@@ -205,6 +227,11 @@ calls = {
     "fathom_scene_add": add,
     "fathom_scene_triangle_count": lambda given: library.fathom_scene_triangle_count(given.scene),
     "fathom_scene_bounds": lambda given: bounds_of(given.scene),
+    "fathom_lens_new": lens_model,
+    "fathom_lens_free": freed(new_lens, library.fathom_lens_free),
+    "fathom_lens_model": lambda given: library.fathom_lens_model(given.lens),
+    "fathom_lens_distortion": lens_distortion,
+    "fathom_lens_max_radius": lambda given: library.fathom_lens_max_radius(given.lens),
     "fathom_camera_look_at": look_at,
     "fathom_camera_frame": frame,
     "fathom_camera_read": lambda given: camera_from(library.fathom_camera_read, bytes(given.camera_file)),

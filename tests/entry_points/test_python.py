@@ -138,6 +138,8 @@ calls = {
     "testing.assert_depth": judged,
     "testing.keep_report": lambda g: g.files("kept", lambda folder: fathom.testing.keep_report(folder, g.map["Z"], g.camera, g.validation)),
     "Camera.from_opencv": lambda g: Camera.from_opencv(K, turned, (8, 6), pixel_centre=0),
+    "Camera.from_directions": lambda g: Camera.from_directions(np.linspace(0.1, 0.9, 8 * 6 * 3).reshape(6, 8, 3), world_to_camera=turned),
+    "Camera.directions": lambda g: g.camera.directions(),
     "Camera.from_opengl": lambda g: Camera.from_opengl(
         np.diag([1.1, 1.3, -1.2, 0]) + np.eye(4, k=1) * -0.3 - np.eye(4, k=-1) * (np.arange(4) == 2),
         np.diag([1.0, 1, 1, 1]), (8, 6)),

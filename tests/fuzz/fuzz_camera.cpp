@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "fathom/camera/calibration_cameras.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/failures/errors.h"
@@ -74,6 +75,10 @@ std::vector<ImportedCamera> parse(char format, const std::string& text) {
       return parse_opengl(text, "input");
     case 'g':
       return parse_gltf_cameras(text, "input", 640, 480);
+    case 'v':
+      return cameras_of_opencv(text, "input", {});
+    case 'w':
+      return cameras_of_ros(text, "input", {});
     case 'a':
       return parse_sfm_data({text, "input"});
     case 'm':

@@ -5,7 +5,7 @@
 bool use_c() {
   const double vertices[] = {-9, -9, 4, 9, -9, 4, 0, 9, 4};
   const uint32_t triangles[] = {0, 1, 2};
-  fathom_camera camera{8, 8, 0, 8, 8, 4, 4, 0, 0.5, {}, 0, INFINITY};
+  fathom_camera camera{8, 8, 0, 8, 8, 4, 4, 0, 0.5, {}, 0, INFINITY, nullptr};
   for (int i = 0; i < 3; ++i) camera.world_to_camera[i][i] = 1;
   fathom_scene* scene = nullptr;
   fathom_map* map = nullptr;
