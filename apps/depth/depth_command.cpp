@@ -16,6 +16,7 @@
 #include "fathom/depth_format/depth_format.h"
 #include "fathom/depth_format/resolution.h"
 #include "fathom/failures/errors.h"
+#include "fathom/text/trimmed.h"
 
 namespace fathom::app {
 namespace {
@@ -160,12 +161,6 @@ std::string line_of(const DepthAnswer& answer, bool json) {
   return (json ? answer.json : answer.text) + "\n";
 }
 
-std::string trimmed(const std::string& line) {
-  const std::size_t begin = line.find_first_not_of(" \t\r");
-  if (begin == std::string::npos) return {};
-  return line.substr(begin, line.find_last_not_of(" \t\r") - begin + 1);
-}
-
 /// A binary64 number needs 1074 digits at most; no sane text is longer.
 constexpr std::size_t longest_value = 4096;
 
@@ -184,7 +179,7 @@ bool read_line(std::string& line) {
 void answer_lines(const DepthFormat& format, const DepthArguments& arguments, Ask ask) {
   std::string line;
   for (std::size_t number = 1; read_line(line); ++number) {
-    const std::string text = trimmed(line);
+    const std::string text(text::trimmed(line));
     std::string answer;
     try {
       if (line.size() > longest_value) throw UsageError("VALUE: longer than any number");

@@ -12,6 +12,7 @@
 #include "fathom/image/files/direction_csv.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/text/counted.h"
 #include "fathom/text/decimal.h"
 
 namespace fathom {
@@ -56,8 +57,7 @@ std::vector<double> numbers_of_exr(const DepthMap& map, const std::string& name)
 
 std::vector<double> numbers_of_array(const DepthMap& map, const std::string& name) {
   if (map.channels.size() != 3)
-    throw InputError(name + ": has " + std::to_string(map.channels.size()) +
-                     (map.channels.size() == 1 ? " number" : " numbers") +
+    throw InputError(name + ": has " + text::counted(map.channels.size(), "number") +
                      " for each pixel, expected directions, 3 numbers");
   return interleaved({&map.channels[0], &map.channels[1], &map.channels[2]}, name);
 }

@@ -5,27 +5,22 @@
 #include <utility>
 
 #include "fathom/failures/errors.h"
+#include "fathom/text/counted.h"
 #include "fathom/text/decimal.h"
 #include "fathom/text/printable.h"
 #include "fathom/text/text_cursor.h"
+#include "fathom/text/trimmed.h"
 
 namespace fathom::image {
 using namespace text;
 
 namespace {
 
-std::string_view without_blanks(std::string_view text) {
-  constexpr const char* blanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
 std::vector<std::string_view> fields_of(std::string_view line) {
   std::vector<std::string_view> fields;
   while (true) {
     const std::size_t comma = line.find(',');
-    fields.push_back(without_blanks(line.substr(0, comma)));
+    fields.push_back(trimmed(line.substr(0, comma)));
     if (comma == line.npos) return fields;
     line.remove_prefix(comma + 1);
   }
@@ -68,17 +63,15 @@ std::vector<double> numbers_of_csv(std::string_view text, std::uint64_t pixels,
   for (; cursor.next_line_with_words(); cursor.skip_line()) {
     const std::vector<std::string_view> fields = fields_of(cursor.rest_of_line());
     if (std::exchange(may_be_heading, false) && is_heading(fields)) continue;
-    if (fields.size() != 3)
-      cursor.fail("expected x,y,z, found " + std::to_string(fields.size()) +
-                  (fields.size() == 1 ? " field" : " fields"));
+    if (fields.size() != 3) cursor.fail("expected x,y,z, found " + counted(fields.size(), "field"));
     if (numbers.size() == 3 * pixels)
       cursor.fail("more than the " + std::to_string(pixels) +
                   " directions of the image, expected one line for each pixel");
     for (const std::string_view field : fields) numbers.push_back(number_of(field, cursor));
   }
   if (numbers.size() != 3 * pixels)
-    throw InputError(name + ": has " + std::to_string(numbers.size() / 3) +
-                     " directions, expected one for each of the " + std::to_string(pixels) +
+    throw InputError(name + ": has " + counted(numbers.size() / 3, "direction") +
+                     ", expected one for each of the " + std::to_string(pixels) +
                      " pixels of the image");
   return numbers;
 }
