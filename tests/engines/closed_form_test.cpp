@@ -59,22 +59,7 @@ TEST(ClosedForm, TheGroundUnderAnOrthographicCameraIsALinearRamp) {
 
 // A box seen from inside: every ray leaves through the nearest of three walls.
 TEST(ClosedForm, ARoomFromInside) {
-  std::vector<MeshPoint> v;
-  for (int i = 0; i < 8; ++i) {
-    v.push_back({i & 1 ? 2.0 : -2.0, i & 2 ? 1.0 : -1.0, i & 4 ? 4.0 : -4.0});
-  }
-  const Scene room = scene_of(v, {{0, 1, 3},
-                                  {0, 3, 2},
-                                  {4, 6, 7},
-                                  {4, 7, 5},
-                                  {0, 4, 5},
-                                  {0, 5, 1},
-                                  {2, 3, 7},
-                                  {2, 7, 6},
-                                  {0, 2, 6},
-                                  {0, 6, 4},
-                                  {1, 5, 7},
-                                  {1, 7, 3}});
+  const Scene room = testing::box_scene(2, 1, 4);
   const Camera camera = camera_of(40, 40, 8);
   const DepthMap map = testing::render_tested(room, camera);
   for (std::uint32_t j = 0; j < 40; ++j) {

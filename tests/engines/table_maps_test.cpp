@@ -18,6 +18,7 @@
 namespace fathom {
 namespace {
 
+using testing::box_scene;
 using testing::Case;
 using testing::CaseMaker;
 using testing::DirectionMaker;
@@ -216,24 +217,6 @@ TEST(Tables, ACropOfATableIsACropOfTheMap) {
 
 // Closed surfaces around the eye.
 
-Scene cube() {
-  std::vector<MeshPoint> corners;
-  for (int i = 0; i < 8; ++i)
-    corners.push_back({i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0});
-  return scene_of(corners, {{0, 1, 3},
-                            {0, 3, 2},
-                            {4, 6, 7},
-                            {4, 7, 5},
-                            {0, 4, 5},
-                            {0, 5, 1},
-                            {2, 3, 7},
-                            {2, 7, 6},
-                            {0, 2, 6},
-                            {0, 6, 4},
-                            {1, 5, 7},
-                            {1, 7, 3}});
-}
-
 Scene octahedron() {
   std::vector<CornerIndices> faces;
   for (std::uint32_t i = 0; i < 8; ++i)
@@ -278,7 +261,7 @@ std::vector<double> directions_at(const Scene& scene, std::size_t pixels) {
 }
 
 TEST(Tables, AClosedSurfaceAroundTheEyeCoversEveryRayOnce) {
-  for (const Scene& scene : {cube(), octahedron(), icosahedron()}) {
+  for (const Scene& scene : {box_scene(1, 1, 1), octahedron(), icosahedron()}) {
     for (const double sign : {1.0, -1.0}) {
       Camera camera;
       camera.width = camera.height = 40;
@@ -351,7 +334,7 @@ TEST(Tables, AreRefusedWithAnotherSizeOrInfiniteNumbers) {
             "expected finite numbers, or 0,0,0 for no ray");
   Camera other = with_table(camera, {0, 0, 1, 0, 1, 1});
   other.width = 3;
-  EXPECT_EQ(fault_of([&] { (void)render(cube(), other, options_with({Channel::Z})); }),
+  EXPECT_EQ(fault_of([&] { (void)render(box_scene(1, 1, 1), other, options_with({Channel::Z})); }),
             "camera: the table of directions has 2x1 pixels, expected the size of the image, 3x1");
 }
 
@@ -362,7 +345,7 @@ TEST(Tables, MayEndAtAnAngle) {
   camera = with_table(camera, {0, 0, 1, 0, 1, 1, 0, 0, -1});
   camera.projection.lens->max_radius = 0.7853981633974484;  // above π/4
   const auto valid = [&] {
-    const DepthMap map = render(cube(), camera, options_with({Channel::valid})).map;
+    const DepthMap map = render(box_scene(1, 1, 1), camera, options_with({Channel::valid})).map;
     return std::vector<std::uint32_t>(map.values<std::uint32_t>("valid")->begin(),
                                       map.values<std::uint32_t>("valid")->end());
   };
