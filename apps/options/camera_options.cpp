@@ -53,13 +53,6 @@ Camera framing_camera(const Scene& scene, const View& view, const LensChoice& le
   }
 }
 
-/// "k1,k2,p1,p2"
-std::string joined_names(std::span<const std::string_view> names) {
-  std::string text;
-  for (const std::string_view name : names) text += (text.empty() ? "" : ",") + std::string(name);
-  return text;
-}
-
 std::vector<Camera> cameras_of_map(std::span<const std::byte> bytes, const std::string& file) {
   const std::optional<Camera> camera = camera_of(read_map_argument(bytes, file), file);
   if (!camera) throw InputError(file + ": the map carries no camera, expected a camera file");
@@ -161,13 +154,9 @@ LensChoice DistortionOptions::applied(LensChoice lens) const {
   if (lens.model == ProjectionModel::orthographic) {
     throw UsageError("--model: an orthographic camera has no lens");
   }
-  const auto model = lens_model_named(model_);
-  if (!model) throw UsageError("--model: " + unknown_lens_model(model_));
+  const LensModelEntry model = about_option("--model", [&] { return lens_model_of(model_); });
   const std::vector<double> numbers = numbers_.value_or(std::vector<double>{});
-  if (const auto fault = distortion_count_fault(entry_of(*model), numbers.size())) {
-    throw UsageError("--distortion: " + *fault + ": " + joined_names(entry_of(*model).distortion));
-  }
-  lens.distortion = about_option("--distortion", [&] { return lens_of_numbers(model_, numbers); });
+  lens.distortion = about_option("--distortion", [&] { return lens_of_numbers(model, numbers); });
   return lens;
 }
 

@@ -45,8 +45,9 @@ TEST(LensNumbers, EveryModelTakesItsOwnCount) {
 TEST(LensNumbers, FaultsAreNamed) {
   EXPECT_THAT(fault("OPENC", {}), HasSubstr("unknown lens model 'OPENC', expected SIMPLE_PINHOLE"));
   EXPECT_THAT(fault("OPENC", {}), HasSubstr("did you mean 'OPENCV'?"));
-  EXPECT_EQ(fault("OPENCV", {1, 2, 3}), "distortion: found 3 numbers, OPENCV has 4");
-  EXPECT_EQ(fault("OPENCV_14", {1}), "distortion: found 1 number, OPENCV_14 has 4, 5, 8, 12 or 14");
+  EXPECT_EQ(fault("OPENCV", {1, 2, 3}), "found 3 numbers, OPENCV has 4: k1, k2, p1, p2");
+  EXPECT_THAT(fault("OPENCV_14", {1}),
+              HasSubstr("found 1 number, OPENCV_14 has 4, 5, 8, 12 or 14: k1, k2, p1, p2, k3"));
   EXPECT_EQ(fault("RADIAL", {1, std::numeric_limits<double>::infinity()}),
             "k2 is not a finite number");
   EXPECT_EQ(fault("RADIAL", {1, 2}, 0), "max_radius is not greater than 0");

@@ -30,18 +30,29 @@ std::optional<std::string> distortion_count_fault(const LensModelEntry& model, s
          joined(expected, " or ");
 }
 
-Lens lens_of_numbers(std::string_view model, std::span<const double> distortion,
+const LensModelEntry& lens_model_of(std::string_view name) {
+  const auto found = lens_model_named(name);
+  if (!found) throw UsageError(unknown_lens_model(name));
+  return entry_of(*found);
+}
+
+Lens lens_of_numbers(const LensModelEntry& model, std::span<const double> distortion,
                      double max_radius) {
   const StandardArithmetic standard;
-  const auto found = lens_model_named(model);
-  if (!found) throw UsageError(unknown_lens_model(model));
-  if (const auto fault = distortion_count_fault(entry_of(*found), distortion.size()))
-    throw UsageError("distortion: " + *fault);
-  Lens lens{*found};
+  if (const auto fault = distortion_count_fault(model, distortion.size())) {
+    const std::vector<std::string> names(model.distortion.begin(), model.distortion.end());
+    throw UsageError(*fault + ": " + joined(names, ", "));
+  }
+  Lens lens{model.model};
   std::ranges::copy(distortion, lens.distortion.begin());
   lens.max_radius = max_radius;
   if (const auto fault = find_fault(lens)) throw UsageError(*fault);
   return lens;
+}
+
+Lens lens_of_numbers(std::string_view model, std::span<const double> distortion,
+                     double max_radius) {
+  return lens_of_numbers(lens_model_of(model), distortion, max_radius);
 }
 
 }  // namespace fathom

@@ -21,8 +21,16 @@ std::string unknown_lens_model(std::string_view name);
 std::optional<std::string> distortion_count_fault(const LensModelEntry& model, std::size_t found,
                                                   std::size_t before = 0);
 
-/// The lens of a model, by its name, with its numbers of distortion in order.
-/// Fails    UsageError for an unknown name, another count of numbers, and as find_fault().
+/// The model of this name.
+/// Fails    UsageError: unknown_lens_model().
+const LensModelEntry& lens_model_of(std::string_view name);
+
+/// The lens of a model with its numbers of distortion in order.
+/// Fails    UsageError for another count of numbers, and as find_fault().
+Lens lens_of_numbers(const LensModelEntry& model, std::span<const double> distortion,
+                     double max_radius = std::numeric_limits<double>::infinity());
+
+/// Of the model of a name, as lens_model_of().
 Lens lens_of_numbers(std::string_view model, std::span<const double> distortion,
                      double max_radius = std::numeric_limits<double>::infinity());
 
