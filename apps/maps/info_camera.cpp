@@ -50,11 +50,14 @@ const DirectionTable* directions_of(const Projection& projection) {
   return projection.lens ? projection.lens->directions.get() : nullptr;
 }
 
-/// The share of the pixels of a table that have no ray.
-double share_without_ray(const DirectionTable& table) {
-  return static_cast<double>(table.pixels_without_ray()) /
-         (static_cast<double>(table.width()) * table.height());
-}
+/// The pixels of a table that have no ray. Counting them takes a look at every pixel.
+struct PixelsWithoutRay {
+  std::uint64_t count, all;
+
+  explicit PixelsWithoutRay(const DirectionTable& table)
+      : count(table.pixels_without_ray()), all(std::uint64_t{table.width()} * table.height()) {}
+  double share() const { return static_cast<double>(count) / static_cast<double>(all); }
+};
 
 Json describe(const Camera& camera) {
   Json answer = text::parse_json<Json>(fathom::to_json(camera));
@@ -66,7 +69,7 @@ Json describe(const Camera& camera) {
                              degrees_of(camera.height, camera.projection.fy)};
   }
   if (const DirectionTable* const table = directions_of(camera.projection)) {
-    answer["share_without_ray"] = share_without_ray(*table);
+    answer["share_without_ray"] = PixelsWithoutRay(*table).share();
   } else if (camera.projection.lens) {
     answer["lens_disc"] = disc_of(camera.projection);
   }
@@ -90,12 +93,12 @@ std::string describe_lens(const Projection& projection) {
 /// The file of a table, and how many of its pixels have a ray.
 std::string describe_table(const Lens& lens) {
   const DirectionTable& table = *lens.directions;
+  const PixelsWithoutRay without_ray(table);
   std::string lines = fmt::format(
       "    lens          {}, {}x{} directions from {}\n    sha256        {}\n"
       "    has rays      except at {} of {} pixels ({:.2f} %)",
       name_of(lens.model), table.width(), table.height(), text::printable(table.source().path),
-      table.sha256(), table.pixels_without_ray(), std::uint64_t{table.width()} * table.height(),
-      100 * share_without_ray(table));
+      table.sha256(), without_ray.count, without_ray.all, 100 * without_ray.share());
   if (std::isfinite(lens.max_radius)) lines += fmt::format(", max_radius {}", lens.max_radius);
   return lines + "\n";
 }
