@@ -260,8 +260,8 @@ TEST(OtherExr, DeepIsRefused) {
     file.writePixels(1);
   }
   EXPECT_EQ(refusal_of(stream.take()),
-            "map: deep images are not read as maps, but by DeepMap.read in Python and by "
-            "read_deep_map in C++: expected scan lines or tiles");
+            "map: is a deep map, expected scan lines or tiles; 'fathom view', 'fathom preview' and "
+            "'fathom info' take it, as do DeepMap.read in Python and read_deep_map in C++");
 }
 
 TEST(OtherExr, CroppedAndSubsampledAreRefused) {

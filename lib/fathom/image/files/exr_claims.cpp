@@ -88,8 +88,8 @@ class Claims {
     Attributes part = read_attributes();
     if (is_deep_of_one_part(version) || is_deep(part))
       fail(
-          "deep images are not read as maps, but by DeepMap.read in Python and by read_deep_map in "
-          "C++: expected scan lines or tiles");
+          "is a deep map, expected scan lines or tiles; 'fathom view', 'fathom preview' and "
+          "'fathom info' take it, as do DeepMap.read in Python and read_deep_map in C++");
     for (bool first = true; !part.empty(); first = false) {
       check_part(part, first ? bytes_of_a_pixel(attribute(part, "channels", 1)) : 0);
       if (!(version & flag_multipart)) break;
