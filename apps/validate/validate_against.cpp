@@ -79,8 +79,9 @@ void judge_by_model(const std::string& model, ValidationCase& c) {
   c.variant += " as " + name;
   std::optional<attribution::RendererModel> named;
   if (name != any_model) named = attribution::model_for(name, c.truth->camera);
-  auto judged = attribution::judge(c.truth, validation::as_brought(c.other), named);
-  attribution::name_other_scene(judged);
+  const attribution::OtherMap brought = validation::as_brought(c.other);
+  auto judged = attribution::judge(c.truth, brought, named);
+  attribution::name_other_scene(c.truth->camera, brought, judged);
   set_judgement(c, std::move(judged));
 }
 

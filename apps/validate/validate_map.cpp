@@ -24,8 +24,7 @@ using attribution::OtherMap;
 using validation::ValidationCase;
 
 /// The map of --map. If the map lacks information for reading it, the message names the option.
-OtherMap read_other_map(const ValidateArguments& arguments) {
-  DepthMap map = read_map_argument(arguments.map);
+OtherMap other_map_of(DepthMap map, const ValidateArguments& arguments) {
   if (arguments.png_scale) {
     const bool has_codes =
         std::any_of(map.channels.begin(), map.channels.end(), [](const ImageChannel& channel) {
@@ -47,20 +46,42 @@ OtherMap read_other_map(const ValidateArguments& arguments) {
   }
 }
 
+/// A map contains the camera that it was drawn with; where the map has a fault, that camera may be
+/// another one than --camera.
+void note_other_camera(const std::optional<Camera>& own, const Camera& camera,
+                       const std::string& file, attribution::Attribution& found) {
+  const bool has_fault =
+      found.count(attribution::PixelClass::unexplained) > 0 || !found.findings.empty();
+  if (!own || !has_fault) return;
+  const bool is_same = own->width == camera.width && own->height == camera.height &&
+                       own->projection == camera.projection &&
+                       own->world_to_camera == camera.world_to_camera;
+  if (is_same) return;
+  found.notes.push_back({.kind = "camera",
+                         .text = "the map contains another camera than --camera; with '--camera " +
+                                 file + "' it is judged by its own",
+                         .pixels = found.classes.size()});
+}
+
 ValidationCase judge_brought(const ValidateArguments& arguments, const Console& console) {
   const Camera camera = read_camera(arguments.camera, console);
   // Faults of the arguments are reported before the files are read.
   const std::string name = arguments.model.empty() ? any_model : arguments.model;
   std::optional<attribution::RendererModel> model;
   if (name != any_model) model = attribution::model_for(name, camera);
-  const OtherMap other = read_other_map(arguments);
+  DepthMap map = read_map_argument(arguments.map);
+  const std::optional<Camera> own = camera_of(map, arguments.map);
+  const OtherMap other = other_map_of(std::move(map), arguments);
   const Scene scene = read_files(arguments.scenes, arguments.limits, console);
   ValidationCase made{.scene = std::filesystem::path(arguments.scenes.front()).stem(),
                       .renderer = "map",
                       .variant = name,
                       .file = arguments.map};
   const ElapsedTime elapsed(console, "judging");
-  set_judgement(made, attribution::judge_map(arguments.map, other, scene, camera, model));
+  attribution::Judgement judged =
+      attribution::judge_map(arguments.map, other, scene, camera, model);
+  note_other_camera(own, camera, arguments.map, judged.attribution);
+  set_judgement(made, std::move(judged));
   return made;
 }
 

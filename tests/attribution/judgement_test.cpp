@@ -27,7 +27,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 Judgement judged(const std::shared_ptr<const Truth>& truth, const OtherMap& map,
                  const std::string& model) {
   Judgement found = judge(truth, map, model_for(model, truth->camera));
-  name_other_scene(found);
+  name_other_scene(truth->camera, map, found);
   return found;
 }
 
@@ -97,6 +97,22 @@ TEST(Judgement, APixelThatIsWrongByItselfIsUnexplainedWhateverOtherModelsAllow) 
   EXPECT_EQ(kinds(any), std::vector<std::string>{"isolated-pixels"}) << any.model.name;
 }
 
+// Few pixels of a map of large pixels leave the bounds of rays, and those of Cycles are wide there.
+TEST(Judgement, WherePixelsAreBlamedTheModelThatExplainsThemIsNamed) {
+  Camera camera = look_from({.azimuth = 35, .elevation = 25}, {0, 0, 0}, 3,
+                            {.width = 48, .height = 36, .vertical_fov = 45});
+  camera.near = 0.011;
+  camera.far = 100;
+  const auto truth = sphere_seen_by(camera);
+  const Judgement found = judged(truth, in_codes(*truth, 24, 0.011, 100), "float32-ray");
+  EXPECT_EQ(found.model.name, "float32-ray");
+  ASSERT_EQ(kinds(found), std::vector<std::string>{"isolated-pixels"});
+  EXPECT_EQ(found.attribution.findings[0].alternatives, std::vector<std::string>{"model"});
+  EXPECT_THAT(found.attribution.findings[0].text,
+              HasSubstr("; or the model float32-ray does not fit: as "));
+  EXPECT_THAT(found.attribution.findings[0].text, HasSubstr("gl-unorm24"));
+}
+
 TEST(Judgement, WithoutNearAndFarItSaysThatNoRasterizerWasTried) {
   Camera camera = sphere_camera(0.001, 20);
   const auto clipped = sphere_seen_by(camera);
@@ -107,6 +123,22 @@ TEST(Judgement, WithoutNearAndFarItSaysThatNoRasterizerWasTried) {
   ASSERT_FALSE(found.attribution.notes.empty());
   EXPECT_EQ(found.attribution.notes.back().kind, "model");
   EXPECT_THAT(found.attribution.notes.back().text, HasSubstr("has not both near and far"));
+}
+
+TEST(Judgement, AChosenModelWithoutNearAndFarIsNotTheOnlyOne) {
+  Camera camera = sphere_camera(0.01, 20);
+  const auto clipped = sphere_seen_by(camera);
+  camera.near = 0;
+  camera.far = infinity;
+  const auto truth = sphere_seen_by(camera);
+  const Judgement found = judge(truth, in_codes(*clipped, 24, 0.01, 20), std::nullopt);
+  EXPECT_EQ(found.model.name, "cycles");
+  EXPECT_EQ(found.attribution.count(PixelClass::unexplained), 0U);
+  EXPECT_THAT(found.attribution.notes.back().text, HasSubstr("has not both near and far"));
+  const Judgement of_rays = judge(truth, in_binary32(*truth), std::nullopt);
+  EXPECT_EQ(of_rays.model.name, "float32-ray");
+  for (const Finding& note : of_rays.attribution.notes)
+    EXPECT_THAT(note.text, testing::Not(HasSubstr("has not both near and far")));
 }
 
 // A thousandth of noise, which no model has; a sphere on its background is not another scene for
@@ -141,6 +173,28 @@ TEST(Judgement, AnotherSceneIsCalledSo) {
   const Judgement other = judged(truth, wall, "gl-unorm24");
   EXPECT_EQ(kinds(other), std::vector<std::string>{"other-scene"});
   EXPECT_THAT(other.attribution.findings[0].text, testing::Not(HasSubstr("  ")));
+}
+
+TEST(Judgement, AnotherSceneOfAnotherSizeHasTheSizes) {
+  const auto seen_in = [](std::uint32_t width, std::uint32_t height) {
+    Camera camera = look_from({.azimuth = 35, .elevation = 25}, {0, 0, 0}, 3,
+                              {.width = width, .height = height, .vertical_fov = 90});
+    camera.near = 0.5;
+    camera.far = 20;
+    return camera;
+  };
+  const auto drawn = sphere_seen_by(seen_in(120, 160));
+  OtherMap map = in_binary32(*drawn);
+  for (std::size_t i = 0; i < map.depths.size(); ++i) {
+    const auto noise = static_cast<double>(i * 7919 % 101);
+    map.depths[i] = map.values[i] = double{static_cast<float>(map.depths[i] * (2 + noise / 50))};
+  }
+  const Camera camera = seen_in(160, 120);
+  const Judgement found = judge_map("map", map, bench::as_scene({bench::sphere(128)}, "sphere"),
+                                    camera, model_for("gl-unorm24", camera));
+  ASSERT_EQ(kinds(found), std::vector<std::string>{"other-scene"});
+  EXPECT_THAT(found.attribution.findings[0].text,
+              StartsWith("the map has 120x160 pixels, the camera 160x120; neither outlines nor"));
 }
 
 TEST(ForeignValues, OfCodesThereAreNoneInTheirOwnStorage) {

@@ -46,12 +46,18 @@ void judge_by_any(Judgement& judgement) {
        .evidence = std::move(choice.evidence)});
 }
 
+/// Whether a chosen model has wider bounds than the first model of a ray tracer, which was excluded:
+/// a depth buffer may have drawn the map as well.
+bool may_be_of_rasterizer(const Judgement& judgement) {
+  return judgement.model.name != "float32-ray";
+}
+
 /// Models of rasterizers mean nothing without near and far: where pixels stay open or the model is
 /// in doubt, that is worth a line.
-void note_untried_models(Judgement& judgement) {
+void note_untried_models(Judgement& judgement, bool is_chosen) {
   const std::vector<Finding>& findings = judgement.attribution.findings;
   const bool is_in_doubt =
-      unexplained(judgement) > 0 ||
+      unexplained(judgement) > 0 || (is_chosen && may_be_of_rasterizer(judgement)) ||
       std::any_of(findings.begin(), findings.end(),
                   [](const Finding& finding) { return finding.kind == "model"; });
   if (!is_in_doubt || has_clip_planes(judgement.truth->camera)) return;
@@ -63,8 +69,8 @@ void note_untried_models(Judgement& judgement) {
        .pixels = unexplained(judgement)});
 }
 
-/// The bounds of a rasterizer's model follow from near and far. Where pixels stay unexplained and
-/// no cause was found, wrong ones are a possible cause.
+/// Where pixels stay unexplained and no cause was found, another camera is the likely cause. The
+/// bounds of a rasterizer's model follow from its near and far, too.
 void note_clip_planes(Judgement& judgement) {
   const Camera& camera = judgement.truth->camera;
   const bool is_raster = std::holds_alternative<RasterModel>(judgement.model.kind);
@@ -72,10 +78,10 @@ void note_clip_planes(Judgement& judgement) {
   if (!is_raster || !is_open || !has_clip_planes(camera)) return;
   judgement.attribution.notes.push_back(
       {.kind = "clip-planes",
-       .text =
-           fmt::format("the model {} depends on near and far, which are {:.9g} and {:.9g} in the "
-                       "camera: check that the renderer had the same",
-                       judgement.model.name, camera.near, camera.far),
+       .text = fmt::format(
+           "check that the map was drawn with this camera, and with its near {:.9g} and "
+           "far {:.9g}, on which the model {} depends",
+           camera.near, camera.far, judgement.model.name),
        .pixels = unexplained(judgement)});
 }
 
@@ -162,7 +168,7 @@ Judgement judge(std::shared_ptr<const Truth> truth, const OtherMap& other,
     judge_by_any(judgement);
   }
   if (known.note) judgement.attribution.notes.push_back(std::move(*known.note));
-  note_untried_models(judgement);
+  note_untried_models(judgement, !model);
   note_clip_planes(judgement);
   return judgement;
 }
@@ -174,7 +180,7 @@ Judgement judge_map(const std::string& name, const OtherMap& other, const Scene&
   const bool has_size = other.width == camera.width && other.height == camera.height;
   Judgement judgement = has_size ? judge_of_camera(other, scene, camera, model)
                                  : judge_other_size(name, other, scene, camera, model);
-  name_other_scene(judgement);
+  name_other_scene(camera, other, judgement);
   return judgement;
 }
 

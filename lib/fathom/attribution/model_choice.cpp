@@ -280,6 +280,15 @@ void name_model(ModelTrial& trial, const RendererModel& named, std::uint64_t pix
        .evidence = candidates.evidence()});
 }
 
+/// The other model explains everything, but its bounds are too wide to acquit the map.
+void name_wider_model(ModelTrial& mine, const ModelTrial& wider, const Candidates& candidates) {
+  Finding& fault = mine.attribution.findings.front();
+  fault.alternatives.emplace_back("model");
+  fault.text += fmt::format(
+      "; or the model {} does not fit: as {} every pixel is explained{}, within wider bounds",
+      mine.model.name, wider.model.name, candidates.text_of_others(wider.model));
+}
+
 }  // namespace
 
 ModelChoice chosen_model(const Truth& truth, const OtherMap& other) {
@@ -309,10 +318,12 @@ ModelTrial judged_by(const Truth& truth, const OtherMap& other, const RendererMo
     if (has_too_wide_bounds(*right) && !is_of_vtk(right->model)) {
       // Where coordinates are large, VTK's shift narrows the bounds of the same storage.
       std::optional<ModelTrial> shifted = candidates.explaining_of_vtk();
-      if (shifted && !is_vacuous(shifted->attribution, other)) right = std::move(shifted);
+      const bool is_better =
+          shifted && !is_vacuous(shifted->attribution, other) && !has_too_wide_bounds(*shifted);
+      if (is_better) right = std::move(shifted);
     }
     if (has_too_wide_bounds(*right)) {
-      faults.front().alternatives.emplace_back("model");
+      name_wider_model(mine, *right, candidates);
       return mine;
     }
     name_model(*right, named, open, candidates);

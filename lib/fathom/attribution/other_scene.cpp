@@ -189,10 +189,13 @@ std::string what_does_not_fit(const Judgement& judged) {
 
 }  // namespace
 
-void name_other_scene(Judgement& judged) {
+void name_other_scene(const Camera& camera, const OtherMap& other, Judgement& judged) {
   const StandardArithmetic standard;
-  const std::string text = what_does_not_fit(judged);
+  std::string text = what_does_not_fit(judged);
   if (text.empty()) return;
+  // No reading of another size explains the map: the sizes remain.
+  if (other.width != camera.width || other.height != camera.height)
+    text = sizes(camera, other) + "; " + text;
   judged.attribution.findings = {
       {"other-scene", text, judged.attribution.count(PixelClass::unexplained)}};
 }

@@ -26,7 +26,7 @@ std::vector<SizedMap> readings_of_other_size(const Camera& camera, const OtherMa
 /// triangles: the map is empty, the scene has nothing in view, or at least nine tenths of the
 /// pixels that show a surface in either are unexplained and no fault of the whole image explains
 /// them, as in a map of another scene or camera. No finding if nine tenths of them show about the
-/// right depth.
-void name_other_scene(Judgement& judgement);
+/// right depth. The finding has the sizes of the given camera and map, if they differ.
+void name_other_scene(const Camera& camera, const OtherMap& other, Judgement& judgement);
 
 }  // namespace fathom::attribution

@@ -83,8 +83,8 @@ TEST(StoredPlanes, AreAPossibleCauseWhereTheyCannotBeRead) {
   EXPECT_EQ(found.attribution.notes.back().kind, "clip-planes");
   EXPECT_EQ(
       found.attribution.notes.back().text,
-      "the model gl-unorm24 depends on near and far, which are 0.1 and 100 in the camera: check "
-      "that the renderer had the same");
+      "check that the map was drawn with this camera, and with its near 0.1 and far 100, on which "
+      "the model gl-unorm24 depends");
 }
 
 // A lattice of codes is not enough: the surfaces have to be where the camera sees them.

@@ -134,7 +134,7 @@ bool is_its_turn(const std::string& drew, const std::string& named, std::size_t 
 Judgement judged(const BroughtMap& brought, const std::string& model) {
   Judgement found = attribution::judge(brought.truth, brought.map,
                                        attribution::model_for(model, brought.truth->camera));
-  attribution::name_other_scene(found);
+  attribution::name_other_scene(brought.truth->camera, brought.map, found);
   return found;
 }
 

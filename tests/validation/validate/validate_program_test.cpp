@@ -122,6 +122,9 @@ TEST_F(ValidateProgram, JudgesAMapByTheModelThatFitsWhereNoneIsNamed) {
   EXPECT_EQ(bad.status, 1);
   EXPECT_THAT(bad.out, testing::StartsWith("failed: the image is shifted by (-0.5, "));
   EXPECT_THAT(bad.out, HasSubstr("\n  found: shift\n"));
+  EXPECT_THAT(bad.out, HasSubstr("the map contains another camera than --camera; with '--camera "
+                                 "aside.exr' it is judged by its own"));
+  EXPECT_THAT(good.out, testing::Not(HasSubstr("another camera")));
 }
 
 /// A line for each model, and the one that is taken above them.
