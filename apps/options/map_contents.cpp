@@ -14,18 +14,6 @@
 namespace fathom::app {
 namespace {
 
-std::vector<std::string> all_names() {
-  std::vector<std::string> names = names_of_channels();
-  for (const ContentsName& each : contents_table) names.emplace_back(each.name);
-  return names;
-}
-
-/// nullptr if it is no name of the table.
-const ContentsName* contents_named(const std::string& name) {
-  const auto found = std::ranges::find(contents_table, name, &ContentsName::name);
-  return found == contents_table.end() ? nullptr : &*found;
-}
-
 bool is_mask(const std::string& name) {
   const ContentsName* const known = contents_named(name);
   return known != nullptr && known->is_mask;
@@ -34,12 +22,7 @@ bool is_mask(const std::string& name) {
 Channel channel_of(const std::string& name) {
   if (const ContentsName* const known = contents_named(name)) return known->channel;
   if (const auto channel = channel_named(name)) return *channel;
-  // The library suggests the channel that other programs' words mean.
-  const std::string message = unknown_channel(name).what();
-  throw UnknownName(nearest_names(name, all_names()).empty()
-                        ? message
-                        : "there is no channel '" + name + "'; there are " + joined(all_names()),
-                    name, all_names());
+  throw unknown_contents(name);
 }
 
 }  // namespace

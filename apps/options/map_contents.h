@@ -1,33 +1,14 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "fathom/image/channel_table.h"
 
 /// What users call the contents of a map file: `-o NAME=FILE` and `--channels NAME` of `render`.
 namespace fathom::app {
-
-/// A name for a channel that those who make data sets know, or for a mask.
-struct ContentsName {
-  std::string_view name;
-  /// From which the mask is made, if it is one.
-  Channel channel;
-  bool is_mask;
-};
-
-/// The names besides the channels' own: help, completion, messages and parsers take them from here.
-inline constexpr auto contents_table = std::to_array<ContentsName>({
-    {"depth", Channel::Z, false},
-    {"normal", Channel::N, false},
-    {"camera-normal", Channel::Nc, false},
-    {"segmentation", Channel::object, false},
-    {"mask", Channel::id, true},
-});
 
 /// What a file contains: some channels, or a mask, whose channel shows where surfaces are.
 struct Contents {

@@ -102,6 +102,13 @@ TEST_F(Mistakes, NamesOfChannels) {
               EndsWith("; did you mean 'A'?\n"));
   EXPECT_THAT(refusal({"render", "square.obj", "--channels", "normals", "-o", "no.exr"}, 2),
               EndsWith("; did you mean 'normal'?\n"));
+  EXPECT_THAT(refusal({"render", "square.obj", "--channels", "seg", "-o", "no.exr"}, 2),
+              EndsWith(", valid, depth, normal, camera-normal, segmentation and mask; did you mean "
+                       "'object'?\n"));
+  EXPECT_THAT(refusal({"render", "square.obj", "--channels", "rgb", "-o", "no.exr"}, 2),
+              EndsWith(", valid, depth, normal, camera-normal, segmentation and mask\n"));
+  expect_done({"preview", "map.exr", "--channel", "depth", "-o", "depth.png"});
+  expect_done({"preview", "map.exr", "--channel", "normal", "-o", "normal.png"});
   EXPECT_EQ(refusal({"preview", "map.exr", "--channel", "z", "-o", "no.png"}, 2),
             "the map has no channel 'z', only N, Z; did you mean 'Z'?\n");
   EXPECT_EQ(refusal({"compare", "map.exr", "map.exr", "--channel", "depth"}, 2),

@@ -109,6 +109,34 @@ def test_metrics(map):
         fathom.compare(map, other, metrics="all")
 
 
+def test_a_png_holds_the_depths_unless_another_channel_is_named(map, tmp_path):
+    """As of `fathom render -o x.png`: Z, 1000 codes per scene unit."""
+    file = tmp_path / "x.png"
+    both = fathom.Map({"A": np.ones_like(map["Z"]), "Z": map["Z"]}, map.camera)
+    for each in (both, fathom.Map({"Z": map["Z"]})):
+        each.write(file)
+        again = fathom.read_map(file)
+        assert list(again) == ["Z"] and again.scale == 1000
+        assert np.array_equal(again["Z"], map.stored_as("uint16", channel="Z", scale=1000)["Z"])
+    codes = map.stored_as("uint16", channel="Z", scale=500)
+    codes.write(file)
+    assert fathom.read_map(file).scale == 500
+    both.write(file, scale=200)
+    assert fathom.read_map(file).scale == 200
+    with pytest.raises(fathom.UsageError, match="name the one to write"):
+        both.write(tmp_path / "x.pfm")
+
+
+def test_names_of_contents_are_those_of_the_program(spot, camera):
+    seen = spot.render(camera, channels=("depth", "normal", "segmentation", "mask"))
+    assert list(seen) == ["Z", "N", "object", "id"]
+    assert seen["depth"] is seen["Z"] and seen["normal"] is seen["N"] and seen["segmentation"] is seen["object"]
+    assert np.array_equal(seen["mask"], seen.mask()) and "depth" not in seen
+    assert list(spot.render(camera, channels="depth,Z")) == ["Z"]
+    with pytest.raises(KeyError, match="camera-normal"):
+        seen["camera-normal"]
+
+
 @pytest.mark.parametrize("suffix", ["pfm", "npy"])
 def test_single_channels(map, tmp_path, suffix):
     file = tmp_path / f"map.{suffix}"

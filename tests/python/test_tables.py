@@ -145,7 +145,7 @@ def test_the_header_for_c_has_every_cull():
 
 
 @pytest.mark.parametrize("name, words", {
-    "Channel": channels, "Cull": _core.culls, "Normals": _core.normal_sources, "Engine": _core.engines,
+    "Channel": [*channels, *_core.contents], "Cull": _core.culls, "Normals": _core.normal_sources, "Engine": _core.engines,
     "Compression": _core.compressions, "Mapping": _core.mappings, "Storage": _core.storages,
     "NormalAxes": _core.normal_axes,
     "Model": ["auto", *_core.model_names.split(", ")]}.items())

@@ -95,6 +95,9 @@ constexpr auto other_names = std::to_array<OtherName>({{"depth", "Z"},
                                                        {"mask", "object"},
                                                        {"instance", "object"},
                                                        {"segmentation", "object"},
+                                                       {"seg", "object"},
+                                                       {"semantic", "label"},
+                                                       {"semantics", "label"},
                                                        {"normal", "N"},
                                                        {"normals", "N"},
                                                        {"position", "P"},
@@ -117,6 +120,18 @@ std::string name_for_users(const DepthMap& map, const std::string& name) {
 UnknownName unknown_channel(const std::string& name) {
   return unknown_name("there is no channel '" + name + "'; there are " + channel_names(), name,
                       names_of_channels(), other_names);
+}
+
+const ContentsName* contents_named(std::string_view name) {
+  const auto* const found = std::ranges::find(contents_table, name, &ContentsName::name);
+  return found == contents_table.end() ? nullptr : found;
+}
+
+UnknownName unknown_contents(const std::string& name) {
+  std::vector<std::string> names = names_of_channels();
+  for (const ContentsName& each : contents_table) names.emplace_back(each.name);
+  return unknown_name("there is no channel '" + name + "'; there are " + joined(names), name, names,
+                      other_names);
 }
 
 std::vector<std::string> names_of_channels(const DepthMap& map) {

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fathom/failures/unknown_name.h"
+#include "fathom/image/channel_table.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/image/map_texts.h"
 
@@ -30,12 +33,36 @@ DepthMap with_channel_names(DepthMap map, const std::vector<ChannelName>& names)
 /// A text of another form is left unchanged: another program wrote it.
 DepthMap with_own_channel_names(DepthMap map);
 
+/// A name for a channel that those who make data sets know, or for a mask.
+struct ContentsName {
+  std::string_view name;
+  /// From which the mask is made, if it is one.
+  Channel channel;
+  bool is_mask;
+};
+
+/// The names besides the channels' own: help, completion, messages, parsers and Python take them
+/// from here.
+inline constexpr auto contents_table = std::to_array<ContentsName>({
+    {"depth", Channel::Z, false},
+    {"normal", Channel::N, false},
+    {"camera-normal", Channel::Nc, false},
+    {"segmentation", Channel::object, false},
+    {"mask", Channel::id, true},
+});
+
+/// nullptr if it is no name of the table.
+const ContentsName* contents_named(std::string_view name);
+
 // Errors about names of channels. They contain the existing names and suggest the intended one,
 // also for words of other programs ("depth" for Z).
 
 /// The error of a name that channel_named() does not know: "there is no channel 'depth'; there are
 /// Z, A, …; did you mean 'Z'?"
 UnknownName unknown_channel(const std::string& name);
+
+/// The same, of a name that contents_named() does not know either: it has these names, too.
+UnknownName unknown_contents(const std::string& name);
 
 /// The channels of a map as users name them: N where N.X, N.Y and N.Z are there, each once.
 std::vector<std::string> names_of_channels(const DepthMap& map);

@@ -245,6 +245,9 @@ RgbImage draw_preview(const DepthMap& map, const PreviewOptions& given) {
   const StandardArithmetic standard;
   require_valid(map);
   PreviewOptions options = given;
+  const ContentsName* const contents = contents_named(options.channel);
+  if (contents && !contents->is_mask && !map.find(options.channel))
+    options.channel = description_of(contents->channel).name;
   const auto use_colours = [&options](ColourMap colours) {
     if (!options.colours) options.colours = colours;
   };

@@ -210,8 +210,13 @@ void bind_render(Module& core) {
   core.def("render_stack", &render_stack);
   core.def("require_bytes", &require_bytes);
   core.def("array_in_small_pages", &array_in_small_pages);
-  core.def("unknown_channel",
-           [](const std::string& name) { return std::string(unknown_channel(name).what()); });
+  core.def("unknown_contents",
+           [](const std::string& name) { return std::string(unknown_contents(name).what()); });
+  py::dict contents;
+  for (const ContentsName& each : contents_table)
+    contents[py::str(std::string(each.name))] = std::string(description_of(each.channel).name);
+  core.attr("contents") = contents;
+  core.attr("png_scale") = DepthEncoding{}.scale;
   core.def("channels", [] {
     py::dict channels;
     for (const ChannelDescription& each : channel_table)

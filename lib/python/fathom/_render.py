@@ -162,8 +162,9 @@ def channel_names(channels: Channels) -> list[str]:
     for name in listed:
         if not isinstance(name, str):
             raise TypeError(f"channels: expected names, found {name!r}")
+        name = _core.contents.get(name, name)
         if name not in rendered:
-            raise ValueError(f"channels: {_core.unknown_channel(name)}")
+            raise ValueError(f"channels: {_core.unknown_contents(name)}")
         if name not in names:
             names.append(name)
     if not names:

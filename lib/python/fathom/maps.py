@@ -70,7 +70,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
 
     Map({"Z": depths}, camera, background=0) makes a map from your own arrays; add scale=1000 for
     uint16 codes. copy() and pickle keep everything. Channels are attributes, too: maps.Z is
-    maps["Z"].
+    maps["Z"]. The names of contents are found as well: maps["depth"] is maps["Z"], and maps["mask"]
+    is mask().
 
     >>> Map({"Z": np.array([[2, 2.5, np.inf]], np.float32)})
     Map(3×1 pixels; Z: float32, 2 to 2.5; surface in 66.67 %)
@@ -105,6 +106,15 @@ class Map(dict[str, "npt.NDArray[Any]"]):
 
     __copy__ = copy
 
+    def __missing__(self, name: str) -> npt.NDArray[Any]:
+        """Under the names that channels= takes besides the channels' own."""
+        if name == "mask":
+            return self.mask()
+        own = _core.contents.get(name)
+        if own not in self:
+            raise KeyError(name)
+        return self[own]
+
     def __reduce__(self) -> tuple[Any, ...]:
         views = None if self._views is None else [(camera, _state_of(each)) for camera, each in self._views]
         return _map_of_state, (dict(self), self.camera, _state_of(self._description), views)
@@ -136,14 +146,14 @@ class Map(dict[str, "npt.NDArray[Any]"]):
 
         .exr, .npz        all channels, with camera and metadata
         .npy, .pfm, .png  one channel, selected by `channel` if the map has several. .npy: also
-                          channels with several parts; .png: identifiers, codes of uint16, with
-                          `scale` depths, and normals (N, Nc, Ns) as RGB
+                          channels with several parts; .png: depths as codes of uint16 (Z, if the
+                          map has it), identifiers, and normals (N, Nc, Ns) as RGB
         .bin              a dense map of COLMAP: Z, or Nc if `channel` is Nc; 0 without a surface
         .tif              a GeoTIFF for other programs, a band per channel. The camera must be
                           orthographic and look straight along the world's z axis
 
-        scale  codes of uint16 per scene unit for a .png of depths, as by stored_as("uint16",
-               scale=…)
+        scale  codes of uint16 per scene unit for a .png of depths (default 1000), as by
+               stored_as("uint16", scale=…)
         normal_bits, normal_axes  of a .png of normals: 8 or 16 bits a colour, each (n + 1)/2·(2^bits
                − 1), rounded once, ties to even; 0, 0, 0 without a surface. "opengl" negates y and z
                of Nc, which has OpenCV's axes (x right, y down, z forward)
@@ -160,6 +170,10 @@ class Map(dict[str, "npt.NDArray[Any]"]):
             raise ValueError(f"channel: the map has no channel '{asked}', only {', '.join(self)}")
         compressed = as_text("compression", compression)
         handle = self._handle()
+        if os.fsdecode(path_of("file", file)).lower().endswith(".png"):
+            asked = asked or ("Z" if "Z" in self else "")
+            if scale is None and self._needs_codes(asked):
+                scale = _core.png_scale
         if scale is not None:
             if not os.fsdecode(path_of("file", file)).lower().endswith(".png"):
                 raise ValueError("scale: only .png holds codes; stored_as('uint16', scale=…) makes them for other formats")
@@ -170,6 +184,11 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         _core.write_map(handle, path_of("file", file), asked, compressed,
                         as_threads(threads), others, None if self.camera is None else camera_handle(self.camera),
                         as_count("normal_bits", normal_bits, 8, 16), one_of("normal_axes", normal_axes, normal_axes_names))
+
+    def _needs_codes(self, channel: str) -> bool:
+        """Whether the channel, "" for the only one, holds depths that are no codes."""
+        name = channel or next(iter(self))
+        return name in (*quantities, "Zlow") and self._channel(name).dtype.kind == "f"
 
     def write_mask(self, file: Path, *, object: int | None = None) -> None:
         """Writes mask() as an 8-bit PNG, 255 where the map has a surface and else 0, with the camera

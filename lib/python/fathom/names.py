@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from typing import Literal, Union
 
 Channel = Literal["Z", "A", "Zlow", "distance", "id", "face", "object", "material", "group", "part", "label", "N", "P",
-                  "bary", "Nc", "Ns", "valid"]
+                  "bary", "Nc", "Ns", "valid", "depth", "normal", "camera-normal", "segmentation", "mask"]
 #: Names, or a single string of names with commas between them.
 Channels = Union[Sequence[Channel], str]
 Cull = Literal["none", "back", "front"]

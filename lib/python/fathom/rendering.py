@@ -56,7 +56,8 @@ def render(
                   label), N (normal) and P (position), both in the world, bary (weights of the
                   triangle's second and third corner), Nc (normal in the camera frame), Ns
                   (interpolated normals of the corners, in the world), valid (1 where a lens has a
-                  ray)
+                  ray). The names depth, normal, camera-normal, segmentation and mask mean Z, N, Nc,
+                  object and id, and are found in the map
     near, far     range of planar depths that are rendered, in scene units
     cull          "back" or "front" leaves out triangles that face this way
     dtype         type of Z and distance: float32, float64, or uint16 for codes
