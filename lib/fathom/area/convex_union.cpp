@@ -145,8 +145,6 @@ Boundary boundary_of_difference(const ConvexPolygon& subject,
   return boundary;
 }
 
-namespace {
-
 // Green's theorem: the area is ½·Σ p × q over the segments from p to q. On the line
 // e: e_u·u + e_v·v + e_w = 0, q = p + (τ(to) − τ(from))·(e_v, −e_u), so that
 // p × q = (τ(to) − τ(from))·e_w, with the τ of compare_crossings().
@@ -162,8 +160,6 @@ std::vector<Ratio> terms_of_area(const Boundary& boundary) {
   }
   return terms;
 }
-
-}  // namespace
 
 Ratio exact_area(const Boundary& boundary) {
   return sum_of(terms_of_area(boundary));

@@ -36,6 +36,9 @@ Boundary boundary_of_union(std::span<const ConvexPolygon> polygons, TierCounts& 
 Boundary boundary_of_difference(const ConvexPolygon& subject,
                                 std::span<const ConvexPolygon> polygons, TierCounts& counts);
 
+/// Terms, for some of the segments, whose sum is the area that a boundary encloses.
+std::vector<Ratio> terms_of_area(const Boundary& boundary);
+
 /// The area that a boundary encloses, exactly; 0 if it is empty.
 Ratio exact_area(const Boundary& boundary);
 

@@ -64,17 +64,22 @@ std::optional<SurfaceRegion> surface_region(const ProjectedTriangle& t, const Ca
 }
 
 ImageCell::ImageCell(std::uint32_t column, std::uint32_t row, std::uint32_t width,
-                     std::uint32_t height) {
+                     std::uint32_t height)
+    : ImageCell(CellRectangle{static_cast<double>(column), static_cast<double>(row),
+                              static_cast<double>(column) + width,
+                              static_cast<double>(row) + height}) {}
+
+ImageCell::ImageCell(const CellRectangle& rectangle) {
+  const auto& [left, top, right, bottom] = rectangle;
   // u ≥ 0, v ≥ 0, u ≤ width, v ≤ height: each turns left from the one before.
   const std::array<ExactVector3, 4> sides{{{1.0, 0.0, 0.0},
                                            {0.0, 1.0, 0.0},
-                                           {-1.0, 0.0, static_cast<double>(width)},
-                                           {0.0, -1.0, static_cast<double>(height)}}};
+                                           {-1.0, 0.0, Dyadic(right) - Dyadic(left)},
+                                           {0.0, -1.0, Dyadic(bottom) - Dyadic(top)}}};
   std::vector<const HalfPlane*> edges;
   edges.reserve(sides.size());
   for (const ExactVector3& side : sides) edges.push_back(&half_planes_.emplace_back(side));
-  const double left = column, top = row;
-  all_.emplace(CellPart{ConvexPolygon(std::move(edges)), left, top, left + width, top + height});
+  all_.emplace(CellPart{ConvexPolygon(std::move(edges)), left, top, right, bottom});
 }
 
 std::optional<Sign> CellPart::sign_of(const LinearForm& form) const {

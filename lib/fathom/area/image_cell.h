@@ -82,11 +82,16 @@ struct CellPart {
   [[nodiscard]] std::optional<Sign> sign_of(const LinearForm& form) const;
 };
 
-/// A rectangle of the image whose corners are integers, for instance a pixel, and the convex pieces
-/// of it that triangles project to. Its coordinates begin at its own top left corner, so that
-/// numbers are small.
+/// Where a cell is on the image.
+struct CellRectangle {
+  double left, top, right, bottom;
+};
+
+/// A rectangle of the image, for instance a pixel, and the convex pieces of it that triangles
+/// project to. Its coordinates begin at its own top left corner, so that numbers are small.
 class ImageCell {
  public:
+  explicit ImageCell(const CellRectangle& rectangle);
   ImageCell(std::uint32_t column, std::uint32_t row, std::uint32_t width = 1,
             std::uint32_t height = 1);
   ImageCell(const ImageCell&) = delete;

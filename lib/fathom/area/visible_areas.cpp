@@ -1,9 +1,9 @@
 #include "fathom/area/visible_areas.h"
 
-#include "fathom/area/cell_coverage.h"
-#include "fathom/area/cell_division.h"
-#include "fathom/area/scene_surfaces.h"
-#include "fathom/area/visible_fragments.h"
+#include <numeric>
+#include <span>
+
+#include "fathom/area/plane/plane_areas.h"
 #include "fathom/numeric/real.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -14,18 +14,12 @@
 
 namespace fathom {
 using namespace area;
-using namespace triangle;
 
 namespace {
 
-/// Exact areas of a triangle.
-struct ExactAreas {
-  Ratio unoccluded;
-  /// The areas of the parts that are visible, and of those visible if its object were alone.
-  std::vector<Ratio> visible, in_object;
-};
+constexpr std::uint32_t chunk = 64;
 
-EnclosedSum enclosed_sum(const std::vector<Ratio>& terms) {
+EnclosedSum enclosed_sum(const Terms& terms) {
   EnclosedSum sum;
   for (const Ratio& term : terms) sum.add(term);
   return sum;
@@ -39,84 +33,6 @@ VisibleArea rounded(const Ratio& visible, const Ratio& unoccluded) {
   return area;
 }
 
-class SceneAreas {
- public:
-  SceneAreas(const CoverageFrame& frame, Progress& progress)
-      : triangles_(frame.triangles), surfaces_(frame, progress) {}
-
-  [[nodiscard]] std::uint32_t count() const { return surfaces_.count(); }
-  [[nodiscard]] std::uint32_t object_of(std::uint32_t number) const {
-    return triangles_.origin(number).object;
-  }
-
-  /// Everything happens within the box of the triangle.
-  [[nodiscard]] ExactAreas of(std::uint32_t number) const {
-    const SurfaceRegion* surface = surfaces_.surface(number);
-    if (!surface) return {};
-    ImageCell cell = cell_of(surfaces_.box(number));
-    CellVisibility all(cell);
-    if (!all.add(*surface)) return {};
-    CellVisibility in_object = all;
-    // By triangles of any object, and of its own.
-    CoveredParts hidden(cell, all.polygon(0)), hidden_in_object = hidden;
-    bool is_hidden = !surfaces_.is_first(number);
-    bool is_hidden_in_object = !surfaces_.is_first_of_object(number);
-    bool are_same = is_hidden == is_hidden_in_object;
-    std::vector<std::uint32_t> others;
-    if (!is_hidden || !is_hidden_in_object) others = surfaces_.in_front(number);
-    for (const std::uint32_t other : others) {
-      check_interruption();
-      const bool counts = !is_hidden && surfaces_.is_first(other);
-      const bool counts_in_object = !is_hidden_in_object && object_of(other) == object_of(number) &&
-                                    surfaces_.is_first_of_object(other);
-      if (!counts && !counts_in_object) continue;
-      const auto part = all.add_if_it_hides(*surfaces_.surface(other), 0);
-      if (!part) continue;
-      const bool added = counts && hidden.add(*part);
-      const bool added_in_object = counts_in_object && hidden_in_object.add(*part);
-      if (added_in_object) in_object.add_last_of(all);
-      if (!added) all.drop_last();
-      are_same &= added == added_in_object;
-      is_hidden |= hidden.is_all();
-      is_hidden_in_object |= hidden_in_object.is_all();
-    }
-    ExactAreas areas;
-    const ConvexPolygon polygons[] = {all.polygon(0)};
-    TierCounts counts;
-    areas.unoccluded = exact_area(boundary_of_union(polygons, counts));
-    if (!is_hidden) areas.visible = visible_parts(std::move(all), areas.unoccluded);
-    if (are_same) {
-      areas.in_object = areas.visible;
-    } else if (!is_hidden_in_object) {
-      areas.in_object = visible_parts(std::move(in_object), areas.unoccluded);
-    }
-    return areas;
-  }
-
- private:
-  /// The parts of the first piece that the others leave.
-  static std::vector<Ratio> visible_parts(CellVisibility pieces, const Ratio& unoccluded) {
-    if (pieces.size() == 1) return {unoccluded};
-    const SurfaceRegion& surface = pieces.surface(0);
-    std::vector<Ratio> parts;
-    divide(std::move(pieces), [&](CellVisibility& part) {
-      for (std::size_t piece = 0; piece < part.size(); ++piece) {
-        if (&part.surface(piece) != &surface) continue;
-        const Boundary boundary = part.visible(piece);
-        if (!boundary.empty()) parts.push_back(exact_area(boundary));
-      }
-    });
-    return parts;
-  }
-
-  TriangleSource triangles_;
-  SceneSurfaces surfaces_;
-};
-
-struct ObjectSums {
-  EnclosedSum visible, in_object;
-};
-
 /// The areas and their ratio, if enclosures settle how they round.
 std::optional<VisibleArea> settled(const Enclosure& visible, const Enclosure& alone) {
   if (alone.low.sign() == Sign::zero) return std::nullopt;
@@ -129,68 +45,189 @@ std::optional<VisibleArea> settled(const Enclosure& visible, const Enclosure& al
   return VisibleArea{low.visible, low.unoccluded, least};
 }
 
-VisibleArea rounded(const ExactAreas& areas) {
-  constexpr std::size_t few = 4;
-  if (areas.visible.size() > few) {
-    const Enclosure alone{areas.unoccluded, areas.unoccluded};
-    if (const auto area = settled(enclosed_sum(areas.visible).get(), alone)) return *area;
-  }
-  return rounded(sum_of(areas.visible), areas.unoccluded);
+/// Numbers of the triangles of an object, or of all.
+std::vector<std::uint32_t> numbers_from(std::uint32_t first, std::uint32_t end) {
+  std::vector<std::uint32_t> numbers(end - first);
+  std::iota(numbers.begin(), numbers.end(), first);
+  return numbers;
 }
 
-/// Rounds the exact areas of an object, where their enclosures do not settle how they round.
-VisibleArea rounded_exactly(const SceneAreas& areas, std::uint32_t object) {
-  std::vector<Ratio> visible, in_object;
-  for (std::uint32_t number = 0; number < areas.count(); ++number) {
-    check_interruption();
-    if (areas.object_of(number) != object) continue;
-    const ExactAreas exact = areas.of(number);
-    visible.insert(visible.end(), exact.visible.begin(), exact.visible.end());
-    in_object.insert(in_object.end(), exact.in_object.begin(), exact.in_object.end());
-  }
-  return rounded(sum_of(std::move(visible)), sum_of(std::move(in_object)));
-}
+/// What is visible of some triangles of a scene, with all others removed.
+class VisiblePart {
+ public:
+  VisiblePart(const ProjectedScene& scene, std::uint32_t first, std::uint32_t end,
+              const std::function<void()>& part_done)
+      : scene_(scene),
+        mesh_(scene, numbers_from(first, end)),
+        areas_(mesh_, {.image = true}, part_done) {}
 
-VisibleArea rounded(const SceneAreas& areas, const ObjectSums& sums, std::uint32_t object) {
-  const Enclosure visible = sums.visible.get(), alone = sums.in_object.get();
-  if (alone.high.sign() == Sign::zero) return {};
-  if (const auto area = settled(visible, alone)) return *area;
-  return rounded_exactly(areas, object);
-}
-
-VisibleAreas areas_in_arena(const CoverageFrame& frame,
-                            const std::function<void(double)>& progress) {
-  constexpr std::uint32_t chunk = 64;
-  const std::uint32_t chunks = frame.triangles.count() / chunk + 1;
-  Progress done(progress, SceneSurfaces::parts(frame.triangles.count()) + chunks);
-  const SceneAreas areas(frame, done);
-  const std::size_t objects = frame.triangles.objects().size();
-  VisibleAreas result;
-  result.triangles.resize(areas.count());
-  PerThread<std::vector<ObjectSums>> parts([&] { return std::vector<ObjectSums>(objects); });
-  parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t k) {
-    const std::uint32_t end = std::min(areas.count(), (k + 1) * chunk);
-    for (std::uint32_t number = k * chunk; number < end; ++number) {
-      const ExactAreas exact = areas.of(number);
-      result.triangles[number] = rounded(exact);
-      ObjectSums& sums = parts.local()[areas.object_of(number)];
-      sums.visible.add(enclosed_sum(exact.visible));
-      sums.in_object.add(enclosed_sum(exact.in_object));
+  /// Calls visit(number, visibility, terms) for triangles that are not hidden, among some of the
+  /// mesh.
+  template <class Visit>
+  void visit(std::uint32_t first, std::uint32_t end, const Visit& visit) const {
+    for (std::uint32_t i = first; i < end; ++i) {
+      if (areas_.visibility(i) == Visibility::hidden) continue;
+      visit(mesh_.number(i), areas_.visibility(i), areas_.terms(i).image);
     }
-    done.part_done();
-  });
-  std::vector<ObjectSums> sums(objects);
-  parts.for_each([&](const std::vector<ObjectSums>& part) {
-    for (std::size_t object = 0; object < objects; ++object) {
-      sums[object].visible.add(part[object].visible);
-      sums[object].in_object.add(part[object].in_object);
-    }
-  });
-  for (std::uint32_t object = 0; object < objects; ++object) {
-    result.objects.push_back(rounded(areas, sums[object], object));
   }
-  return result;
-}
+  [[nodiscard]] std::uint32_t size() const { return mesh_.size(); }
+
+  /// Adds the terms of triangles to sums, each to that of its object.
+  [[nodiscard]] std::vector<EnclosedSum> sums(const TriangleSource& triangles) const {
+    PerThread<std::vector<EnclosedSum>> parts(
+        [&] { return std::vector<EnclosedSum>(triangles.objects().size()); });
+    in_parallel(size() / chunk + 1, [&](std::size_t k) {
+      std::vector<EnclosedSum>& sums = parts.local();
+      const auto first = static_cast<std::uint32_t>(k * chunk);
+      visit(first, std::min(size(), first + chunk), [&](auto number, auto visibility, auto& terms) {
+        EnclosedSum& sum = sums[triangles.origin(number).object];
+        if (visibility == Visibility::whole) sum.add(scene_.own_area(number));
+        for (const Ratio& term : terms) sum.add(term);
+      });
+    });
+    std::vector<EnclosedSum> all(triangles.objects().size());
+    parts.for_each([&](const std::vector<EnclosedSum>& part) {
+      for (std::size_t k = 0; k < all.size(); ++k) all[k].add(part[k]);
+    });
+    return all;
+  }
+
+  /// The area of what is visible of an object, exactly.
+  [[nodiscard]] Ratio exact_area(const TriangleSource& triangles, std::uint32_t object) const {
+    Terms all;
+    visit(0, size(), [&](auto number, auto visibility, auto& terms) {
+      check_interruption();
+      if (triangles.origin(number).object != object) return;
+      if (visibility == Visibility::whole) all.push_back(scene_.own_area(number));
+      all.insert(all.end(), terms.begin(), terms.end());
+    });
+    return sum_of(std::move(all));
+  }
+
+ private:
+  const ProjectedScene& scene_;
+  PlaneMesh mesh_;
+  PlaneAreas areas_;
+};
+
+class SceneAreas {
+ public:
+  SceneAreas(const CoverageFrame& frame, const std::function<void(double)>& progress)
+      : triangles_(frame.triangles),
+        done_(progress, parts(frame.triangles)),
+        scene_(frame, done_),
+        all_(scene_, 0, scene_.count(), [&] { done_.part_done(); }) {}
+
+  VisibleAreas areas() {
+    VisibleAreas result;
+    result.triangles.resize(scene_.count());
+    add_unoccluded(result);
+    add_visible(result);
+    add_objects(result);
+    return result;
+  }
+
+ private:
+  static std::uint64_t parts(const TriangleSource& triangles) {
+    const std::uint64_t runs = triangles.objects().size() > 1 ? triangles.objects().size() + 1 : 1;
+    return ProjectedScene::parts(triangles) + runs * PlaneAreas::parts + triangles.count() / chunk +
+           1;
+  }
+
+  /// The area of a triangle within the image, if nothing hides it.
+  [[nodiscard]] Ratio unoccluded(std::uint32_t number) const {
+    switch (scene_.extent(number)) {
+      case TriangleExtent::none:
+        return {};
+      case TriangleExtent::within_image:
+        return scene_.own_area(number);
+      case TriangleExtent::elsewhere:
+        break;
+    }
+    return sum_of(terms_alone(scene_, number, {.image = true}).image);
+  }
+
+  void add_unoccluded(VisibleAreas& result) {
+    in_parallel(scene_.count() / chunk + 1, [&](std::size_t k) {
+      check_interruption();
+      const auto first = static_cast<std::uint32_t>(k * chunk);
+      for (std::uint32_t number = first; number < std::min(scene_.count(), first + chunk);
+           ++number) {
+        result.triangles[number] = rounded(Ratio(), unoccluded(number));
+      }
+      done_.part_done();
+    });
+  }
+
+  void add_visible(VisibleAreas& result) const {
+    in_parallel(all_.size() / chunk + 1, [&](std::size_t k) {
+      check_interruption();
+      const auto first = static_cast<std::uint32_t>(k * chunk);
+      all_.visit(first, std::min(all_.size(), first + chunk),
+                 [&](auto number, auto visibility, auto& terms) {
+                   VisibleArea& area = result.triangles[number];
+                   if (visibility == Visibility::whole) {
+                     area.visible = area.unoccluded;
+                     area.ratio = 1;
+                   } else {
+                     area = area_of(terms, unoccluded(number));
+                   }
+                 });
+    });
+  }
+
+  static VisibleArea area_of(const Terms& terms, const Ratio& alone) {
+    constexpr std::size_t few = 4;
+    if (terms.size() > few) {
+      if (const auto area = settled(enclosed_sum(terms).get(), {alone, alone})) return *area;
+    }
+    return rounded(sum_of(terms), alone);
+  }
+
+  void add_objects(VisibleAreas& result) {
+    const std::vector<EnclosedSum> visible = all_.sums(triangles_);
+    const auto objects = static_cast<std::uint32_t>(triangles_.objects().size());
+    std::uint32_t first = 0;
+    for (std::uint32_t object = 0; object < objects; ++object) {
+      const std::uint32_t end = end_of(object, first);
+      result.objects.push_back(area_of(object, first, end, visible));
+      first = end;
+    }
+  }
+
+  /// The end of the numbers of an object's triangles, which begin at `first`.
+  [[nodiscard]] std::uint32_t end_of(std::uint32_t object, std::uint32_t first) const {
+    std::uint32_t low = first, high = scene_.count();
+    while (low < high) {
+      const std::uint32_t middle = low + (high - low) / 2;
+      if (triangles_.origin(middle).object > object) {
+        high = middle;
+      } else {
+        low = middle + 1;
+      }
+    }
+    return low;
+  }
+
+  VisibleArea area_of(std::uint32_t object, std::uint32_t first, std::uint32_t end,
+                      const std::vector<EnclosedSum>& visible) {
+    const bool is_all = triangles_.objects().size() == 1;
+    std::optional<VisiblePart> its;
+    if (!is_all) its.emplace(scene_, first, end, [&] { done_.part_done(); });
+    const VisiblePart& alone = is_all ? all_ : *its;
+    const Enclosure of_visible = visible[object].get(),
+                    of_alone = is_all ? of_visible : alone.sums(triangles_)[object].get();
+    if (of_alone.high.sign() == Sign::zero) return {};
+    if (const auto area = settled(of_visible, of_alone)) return *area;
+    return rounded(all_.exact_area(triangles_, object),
+                           alone.exact_area(triangles_, object));
+  }
+
+  const TriangleSource& triangles_;
+  Progress done_;
+  ProjectedScene scene_;
+  VisiblePart all_;
+};
 
 }  // namespace
 
@@ -200,7 +237,8 @@ VisibleAreas visible_areas(const TriangleSource& triangles, const Camera& camera
   const StandardArithmetic standard;
   return with_threads(options.threads, [&] {
     require_renderable(triangles, camera);
-    return areas_in_arena({triangles, camera, options.cull}, progress);
+    const CoverageFrame frame{triangles, camera, options.cull};
+    return SceneAreas(frame, progress).areas();
   });
 }
 

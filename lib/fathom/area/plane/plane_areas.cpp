@@ -1,0 +1,130 @@
+#include "fathom/area/plane/plane_areas.h"
+
+#include <algorithm>
+#include <iterator>
+#include <mutex>
+#include <optional>
+#include <span>
+
+#include "fathom/area/cell_division.h"
+#include "fathom/area/visible_fragments.h"
+#include "fathom/threads/interruption.h"
+
+namespace fathom::area {
+namespace {
+
+ImageCell cell_of(const PlanePart& part) {
+  return ImageCell(CellRectangle{part.left, part.top, part.right, part.bottom});
+}
+
+void append(Terms& all, Terms&& some) {
+  if (all.empty()) {
+    all = std::move(some);
+  } else {
+    std::move(some.begin(), some.end(), std::back_inserter(all));
+  }
+}
+
+void append(SurfaceTerms& all, SurfaceTerms&& some) {
+  append(all.image, std::move(some.image));
+  append(all.share, std::move(some.share));
+  append(all.beta, std::move(some.beta));
+  append(all.gamma, std::move(some.gamma));
+}
+
+SurfaceTerms terms_of_clip(const SurfaceRegion& surface, const PlanePart& part,
+                           const WantedTerms& wanted) {
+  SurfaceTerms terms;
+  ImageCell cell = cell_of(part);
+  TierCounts counts;
+  if (const auto piece = cell.clip(surface.region, counts)) {
+    add_terms(terms, boundary_of(piece->polygon), cell, surface, wanted);
+  }
+  return terms;
+}
+
+}  // namespace
+
+PlaneAreas::PlaneAreas(const PlaneMesh& mesh, const WantedTerms& wanted,
+                       const std::function<void()>& part_done)
+    : mesh_(mesh),
+      wanted_(wanted),
+      resolved_(resolve(mesh, mesh.scene().image())),
+      visibility_(mesh.size(), Visibility::hidden),
+      place_(mesh.size(), 0) {
+  const PlanePart& image = mesh.scene().image();
+  std::uint32_t places = 0;
+  for (std::uint32_t i = 0; i < mesh.size(); ++i) {
+    const PartFlags flags = resolved_.flags[i];
+    if ((flags & (is_seen_somewhere | is_crowded_somewhere)) == 0) continue;
+    const bool is_whole =
+        flags == is_seen_somewhere && mesh.is_regular(i) && mesh.box(i).is_inside(image);
+    visibility_[i] = is_whole ? Visibility::whole : Visibility::partly;
+    if (!is_whole) place_[i] = places++;
+  }
+  terms_.resize(places);
+  // Pieces of about equal size, in steps of which a report tells.
+  const std::size_t crowded = resolved_.crowded.size(), all = crowded + resolved_.clips.size();
+  for (std::size_t step = 0; step < parts; ++step) {
+    const std::size_t first = all * step / parts, end = all * (step + 1) / parts;
+    in_parallel(end - first, [&](std::size_t k) {
+      const std::size_t i = first + k;
+      if (i < crowded) {
+        add_crowded(resolved_.crowded[i]);
+      } else {
+        add_clip(resolved_.clips[i - crowded]);
+      }
+    });
+    part_done();
+  }
+}
+
+const SurfaceTerms& PlaneAreas::terms(std::uint32_t i) const {
+  static const SurfaceTerms none;
+  return visibility_[i] == Visibility::partly ? terms_[place_[i]] : none;
+}
+
+void PlaneAreas::add(std::uint32_t i, SurfaceTerms&& terms) {
+  // So many that threads seldom wait for each other.
+  static std::array<std::mutex, 64> mutexes;
+  const std::lock_guard lock(mutexes[i % mutexes.size()]);
+  append(terms_[place_[i]], std::move(terms));
+}
+
+void PlaneAreas::add_crowded(const CrowdedPart& crowded) {
+  check_interruption();
+  std::vector<SurfaceRegion> surfaces;
+  std::vector<const SurfaceRegion*> pointers;
+  surfaces.reserve(crowded.triangles.size());
+  for (const std::uint32_t i : crowded.triangles) {
+    surfaces.push_back(mesh_.scene().surface(mesh_.number(i)));
+  }
+  for (const SurfaceRegion& surface : surfaces) pointers.push_back(&surface);
+  ImageCell cell = cell_of(crowded.part);
+  CellVisibility pieces(cell);
+  pieces.add_visible(pointers);
+  divide(std::move(pieces), [&](CellVisibility& part) {
+    for (std::size_t piece = 0; piece < part.size(); ++piece) {
+      const Boundary boundary = part.visible(piece);
+      if (boundary.empty()) continue;
+      const SurfaceRegion& surface = part.surface(piece);
+      SurfaceTerms terms;
+      add_terms(terms, boundary, cell, surface, wanted_);
+      add(crowded.triangles[static_cast<std::size_t>(&surface - surfaces.data())],
+          std::move(terms));
+    }
+  });
+}
+
+void PlaneAreas::add_clip(const VisibleClip& clip) {
+  if (visibility_[clip.triangle] != Visibility::partly) return;
+  const SurfaceRegion surface = mesh_.scene().surface(mesh_.number(clip.triangle));
+  add(clip.triangle, terms_of_clip(surface, clip.part, wanted_));
+}
+
+SurfaceTerms terms_alone(const ProjectedScene& scene, std::uint32_t number,
+                         const WantedTerms& wanted) {
+  return terms_of_clip(scene.surface(number), scene.image(), wanted);
+}
+
+}  // namespace fathom::area

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "fathom/area/plane/resolve.h"
+#include "fathom/area/plane/surface_terms.h"
+
+namespace fathom::area {
+
+/// How much of a triangle is visible.
+enum class Visibility : std::uint8_t { hidden, whole, partly };
+
+/// What is visible of the triangles of a mesh within the image, exactly: combinatorics by parts,
+/// and terms of the areas of those triangles that are visible in part.
+class PlaneAreas {
+ public:
+  /// Calls `part_done` so many times.
+  static constexpr std::uint64_t parts = 64;
+  PlaneAreas(
+      const PlaneMesh& mesh, const WantedTerms& wanted,
+      const std::function<void()>& part_done = [] {});
+
+  /// Of triangle i of the mesh. A triangle that reaches beyond the image is at most `partly`
+  /// visible, and so is one that is known by its forms.
+  [[nodiscard]] Visibility visibility(std::uint32_t i) const { return visibility_[i]; }
+  /// The terms of what is visible of triangle i; none of them if it is not partly visible, or if
+  /// nothing of it is.
+  [[nodiscard]] const SurfaceTerms& terms(std::uint32_t i) const;
+  [[nodiscard]] const ResolvedParts& resolved() const { return resolved_; }
+
+ private:
+  void add_crowded(const CrowdedPart& crowded);
+  void add_clip(const VisibleClip& clip);
+  void add(std::uint32_t i, SurfaceTerms&& terms);
+
+  const PlaneMesh& mesh_;
+  WantedTerms wanted_;
+  ResolvedParts resolved_;
+  std::vector<Visibility> visibility_;
+  std::vector<SurfaceTerms> terms_;
+  /// Where the terms of a triangle are.
+  std::vector<std::uint32_t> place_;
+};
+
+/// The terms of all that the image shows of a triangle that nothing hides.
+SurfaceTerms terms_alone(const ProjectedScene& scene, std::uint32_t number,
+                         const WantedTerms& wanted);
+
+}  // namespace fathom::area

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fathom/area/coverage.h"
+#include "fathom/area/image_cell.h"
+#include "fathom/area/plane/certain_sides.h"
+#include "fathom/threads/threads.h"
+
+namespace fathom::area {
+
+/// How the engine of parts treats a triangle.
+enum class TriangleKind : std::uint8_t {
+  absent,   // seen edge on, culled, or nowhere in front of the camera and within its range
+  regular,  // all of it is, and its corners are known well enough in binary64
+  by_forms  // others: only their exact forms count
+};
+
+/// Where the area of a triangle certainly is: nowhere in the image, or all of it inside.
+enum class TriangleExtent : std::uint8_t { none, within_image, elsewhere };
+
+/// All triangles of a scene on the image plane of a camera without a lens. Vertices at the same
+/// exact place are one vertex, so that neighbours know their common edge by two numbers.
+///
+/// Does not hold exact forms of regular triangles, which are made when they are asked for.
+class ProjectedScene {
+ public:
+  /// Reports count() parts of its work to `progress`.
+  ProjectedScene(const CoverageFrame& frame, Progress& progress);
+  static std::uint64_t parts(const TriangleSource& triangles);
+
+  [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(kinds_.size()); }
+  [[nodiscard]] TriangleKind kind(std::uint32_t number) const { return kinds_[number]; }
+  /// Numbers of the vertices of a triangle that is not absent. Of a regular triangle they go round
+  /// with a positive area, whichever side is seen.
+  [[nodiscard]] const CornerIndices& corners(std::uint32_t number) const {
+    return corners_[number];
+  }
+  [[nodiscard]] const BoundedPoint& point(std::uint32_t vertex) const { return points_[vertex]; }
+  [[nodiscard]] const Interval& depth(std::uint32_t vertex) const { return depths_[vertex]; }
+  /// The whole image.
+  [[nodiscard]] const PlanePart& image() const { return image_; }
+
+  /// The exact forms of a triangle that is not absent.
+  [[nodiscard]] SurfaceRegion surface(std::uint32_t number) const;
+  /// The surface of a triangle of kind by_forms, which is kept.
+  [[nodiscard]] const SurfaceRegion& kept_surface(std::uint32_t number) const {
+    return by_forms_.at(number);
+  }
+  /// Where the area of a triangle is.
+  [[nodiscard]] TriangleExtent extent(std::uint32_t number) const;
+  /// The whole area of a regular triangle in pixels, also outside the image.
+  [[nodiscard]] Ratio own_area(std::uint32_t number) const;
+
+ private:
+  struct ExactVertex {
+    Dyadic U, V, depth;
+  };
+  class VertexNumbers;
+
+  void add_part(const CoverageFrame& frame, const TriangleSource::Part& part,
+                VertexNumbers& numbers);
+  void classify(const CoverageFrame& frame, std::uint32_t number);
+  [[nodiscard]] ExactVector3 homogeneous(std::uint32_t vertex) const;
+  [[nodiscard]] Sign orientation(const CornerIndices& corners) const;
+
+  bool is_perspective_;
+  PlanePart image_;
+  std::vector<ExactVertex> vertices_;
+  std::vector<BoundedPoint> points_;
+  std::vector<Interval> depths_;
+  std::vector<CornerIndices> corners_;
+  std::vector<TriangleKind> kinds_;
+  std::map<std::uint32_t, SurfaceRegion> by_forms_;
+};
+
+}  // namespace fathom::area

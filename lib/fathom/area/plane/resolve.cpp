@@ -1,0 +1,180 @@
+#include "fathom/area/plane/resolve.h"
+
+#include <algorithm>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "fathom/numeric/double_word.h"
+#include "fathom/threads/interruption.h"
+#include "fathom/threads/per_thread.h"
+#include "fathom/threads/threads.h"
+
+namespace fathom::area {
+namespace {
+
+/// So few triangles are not divided any further.
+constexpr std::size_t few = 16;
+/// A part has at most so many cuts on its way from the whole.
+constexpr int most_cuts = 48;
+/// A cut is in vain if the halves have many more triangles together than the part.
+constexpr int cuts_in_vain = 4;
+/// Parts of so few triangles are one task of a thread.
+constexpr std::size_t triangles_of_task = 4096;
+
+struct Work {
+  PlanePart part;
+  std::vector<std::uint32_t> triangles;
+  int cuts = most_cuts;
+  int in_vain = cuts_in_vain;
+};
+
+/// The middle, if binary64 has it and it lies between the ends.
+std::optional<double> exact_middle(double from, double to) {
+  const WordPair sum = two_sum(from, to);
+  const double middle = sum.hi / 2;
+  if (sum.lo != 0 || !(from < middle && middle < to)) return std::nullopt;
+  return middle;
+}
+
+/// Across the longer side.
+std::optional<std::pair<PlanePart, PlanePart>> halves(const PlanePart& part) {
+  PlanePart first = part, second = part;
+  const bool across = part.right - part.left >= part.bottom - part.top;
+  const auto middle =
+      across ? exact_middle(part.left, part.right) : exact_middle(part.top, part.bottom);
+  if (!middle) return std::nullopt;
+  (across ? first.right : first.bottom) = *middle;
+  (across ? second.left : second.top) = *middle;
+  return std::pair(first, second);
+}
+
+class Resolver {
+ public:
+  explicit Resolver(const PlaneMesh& mesh) : mesh_(mesh), finder_(mesh) {
+    result_.flags.resize(mesh.size());
+  }
+
+  /// Ends the part, or adds its halves to `rest`.
+  void resolve(Work work, std::vector<Work>& rest) {
+    check_interruption();
+    ++result_.parts;
+    result_.triangles_in_parts += work.triangles.size();
+    if (drop_hidden(work)) return;
+    if (work.triangles.size() <= few || !cut(work, rest)) {
+      for (const std::uint32_t i : work.triangles) result_.flags[i] |= is_crowded_somewhere;
+      result_.crowded.push_back({work.part, std::move(work.triangles)});
+    }
+  }
+  [[nodiscard]] const ResolvedParts& result() const { return result_; }
+
+ private:
+  /// Returns whether the part is simple or empty.
+  bool drop_hidden(Work& work) {
+    if (work.triangles.empty()) return true;
+    std::vector<Interval> depths;
+    depths.reserve(work.triangles.size());
+    for (const std::uint32_t i : work.triangles) depths.push_back(depth_in(mesh_, i, work.part));
+    const std::vector<Sheet> sheets = finder_.sheets(work.part, work.triangles);
+    const Sheet* cover = nullptr;
+    double farthest = std::numeric_limits<double>::infinity();
+    for (const Sheet& sheet : sheets) {
+      if (sheet.count == 0) continue;
+      double its = -std::numeric_limits<double>::infinity();
+      for (const std::uint32_t member : sheet.members) its = std::max(its, depths[member].upper);
+      if (its >= farthest) continue;
+      cover = &sheet;
+      farthest = its;
+    }
+    if (!cover) return false;
+    std::vector<std::uint32_t> left;
+    for (std::size_t k = 0; k < work.triangles.size(); ++k) {
+      if (depths[k].lower > farthest) {
+        result_.flags[work.triangles[k]] |= is_hidden_somewhere;
+      } else {
+        left.push_back(work.triangles[k]);
+      }
+    }
+    work.triangles = std::move(left);
+    if (cover->count != 1 || work.triangles.size() != cover->members.size()) return false;
+    for (const std::uint32_t i : work.triangles) add_visible(i, work.part);
+    return true;
+  }
+
+  void add_visible(std::uint32_t i, const PlanePart& part) {
+    result_.flags[i] |= is_seen_somewhere;
+    if (mesh_.is_regular(i) && mesh_.box(i).is_inside(part)) return;
+    result_.clips.push_back({i, part});
+  }
+
+  bool cut(const Work& work, std::vector<Work>& rest) {
+    if (work.cuts == 0) return false;
+    const auto parts = halves(work.part);
+    if (!parts) return false;
+    Work first{parts->first, {}, work.cuts - 1, work.in_vain};
+    Work second{parts->second, {}, work.cuts - 1, work.in_vain};
+    for (const std::uint32_t i : work.triangles) {
+      if (!misses(mesh_, i, first.part)) first.triangles.push_back(i);
+      if (!misses(mesh_, i, second.part)) second.triangles.push_back(i);
+    }
+    if (2 * (first.triangles.size() + second.triangles.size()) > 3 * work.triangles.size()) {
+      if (work.in_vain == 0) return false;
+      --first.in_vain;
+      --second.in_vain;
+    }
+    rest.push_back(std::move(first));
+    rest.push_back(std::move(second));
+    return true;
+  }
+
+  const PlaneMesh& mesh_;
+  SheetFinder finder_;
+  ResolvedParts result_;
+};
+
+void add(ResolvedParts& all, const ResolvedParts& some) {
+  for (std::size_t i = 0; i < some.flags.size(); ++i) all.flags[i] |= some.flags[i];
+  all.clips.insert(all.clips.end(), some.clips.begin(), some.clips.end());
+  all.crowded.insert(all.crowded.end(), some.crowded.begin(), some.crowded.end());
+  all.parts += some.parts;
+  all.triangles_in_parts += some.triangles_in_parts;
+}
+
+}  // namespace
+
+ResolvedParts resolve(const PlaneMesh& mesh, const PlanePart& whole) {
+  Work all{whole, {}};
+  for (std::uint32_t i = 0; i < mesh.size(); ++i) {
+    if (!misses(mesh, i, whole)) all.triangles.push_back(i);
+  }
+  // Large parts first, one after the other; then small ones at the same time.
+  Resolver of_large(mesh);
+  std::vector<Work> large, small;
+  large.push_back(std::move(all));
+  while (!large.empty()) {
+    Work work = std::move(large.back());
+    large.pop_back();
+    if (work.triangles.size() <= triangles_of_task) {
+      small.push_back(std::move(work));
+    } else {
+      of_large.resolve(std::move(work), large);
+    }
+  }
+  PerThread<Resolver> of_small([&] { return Resolver(mesh); });
+  in_parallel(small.size(), [&](std::size_t k) {
+    Resolver& resolver = of_small.local();
+    std::vector<Work> rest;
+    rest.push_back(std::move(small[k]));
+    while (!rest.empty()) {
+      Work work = std::move(rest.back());
+      rest.pop_back();
+      resolver.resolve(std::move(work), rest);
+    }
+  });
+  ResolvedParts result = of_large.result();
+  of_small.for_each([&](const Resolver& resolver) { add(result, resolver.result()); });
+  return result;
+}
+
+}  // namespace fathom::area
