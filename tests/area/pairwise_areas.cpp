@@ -1,34 +1,18 @@
-#include "fathom/area/reference_areas.h"
+#include "tests/area/pairwise_areas.h"
 
-#include "fathom/area/area_rounding.h"
 #include "fathom/area/cell_coverage.h"
 #include "fathom/area/cell_division.h"
-#include "fathom/area/scene_surfaces.h"
 #include "fathom/area/visible_fragments.h"
-#include "fathom/numeric/real.h"
 #include "fathom/numeric/rounding.h"
-#include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/scene/scene_fault.h"
-#include "fathom/threads/interruption.h"
-#include "fathom/threads/per_thread.h"
-#include "fathom/threads/threads.h"
 
-namespace fathom {
+namespace fathom::testing {
 using namespace area;
-using namespace triangle;
 
 namespace {
 
-/// Exact areas of a triangle.
-struct ExactAreas {
-  Ratio unoccluded;
-  /// The areas of the parts that are visible, and of those visible if its object were alone.
-  std::vector<Ratio> visible, in_object;
-};
-
-class SceneAreas {
+class SceneByPairs {
  public:
-  SceneAreas(const CoverageFrame& frame, Progress& progress)
+  SceneByPairs(const CoverageFrame& frame, Progress& progress)
       : triangles_(frame.triangles), surfaces_(frame, progress) {}
 
   [[nodiscard]] std::uint32_t count() const { return surfaces_.count(); }
@@ -37,7 +21,7 @@ class SceneAreas {
   }
 
   /// Everything happens within the box of the triangle.
-  [[nodiscard]] ExactAreas of(std::uint32_t number) const {
+  [[nodiscard]] PairwiseAreas of(std::uint32_t number) const {
     const SurfaceRegion* surface = surfaces_.surface(number);
     if (!surface) return {};
     ImageCell cell = cell_of(surfaces_.box(number));
@@ -67,7 +51,7 @@ class SceneAreas {
       is_hidden |= hidden.is_all();
       is_hidden_in_object |= hidden_in_object.is_all();
     }
-    ExactAreas areas;
+    PairwiseAreas areas;
     const ConvexPolygon polygons[] = {all.polygon(0)};
     TierCounts counts;
     areas.unoccluded = exact_area(boundary_of_union(polygons, counts));
@@ -100,83 +84,42 @@ class SceneAreas {
   SceneSurfaces surfaces_;
 };
 
-struct ObjectSums {
-  EnclosedSum visible, in_object;
-};
-
-VisibleArea rounded(const ExactAreas& areas) {
-  constexpr std::size_t few = 4;
-  if (areas.visible.size() > few) {
-    const Enclosure alone{areas.unoccluded, areas.unoccluded};
-    if (const auto area = settled(enclosed_sum(areas.visible).get(), alone)) return *area;
+VisibleArea rounded(const Ratio& visible, const Ratio& unoccluded) {
+  VisibleArea area{round_to_binary64(visible), round_to_binary64(unoccluded), std::nullopt};
+  if (unoccluded.sign() != Sign::zero) {
+    area.ratio = round_to_binary64(quotient(visible, unoccluded));
   }
-  return rounded(sum_of(areas.visible), areas.unoccluded);
-}
-
-/// Rounds the exact areas of an object, where their enclosures do not settle how they round.
-VisibleArea rounded_exactly(const SceneAreas& areas, std::uint32_t object) {
-  std::vector<Ratio> visible, in_object;
-  for (std::uint32_t number = 0; number < areas.count(); ++number) {
-    check_interruption();
-    if (areas.object_of(number) != object) continue;
-    const ExactAreas exact = areas.of(number);
-    visible.insert(visible.end(), exact.visible.begin(), exact.visible.end());
-    in_object.insert(in_object.end(), exact.in_object.begin(), exact.in_object.end());
-  }
-  return rounded(sum_of(std::move(visible)), sum_of(std::move(in_object)));
-}
-
-VisibleArea rounded(const SceneAreas& areas, const ObjectSums& sums, std::uint32_t object) {
-  const Enclosure visible = sums.visible.get(), alone = sums.in_object.get();
-  if (alone.high.sign() == Sign::zero) return {};
-  if (const auto area = settled(visible, alone)) return *area;
-  return rounded_exactly(areas, object);
-}
-
-VisibleAreas areas_in_arena(const CoverageFrame& frame,
-                            const std::function<void(double)>& progress) {
-  constexpr std::uint32_t chunk = 64;
-  const std::uint32_t chunks = frame.triangles.count() / chunk + 1;
-  Progress done(progress, SceneSurfaces::parts(frame.triangles.count()) + chunks);
-  const SceneAreas areas(frame, done);
-  const std::size_t objects = frame.triangles.objects().size();
-  VisibleAreas result;
-  result.triangles.resize(areas.count());
-  PerThread<std::vector<ObjectSums>> parts([&] { return std::vector<ObjectSums>(objects); });
-  parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t k) {
-    const std::uint32_t end = std::min(areas.count(), (k + 1) * chunk);
-    for (std::uint32_t number = k * chunk; number < end; ++number) {
-      const ExactAreas exact = areas.of(number);
-      result.triangles[number] = rounded(exact);
-      ObjectSums& sums = parts.local()[areas.object_of(number)];
-      sums.visible.add(enclosed_sum(exact.visible));
-      sums.in_object.add(enclosed_sum(exact.in_object));
-    }
-    done.part_done();
-  });
-  std::vector<ObjectSums> sums(objects);
-  parts.for_each([&](const std::vector<ObjectSums>& part) {
-    for (std::size_t object = 0; object < objects; ++object) {
-      sums[object].visible.add(part[object].visible);
-      sums[object].in_object.add(part[object].in_object);
-    }
-  });
-  for (std::uint32_t object = 0; object < objects; ++object) {
-    result.objects.push_back(rounded(areas, sums[object], object));
-  }
-  return result;
+  return area;
 }
 
 }  // namespace
 
-VisibleAreas reference_areas(const TriangleSource& triangles, const Camera& camera,
-                             const RenderOptions& options,
-                             const std::function<void(double)>& progress) {
-  const StandardArithmetic standard;
-  return with_threads(options.threads, [&] {
-    require_renderable(triangles, camera);
-    return areas_in_arena({triangles, camera, options.cull}, progress);
-  });
+std::vector<PairwiseAreas> pairwise_areas(const CoverageFrame& frame) {
+  const std::function<void(double)> no_report;
+  Progress progress(no_report, 1);
+  const SceneByPairs scene(frame, progress);
+  std::vector<PairwiseAreas> areas;
+  for (std::uint32_t number = 0; number < scene.count(); ++number)
+    areas.push_back(scene.of(number));
+  return areas;
 }
 
-}  // namespace fathom
+VisibleAreas rounded_pairwise_areas(const Scene& scene, const Camera& camera, Cull cull) {
+  const TriangleSource triangles(scene);
+  const std::vector<PairwiseAreas> areas = pairwise_areas({triangles, camera, cull});
+  VisibleAreas result;
+  std::vector<PairwiseAreas> objects(scene.objects.size());
+  for (std::uint32_t number = 0; number < areas.size(); ++number) {
+    const PairwiseAreas& its = areas[number];
+    result.triangles.push_back(rounded(sum_of(its.visible), its.unoccluded));
+    PairwiseAreas& object = objects[triangles.origin(number).object];
+    object.visible.insert(object.visible.end(), its.visible.begin(), its.visible.end());
+    object.in_object.insert(object.in_object.end(), its.in_object.begin(), its.in_object.end());
+  }
+  for (const PairwiseAreas& object : objects) {
+    result.objects.push_back(rounded(sum_of(object.visible), sum_of(object.in_object)));
+  }
+  return result;
+}
+
+}  // namespace fathom::testing

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <iterator>
-#include <mutex>
 #include <optional>
 #include <span>
 
 #include "fathom/area/cell_division.h"
+#include "fathom/area/plane/line_sweep.h"
 #include "fathom/area/visible_fragments.h"
 #include "fathom/threads/interruption.h"
 
@@ -32,13 +32,19 @@ void append(SurfaceTerms& all, SurfaceTerms&& some) {
   append(all.gamma, std::move(some.gamma));
 }
 
+void add_terms(SurfaceTerms& terms, const Boundary& boundary, const SurfaceOnPart& on,
+               const WantedTerms& wanted) {
+  if (wanted.image) add_image_terms(terms, boundary);
+  if (wanted.on_surface()) add_surface_terms(terms, boundary, on, wanted);
+}
+
 SurfaceTerms terms_of_clip(const SurfaceRegion& surface, const PlanePart& part,
                            const WantedTerms& wanted) {
   SurfaceTerms terms;
   ImageCell cell = cell_of(part);
   TierCounts counts;
   if (const auto piece = cell.clip(surface.region, counts)) {
-    add_terms(terms, boundary_of(piece->polygon), cell, surface, wanted);
+    add_terms(terms, boundary_of(piece->polygon), {surface, part}, wanted);
   }
   return terms;
 }
@@ -85,14 +91,33 @@ const SurfaceTerms& PlaneAreas::terms(std::uint32_t i) const {
 }
 
 void PlaneAreas::add(std::uint32_t i, SurfaceTerms&& terms) {
-  // So many that threads seldom wait for each other.
-  static std::array<std::mutex, 64> mutexes;
-  const std::lock_guard lock(mutexes[i % mutexes.size()]);
+  const std::lock_guard lock(mutexes_[i % mutexes_.size()]);
   append(terms_[place_[i]], std::move(terms));
 }
 
 void PlaneAreas::add_crowded(const CrowdedPart& crowded) {
   check_interruption();
+  if (crowded.triangles.size() > LineSweep::most_lines || !sweep(crowded)) divide_crowd(crowded);
+}
+
+bool PlaneAreas::sweep(const CrowdedPart& crowded) {
+  LineSweep swept(mesh_, crowded.part, crowded.triangles);
+  if (!swept.is_simple()) return false;
+  const std::vector<Boundary> boundaries = swept.boundaries();
+  for (std::size_t piece = 0; piece < boundaries.size(); ++piece) {
+    const Boundary& boundary = boundaries[piece];
+    if (boundary.empty()) continue;
+    SurfaceTerms terms;
+    if (wanted_.image) add_image_terms(terms, boundary);
+    if (wanted_.on_surface()) {
+      add_surface_terms(terms, boundary, {swept.surface(piece), crowded.part}, wanted_);
+    }
+    add(crowded.triangles[piece], std::move(terms));
+  }
+  return true;
+}
+
+void PlaneAreas::divide_crowd(const CrowdedPart& crowded) {
   std::vector<SurfaceRegion> surfaces;
   std::vector<const SurfaceRegion*> pointers;
   surfaces.reserve(crowded.triangles.size());
@@ -109,7 +134,7 @@ void PlaneAreas::add_crowded(const CrowdedPart& crowded) {
       if (boundary.empty()) continue;
       const SurfaceRegion& surface = part.surface(piece);
       SurfaceTerms terms;
-      add_terms(terms, boundary, cell, surface, wanted_);
+      add_terms(terms, boundary, {surface, crowded.part}, wanted_);
       add(crowded.triangles[static_cast<std::size_t>(&surface - surfaces.data())],
           std::move(terms));
     }

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
-#include <map>
+#include <mutex>
 #include <vector>
 
 #include "fathom/area/plane/resolve.h"
@@ -33,6 +34,10 @@ class PlaneAreas {
 
  private:
   void add_crowded(const CrowdedPart& crowded);
+  /// Returns false, and does nothing, if there are too many lines.
+  bool sweep(const CrowdedPart& crowded);
+  /// Along edges, as long as that separates triangles.
+  void divide_crowd(const CrowdedPart& crowded);
   void add_clip(const VisibleClip& clip);
   void add(std::uint32_t i, SurfaceTerms&& terms);
 
@@ -43,6 +48,8 @@ class PlaneAreas {
   std::vector<SurfaceTerms> terms_;
   /// Where the terms of a triangle are.
   std::vector<std::uint32_t> place_;
+  /// Of the terms; so many that threads seldom wait for each other.
+  std::array<std::mutex, 64> mutexes_;
 };
 
 /// The terms of all that the image shows of a triangle that nothing hides.

@@ -15,7 +15,7 @@ namespace fathom::area {
 namespace {
 
 /// So few triangles are not divided any further.
-constexpr std::size_t few = 16;
+constexpr std::size_t few = 32;
 /// A part has at most so many cuts on its way from the whole.
 constexpr int most_cuts = 48;
 /// A cut is in vain if the halves have many more triangles together than the part.
@@ -73,33 +73,39 @@ class Resolver {
   /// Returns whether the part is simple or empty.
   bool drop_hidden(Work& work) {
     if (work.triangles.empty()) return true;
-    std::vector<Interval> depths;
-    depths.reserve(work.triangles.size());
-    for (const std::uint32_t i : work.triangles) depths.push_back(depth_in(mesh_, i, work.part));
     const std::vector<Sheet> sheets = finder_.sheets(work.part, work.triangles);
     const Sheet* cover = nullptr;
     double farthest = std::numeric_limits<double>::infinity();
     for (const Sheet& sheet : sheets) {
       if (sheet.count == 0) continue;
-      double its = -std::numeric_limits<double>::infinity();
-      for (const std::uint32_t member : sheet.members) its = std::max(its, depths[member].upper);
+      const double its = farthest_of(sheet, work);
       if (its >= farthest) continue;
       cover = &sheet;
       farthest = its;
     }
     if (!cover) return false;
     std::vector<std::uint32_t> left;
-    for (std::size_t k = 0; k < work.triangles.size(); ++k) {
-      if (depths[k].lower > farthest) {
-        result_.flags[work.triangles[k]] |= is_hidden_somewhere;
+    for (const std::uint32_t i : work.triangles) {
+      const bool is_behind =
+          depth_of(mesh_, i).lower > farthest || depth_in(mesh_, i, work.part).lower > farthest;
+      if (is_behind) {
+        result_.flags[i] |= is_hidden_somewhere;
       } else {
-        left.push_back(work.triangles[k]);
+        left.push_back(i);
       }
     }
     work.triangles = std::move(left);
     if (cover->count != 1 || work.triangles.size() != cover->members.size()) return false;
     for (const std::uint32_t i : work.triangles) add_visible(i, work.part);
     return true;
+  }
+
+  [[nodiscard]] double farthest_of(const Sheet& sheet, const Work& work) const {
+    double farthest = -std::numeric_limits<double>::infinity();
+    for (const std::uint32_t member : sheet.members) {
+      farthest = std::max(farthest, depth_in(mesh_, work.triangles[member], work.part).upper);
+    }
+    return farthest;
   }
 
   void add_visible(std::uint32_t i, const PlanePart& part) {

@@ -130,20 +130,24 @@ bool misses(const PlaneMesh& mesh, std::uint32_t i, const PlanePart& part) {
   return false;
 }
 
-// The plane's depth at the part's corners says more than the corners of a triangle only where that
-// is larger than the part.
-Interval depth_in(const PlaneMesh& mesh, std::uint32_t i, const PlanePart& part) {
-  if (!mesh.is_regular(i)) {
-    const SurfaceRegion& surface = mesh.scene().kept_surface(mesh.number(i));
-    return common(surface.depths, depth_of_plane(surface, part));
-  }
+Interval depth_of(const PlaneMesh& mesh, std::uint32_t i) {
+  if (!mesh.is_regular(i)) return mesh.scene().kept_surface(mesh.number(i)).depths;
   const CornerIndices& corners = mesh.corners(i);
   const Interval &a = mesh.scene().depth(corners[0]), &b = mesh.scene().depth(corners[1]),
                  &c = mesh.scene().depth(corners[2]);
-  const Interval of_corners{std::min({a.lower, b.lower, c.lower}),
-                            std::max({a.upper, b.upper, c.upper})};
+  return {std::min({a.lower, b.lower, c.lower}), std::max({a.upper, b.upper, c.upper})};
+}
+
+// The plane's depth at the part's corners says more than the corners of a triangle only where that
+// is larger than the part.
+Interval depth_in(const PlaneMesh& mesh, std::uint32_t i, const PlanePart& part) {
+  const Interval of_corners = depth_of(mesh, i);
+  if (!mesh.is_regular(i)) {
+    const SurfaceRegion& surface = mesh.scene().kept_surface(mesh.number(i));
+    return common(of_corners, depth_of_plane(surface, part));
+  }
   const PlaneBox box = mesh.box(i);
-  const bool is_larger = box.right - box.left > part.right - part.left ||
+  const bool is_larger = box.right - box.left > part.right - part.left &&
                          box.bottom - box.top > part.bottom - part.top;
   if (!is_larger || of_corners.lower == of_corners.upper) return of_corners;
   return common(of_corners, depth_of_plane(mesh.scene().surface(mesh.number(i)), part));

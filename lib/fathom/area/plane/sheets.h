@@ -58,7 +58,9 @@ class PlaneMesh {
 
 /// Whether a triangle of the mesh certainly has no area in a part.
 bool misses(const PlaneMesh& mesh, std::uint32_t i, const PlanePart& part);
-/// Bounds of its depth in the part.
+/// Bounds of its depth.
+Interval depth_of(const PlaneMesh& mesh, std::uint32_t i);
+/// Bounds of its depth in the part, which takes longer.
 Interval depth_in(const PlaneMesh& mesh, std::uint32_t i, const PlanePart& part);
 
 /// Connected triangles in a part, as places in the list of the triangles in it.

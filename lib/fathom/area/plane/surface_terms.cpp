@@ -12,15 +12,20 @@ struct SurfacePoint {
   Dyadic b, c, sigma;
 };
 
+ExactVector3 localised(const LinearForm& form, const PlanePart& part) {
+  const ExactVector3& l = form.coefficients();
+  return {l[0], l[1], form.at(part.left, part.top)};
+}
+
 /// The edge functions of B and C, and their sum with that of A, in a cell's coordinates. At the
 /// point where two lines cross, homogeneous with the weight turn(line, other), a form has the value
 /// det(form, line, other); the weight cancels from β and γ.
 class SurfaceForms {
  public:
-  SurfaceForms(const ImageCell& cell, const SurfaceRegion& surface)
-      : b_(cell.localised(surface.region[1])),
-        c_(cell.localised(surface.region[2])),
-        sigma_(cell.localised(surface.weight)) {}
+  explicit SurfaceForms(const SurfaceOnPart& on)
+      : b_(localised(on.surface.region[1], on.part)),
+        c_(localised(on.surface.region[2], on.part)),
+        sigma_(localised(on.surface.weight, on.part)) {}
 
   [[nodiscard]] SurfacePoint at(const HalfPlane& line, const HalfPlane& other) const {
     const ExactVector3 place = cross(line.exact(), other.exact());
@@ -33,8 +38,8 @@ class SurfaceForms {
 
 // In the plane of (β, γ), with Green's theorem: 2∫∫ dβ dγ = Σ p × q, and
 // 6∫∫ β dβ dγ = Σ (p × q)(β_p + β_q).
-void add_surface_terms(SurfaceTerms& terms, const SurfacePoint& p, const SurfacePoint& q,
-                       bool reversed, const WantedTerms& wanted) {
+void add_term(SurfaceTerms& terms, const SurfacePoint& p, const SurfacePoint& q, bool reversed,
+              const WantedTerms& wanted) {
   Dyadic product = p.b * q.c - p.c * q.b;
   if (product.is_zero()) return;
   if (reversed) product = -product;
@@ -49,17 +54,16 @@ void add_surface_terms(SurfaceTerms& terms, const SurfacePoint& p, const Surface
 
 }  // namespace
 
-void add_terms(SurfaceTerms& terms, const Boundary& boundary, const ImageCell& cell,
-               const SurfaceRegion& surface, const WantedTerms& wanted) {
-  if (wanted.image) {
-    std::vector<Ratio> added = terms_of_area(boundary);
-    std::move(added.begin(), added.end(), std::back_inserter(terms.image));
-  }
-  if (!wanted.share && !wanted.moments) return;
-  const SurfaceForms forms(cell, surface);
+void add_image_terms(SurfaceTerms& terms, const Boundary& boundary) {
+  std::vector<Ratio> added = terms_of_area(boundary);
+  std::move(added.begin(), added.end(), std::back_inserter(terms.image));
+}
+
+void add_surface_terms(SurfaceTerms& terms, const Boundary& boundary, const SurfaceOnPart& on,
+                       const WantedTerms& wanted) {
+  const SurfaceForms forms(on);
   for (const BoundarySegment& s : boundary) {
-    add_surface_terms(terms, forms.at(*s.line, *s.from), forms.at(*s.line, *s.to), s.reversed,
-                      wanted);
+    add_term(terms, forms.at(*s.line, *s.from), forms.at(*s.line, *s.to), s.reversed, wanted);
   }
 }
 

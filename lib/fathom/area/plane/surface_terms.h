@@ -4,6 +4,7 @@
 
 #include "fathom/area/convex_union.h"
 #include "fathom/area/image_cell.h"
+#include "fathom/area/plane/certain_sides.h"
 
 /// Areas of boundaries as sums over their segments, on the image and on the surface itself.
 namespace fathom::area {
@@ -26,10 +27,20 @@ struct SurfaceTerms {
 /// Which of them are wanted.
 struct WantedTerms {
   bool image = true, share = false, moments = false;
+  [[nodiscard]] bool on_surface() const { return share || moments; }
 };
 
-/// Adds the terms of a boundary in a cell, on which the surface is seen.
-void add_terms(SurfaceTerms& terms, const Boundary& boundary, const ImageCell& cell,
-               const SurfaceRegion& surface, const WantedTerms& wanted);
+/// Where quantities on a surface come from: the surface, on the image.
+struct SurfaceOnPart {
+  const SurfaceRegion& surface;
+  /// The coordinates of lines begin at its left top corner.
+  const PlanePart& part;
+};
+
+/// Adds the terms of the area on the image that a boundary encloses.
+void add_image_terms(SurfaceTerms& terms, const Boundary& boundary);
+/// Adds the terms on the surface.
+void add_surface_terms(SurfaceTerms& terms, const Boundary& boundary, const SurfaceOnPart& on,
+                       const WantedTerms& wanted);
 
 }  // namespace fathom::area

@@ -1,0 +1,263 @@
+#include "fathom/area/plane/line_sweep.h"
+
+#include <algorithm>
+
+#include "fathom/area/visible_fragments.h"
+
+namespace fathom::area {
+
+LineSweep::LineSweep(const PlaneMesh& mesh, const PlanePart& part,
+                     std::vector<std::uint32_t> triangles)
+    : mesh_(mesh), part_(part) {
+  add_sides();
+  pieces_.reserve(triangles.size());
+  for (const std::uint32_t triangle : triangles) {
+    if (!is_simple()) return;
+    add_piece(triangle);
+  }
+  find_orders();
+}
+
+ExactVector3 LineSweep::localised(const ExactVector3& form) const {
+  return {form[0], form[1], form[0] * part_.left + form[1] * part_.top + form[2]};
+}
+
+// u ≥ 0, v ≥ 0, u ≤ width, v ≤ height: each turns left from the one before.
+void LineSweep::add_sides() {
+  sides_ = {lines_.add({1.0, 0.0, 0.0}), lines_.add({0.0, 1.0, 0.0}),
+            lines_.add({-1.0, 0.0, Dyadic(part_.right) - Dyadic(part_.left)}),
+            lines_.add({0.0, -1.0, Dyadic(part_.bottom) - Dyadic(part_.top)})};
+}
+
+void LineSweep::add_piece(std::uint32_t triangle) {
+  Piece piece;
+  piece.triangle = triangle;
+  const ProjectedScene& scene = mesh_.scene();
+  if (mesh_.is_regular(triangle)) {
+    const CornerIndices& corners = mesh_.corners(triangle);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = corners[k], to = corners[(k + 1) % 3];
+      piece.region.push_back(
+          lines_.through(from, to, [&] { return localised(scene.line_through(from, to)); }));
+    }
+  } else {
+    for (const LinearForm& form : scene.kept_surface(mesh_.number(triangle)).region) {
+      piece.region.push_back(lines_.add(localised(form.coefficients())));
+    }
+  }
+  piece.polygon = sides_;
+  for (const OrientedLine& h : piece.region) {
+    if (!piece.polygon.empty()) piece.polygon = clipped(lines_, std::move(piece.polygon), h);
+  }
+  piece.depths = depth_of(mesh_, triangle);
+  pieces_.push_back(std::move(piece));
+}
+
+const SurfaceRegion& LineSweep::surface(std::size_t piece) {
+  Piece& its = pieces_[piece];
+  if (!its.surface) its.surface = mesh_.scene().surface(mesh_.number(its.triangle));
+  return *its.surface;
+}
+
+bool LineSweep::are_mates(std::uint32_t a, std::uint32_t b) const {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (mesh_.mate(a, k) == b) return true;
+  }
+  return false;
+}
+
+void LineSweep::find_orders() {
+  const auto count = static_cast<std::uint32_t>(pieces_.size());
+  orders_.resize(std::size_t{count} * count);
+  for (std::uint32_t s = 0; s < count; ++s) {
+    for (std::uint32_t t = s + 1; t < count && is_simple(); ++t) order(s, t) = order_of(s, t);
+  }
+  std::sort(changes_.begin(), changes_.end());
+  changes_.erase(std::unique(changes_.begin(), changes_.end()), changes_.end());
+}
+
+// The form of in_front() is affine; where the pieces overlap, its signs at the corners decide.
+LineSweep::Order LineSweep::order_of(std::uint32_t s, std::uint32_t t) {
+  const Piece &a = pieces_[s], &b = pieces_[t];
+  if (a.polygon.empty() || b.polygon.empty()) return {};
+  if (a.depths.upper < b.depths.lower) return {Sign::positive, {}};
+  if (b.depths.upper < a.depths.lower) return {Sign::negative, {}};
+  if (are_mates(a.triangle, b.triangle)) return {};
+  LinePolygon common = a.polygon;
+  for (const OrientedLine& h : b.region) {
+    common = clipped(lines_, std::move(common), h);
+    if (common.empty()) return {};
+  }
+  const LinearForm form = in_front(surface(s), surface(t));
+  const ExactVector3 local = localised(form.coefficients());
+  if (local[0].is_zero() && local[1].is_zero()) {
+    if (!local[2].is_zero()) return {local[2].sign(), {}};
+    return {mesh_.number(a.triangle) < mesh_.number(b.triangle) ? Sign::positive : Sign::negative,
+            {}};
+  }
+  const HalfPlane half(local);
+  bool in_front = false, behind = false;
+  TierCounts counts;
+  for (std::size_t k = 0; k < common.size(); ++k) {
+    const OrientedLine &e = common[k], &f = common[(k + 1) % common.size()];
+    const Sign sign = oriented(sign_of_determinant(half, lines_[e.line], lines_[f.line], counts),
+                               e.reversed != f.reversed);
+    in_front |= sign == Sign::positive;
+    behind |= sign == Sign::negative;
+  }
+  if (!in_front || !behind) return {in_front ? Sign::positive : Sign::negative, {}};
+  const OrientedLine line = lines_.add(local);
+  changes_.push_back(line.line);
+  return {Sign::zero, line};
+}
+
+/// What happens along one line.
+class LineSweep::Walk {
+ public:
+  Walk(LineSweep& sweep, std::uint32_t along)
+      : sweep_(sweep), lines_(sweep.lines_), along_(along), order_(sweep.lines_, along) {}
+
+  void add_boundaries(std::vector<Boundary>& boundaries) {
+    const auto part = extent_of(0, sweep_.sides_, 0, order_.end());
+    if (!part) return;
+    std::vector<std::uint32_t> ends{part->from, part->to};
+    for (std::uint32_t k = 0; k < sweep_.pieces_.size(); ++k) {
+      const Piece& piece = sweep_.pieces_[k];
+      if (piece.polygon.empty()) continue;
+      auto extent = extent_of(k, piece.region, part->from, part->to);
+      if (!extent) continue;
+      extent->left &= part->left;
+      extent->right &= part->right;
+      extents_.push_back(*extent);
+      ends.push_back(extent->from);
+      ends.push_back(extent->to);
+    }
+    for (const std::uint32_t change : sweep_.changes_) {
+      if (lines_.turn(along_, change) == Sign::zero) continue;
+      const std::uint32_t rank = order_.rank(change);
+      if (part->from < rank && rank < part->to) ends.push_back(rank);
+    }
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    add_between(ends, boundaries);
+  }
+
+ private:
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  /// The part of the line between two places that lies in all half-planes, if it has a length.
+  [[nodiscard]] std::optional<Extent> extent_of(std::uint32_t piece,
+                                                const std::vector<OrientedLine>& region,
+                                                std::uint32_t from, std::uint32_t to) const {
+    Extent extent{piece, from, to, true, true};
+    for (const OrientedLine& h : region) {
+      if (h.line == along_) {
+        // The inside of the line itself is on the left.
+        (h.reversed ? extent.left : extent.right) = false;
+        continue;
+      }
+      const Sign turn = oriented(lines_.turn(along_, h.line), h.reversed);
+      if (turn == Sign::zero) {
+        if (side_of_parallel(h) == Sign::negative) return std::nullopt;
+      } else if (turn == Sign::negative) {
+        extent.from = std::max(extent.from, order_.rank(h.line));
+      } else {
+        extent.to = std::min(extent.to, order_.rank(h.line));
+      }
+      if (extent.from >= extent.to) return std::nullopt;
+    }
+    if (!extent.left && !extent.right) return std::nullopt;
+    return extent;
+  }
+
+  /// On which side of a parallel line this one is.
+  [[nodiscard]] Sign side_of_parallel(OrientedLine h) const {
+    return oriented(side_at(h.line, order_.line_at(0)), h.reversed);
+  }
+
+  /// The sign of the inside of m where `at` crosses; as side_of_crossing().
+  [[nodiscard]] Sign side_at(std::uint32_t m, std::uint32_t at) const {
+    return lines_.determinant(along_, at, m) * lines_.turn(along_, at);
+  }
+
+  void add_between(const std::vector<std::uint32_t>& ends,
+                   std::vector<Boundary>& boundaries) const {
+    std::uint32_t left = none, right = none, from = ends[0];
+    const auto close = [&](std::uint32_t to) {
+      if (left == right) return;
+      const HalfPlane &e = lines_[along_], &first = lines_[order_.line_at(from)],
+                      &last = lines_[order_.line_at(to)];
+      if (left != none) boundaries[left].push_back({&e, &first, &last, false});
+      if (right != none) boundaries[right].push_back({&e, &first, &last, true});
+    };
+    for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+      const std::uint32_t next_left = front(ends[k], ends[k + 1], true),
+                          next_right = front(ends[k], ends[k + 1], false);
+      if (next_left == left && next_right == right) continue;
+      close(ends[k]);
+      left = next_left;
+      right = next_right;
+      from = ends[k];
+    }
+    close(ends.back());
+  }
+
+  /// The piece that is visible on one side of the line, between neighbouring ends.
+  [[nodiscard]] std::uint32_t front(std::uint32_t from, std::uint32_t to, bool on_left) const {
+    std::uint32_t nearest = none;
+    for (const Extent& extent : extents_) {
+      if (!(on_left ? extent.left : extent.right)) continue;
+      if (extent.from > from || extent.to < to) continue;
+      if (nearest == none || !is_in_front(nearest, extent.piece, from, to, on_left)) {
+        nearest = extent.piece;
+      }
+    }
+    return nearest;
+  }
+
+  /// Of pieces s < t that both are there.
+  [[nodiscard]] bool is_in_front(std::uint32_t s, std::uint32_t t, std::uint32_t from,
+                                 std::uint32_t to, bool on_left) const {
+    const Order& order = sweep_.order(s, t);
+    if (!order.line) return order.sign == Sign::positive;
+    // The line has no crossing between the ends. Where it is this one, its inside is on the left.
+    const std::uint32_t change = order.line->line;
+    Sign sign = Sign::zero;
+    if (change == along_) {
+      sign = on_left ? Sign::positive : Sign::negative;
+    } else {
+      sign = side_at(change, order_.line_at(from));
+      if (sign == Sign::zero) sign = side_at(change, order_.line_at(to));
+    }
+    return oriented(sign, order.line->reversed) == Sign::positive;
+  }
+
+  LineSweep& sweep_;
+  const PartLines& lines_;
+  std::uint32_t along_;
+  LineOrder order_;
+  std::vector<Extent> extents_;
+};
+
+/// Whether the part is not strictly on one side of a line.
+bool LineSweep::meets_part(std::uint32_t line) const {
+  const auto side_of_corner = [&](std::size_t k) {
+    return lines_.determinant(line, sides_[k].line, sides_[(k + 1) % 4].line);
+  };
+  const Sign side = side_of_corner(0);
+  if (side == Sign::zero) return true;
+  for (std::size_t k = 1; k < 4; ++k) {
+    if (side_of_corner(k) != side) return true;
+  }
+  return false;
+}
+
+std::vector<Boundary> LineSweep::boundaries() {
+  std::vector<Boundary> boundaries(pieces_.size());
+  for (std::uint32_t along = 0; along < lines_.size(); ++along) {
+    if (meets_part(along)) Walk(*this, along).add_boundaries(boundaries);
+  }
+  return boundaries;
+}
+
+}  // namespace fathom::area

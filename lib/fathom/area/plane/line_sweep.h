@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "fathom/area/convex_union.h"
+#include "fathom/area/plane/part_lines.h"
+#include "fathom/area/plane/sheets.h"
+
+namespace fathom::area {
+
+/// Visibility among the triangles of a small part, along each line that bounds one of them, a side
+/// of the part, or places where two of them change their order in depth. Between the places where
+/// such lines cross it, a line has one visible triangle on either side; where these differ, it is a
+/// part of the boundary of both visible regions. No polygons are cut up, and surfaces that cross,
+/// touch or coincide are no special cases.
+/// Exact    always. Cost: lines × (triangles + lines·log lines).
+class LineSweep {
+ public:
+  /// More lines take longer than dividing the part along one of them.
+  static constexpr std::uint32_t most_lines = 192;
+
+  LineSweep(const PlaneMesh& mesh, const PlanePart& part, std::vector<std::uint32_t> triangles);
+  LineSweep(const LineSweep&) = delete;
+  LineSweep& operator=(const LineSweep&) = delete;
+
+  /// Whether there are at most most_lines; if not, boundaries() must not be called.
+  [[nodiscard]] bool is_simple() const { return lines_.size() <= most_lines; }
+  /// The boundaries of what is visible of each triangle, in the coordinates of the part, which
+  /// begin at its left top corner. Their lines stay where they are as long as this lives.
+  [[nodiscard]] std::vector<Boundary> boundaries();
+  /// The exact forms of a triangle of the list.
+  [[nodiscard]] const SurfaceRegion& surface(std::size_t piece);
+  [[nodiscard]] const TierCounts& decisions() const { return lines_.decisions(); }
+
+ private:
+  struct Piece {
+    std::uint32_t triangle;
+    /// Its half-planes, and its part in the part; no edges if there is no area.
+    std::vector<OrientedLine> region;
+    LinePolygon polygon;
+    Interval depths;
+    std::optional<SurfaceRegion> surface;
+  };
+  /// The order of two pieces where both are: everywhere, or by the side of a line where they change
+  /// places.
+  struct Order {
+    Sign sign = Sign::zero;  // positive if the first is in front
+    std::optional<OrientedLine> line;
+  };
+  /// Where a piece is on a line, by ranks, and on which sides.
+  struct Extent {
+    std::uint32_t piece, from, to;
+    bool left, right;
+  };
+  class Walk;
+
+  [[nodiscard]] ExactVector3 localised(const ExactVector3& form) const;
+  void add_sides();
+  void add_piece(std::uint32_t triangle);
+  [[nodiscard]] bool are_mates(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] Order order_of(std::uint32_t s, std::uint32_t t);
+  [[nodiscard]] Order& order(std::uint32_t s, std::uint32_t t) {
+    return orders_[std::size_t{s} * pieces_.size() + t];
+  }
+  void find_orders();
+  [[nodiscard]] bool meets_part(std::uint32_t line) const;
+
+  const PlaneMesh& mesh_;
+  PlanePart part_;
+  PartLines lines_;
+  LinePolygon sides_;
+  std::vector<Piece> pieces_;
+  /// Of the pieces s < t, at s·size + t.
+  std::vector<Order> orders_;
+  /// Lines that are walked along, and among them those of orders.
+  std::vector<std::uint32_t> changes_;
+};
+
+}  // namespace fathom::area

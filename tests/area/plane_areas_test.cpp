@@ -1,0 +1,132 @@
+// Areas by parts, sheets and sweeps against areas triangle by triangle, in all bits.
+#include "fathom/area/plane/plane_areas.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/adversaries.h"
+#include "tests/area/crowds.h"
+#include "tests/area/pairwise_areas.h"
+#include "tests/area/surfaces.h"
+#include "tests/inputs/adversarial_scenes.h"
+#include "tests/inputs/random_scenes.h"
+#include "tests/inputs/soup.h"
+#include "tests/inputs/spheres.h"
+
+namespace fathom {
+namespace {
+
+using namespace area;
+using testing::Case;
+
+void expect_same(const VisibleArea& found, const VisibleArea& expected) {
+  EXPECT_EQ(found.visible, expected.visible);
+  EXPECT_EQ(found.unoccluded, expected.unoccluded);
+  EXPECT_EQ(found.ratio, expected.ratio);
+}
+
+void expect_as_pairwise(const Scene& scene, const Camera& camera, Cull cull = Cull::none) {
+  RenderOptions options;
+  options.cull = cull;
+  options.threads = 1;
+  const VisibleAreas found = visible_areas(scene, camera, options);
+  const VisibleAreas expected = testing::rounded_pairwise_areas(scene, camera, cull);
+  ASSERT_EQ(found.triangles.size(), expected.triangles.size());
+  for (std::size_t t = 0; t < found.triangles.size(); ++t) {
+    SCOPED_TRACE("triangle " + std::to_string(t));
+    expect_same(found.triangles[t], expected.triangles[t]);
+  }
+  ASSERT_EQ(found.objects.size(), expected.objects.size());
+  for (std::size_t object = 0; object < found.objects.size(); ++object) {
+    SCOPED_TRACE("object " + std::to_string(object));
+    expect_same(found.objects[object], expected.objects[object]);
+  }
+}
+
+TEST(PlaneAreasAdversaries, AreThoseOfPairs) {
+  for (const testing::Family family : testing::all_families) {
+    SCOPED_TRACE(name_of(family));
+    testing::for_each_adversary(60, [&](std::uint64_t seed) {
+      const Case c = testing::adversarial_case(family, seed);
+      expect_as_pairwise(c.scene, c.camera, static_cast<Cull>(seed % 3));
+    });
+  }
+}
+
+TEST(PlaneAreas, OfRandomScenesAreThoseOfPairs) {
+  for (const testing::Kind kind : {testing::Kind::few_bits, testing::Kind::neighbours,
+                                   testing::Kind::huge, testing::Kind::tiny}) {
+    testing::CaseMaker maker(417 + static_cast<std::uint64_t>(kind), kind);
+    for (int i = 0; i < 200 / testing::effort && !HasFailure(); ++i) {
+      SCOPED_TRACE(i);
+      const Case c = maker.make();
+      expect_as_pairwise(c.scene, c.camera);
+    }
+  }
+}
+
+TEST(PlaneAreas, OfCrowdsAreThoseOfPairs) {
+  for (const int scale : {1, 6}) {
+    for (const testing::Crowd& crowd : testing::crowds(scale)) {
+      SCOPED_TRACE(crowd.name);
+      expect_as_pairwise(crowd.scene, testing::plain_camera(1, 1));
+      expect_as_pairwise(crowd.scene, testing::plain_camera(3, 2), Cull::back);
+    }
+  }
+}
+
+TEST(PlaneAreas, OfSoupsAreThoseOfPairs) {
+  std::mt19937_64 random(20);
+  for (int i = 0; i < 6 && !HasFailure(); ++i) {
+    SCOPED_TRACE(i);
+    const Scene scene = testing::soup(random, 60 + 40 * i, i % 2 == 0);
+    expect_as_pairwise(scene, testing::camera_of(160, 140, 64));
+  }
+}
+
+Camera in_front_of_spheres() {
+  Camera camera = testing::camera_of(60, 50, 40);
+  camera.world_to_camera = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 4}}};
+  return camera;
+}
+
+TEST(PlaneAreas, OfSpheresThatPenetrateEachOtherAreThoseOfPairs) {
+  for (const Cull cull : {Cull::none, Cull::back, Cull::front}) {
+    expect_as_pairwise(testing::two_spheres(12), in_front_of_spheres(), cull);
+  }
+  Camera inside = testing::camera_of(60, 50, 20);
+  inside.world_to_camera = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0.25}}};
+  inside.near = 0.125;
+  expect_as_pairwise(testing::two_spheres(12), inside);
+}
+
+/// Of a closed surface without arithmetic: the far side is hidden by the near one, whose inner
+/// triangles are visible as a whole.
+TEST(PlaneAreas, MostOfASphereIsSettledByItsSheets) {
+  Scene scene;
+  scene.meshes.push_back(testing::sphere(60));
+  scene.objects.push_back({.name = "sphere"});
+  const Camera camera = in_front_of_spheres();
+  const TriangleSource triangles(scene);
+  const std::function<void(double)> no_report;
+  Progress progress(no_report, 1);
+  const ProjectedScene projected({triangles, camera}, progress);
+  std::vector<std::uint32_t> numbers(projected.count());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  const PlaneMesh mesh(projected, numbers);
+  const PlaneAreas areas(mesh, {.image = true});
+  std::size_t whole = 0, hidden = 0, pieces = 0;
+  for (std::uint32_t i = 0; i < mesh.size(); ++i) {
+    whole += areas.visibility(i) == Visibility::whole;
+    hidden += areas.visibility(i) == Visibility::hidden;
+  }
+  for (const CrowdedPart& part : areas.resolved().crowded) pieces += part.triangles.size();
+  EXPECT_GT(whole, mesh.size() / 5);
+  EXPECT_GT(hidden, mesh.size() / 3);
+  EXPECT_LT(pieces, 2 * mesh.size());
+  EXPECT_LT(areas.resolved().triangles_in_parts, 30 * mesh.size());
+}
+
+}  // namespace
+}  // namespace fathom
