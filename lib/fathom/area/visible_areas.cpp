@@ -219,8 +219,7 @@ class SceneAreas {
                     of_alone = is_all ? of_visible : alone.sums(triangles_)[object].get();
     if (of_alone.high.sign() == Sign::zero) return {};
     if (const auto area = settled(of_visible, of_alone)) return *area;
-    return rounded(all_.exact_area(triangles_, object),
-                           alone.exact_area(triangles_, object));
+    return rounded(all_.exact_area(triangles_, object), alone.exact_area(triangles_, object));
   }
 
   const TriangleSource& triangles_;

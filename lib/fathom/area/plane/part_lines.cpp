@@ -90,8 +90,8 @@ class Foot {
     v_ = ev * scale;
   }
 
-  /// The value of m there, relative to which its error is at most 24u of the sum of the products'
-  /// absolute values: 14u + 2u + u of each product, and 2u for two sums, with terms of second order.
+  /// The value of m there. It errs by at most 24u of the sum of the products' absolute values:
+  /// 14u + 2u + u of each product, and 2u for two sums, with terms of second order.
   [[nodiscard]] Certified<double> value(const HalfPlane& m) const {
     if (!is_known_) return {};
     const auto& [mu, mv, mw] = m.approximate();
