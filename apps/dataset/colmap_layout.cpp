@@ -1,5 +1,8 @@
 // fathom dataset colmap MODEL: depth and normal maps of COLMAP's dense workspace.
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <memory>
 
 #include "apps/camera/import_sources.h"
@@ -7,6 +10,7 @@
 #include "apps/dataset/views.h"
 #include "apps/options/output_names.h"
 #include "apps/shell/failures.h"
+#include "fathom/text/counted.h"
 
 namespace fathom::app {
 namespace {
@@ -29,11 +33,23 @@ FileOfView colmap_file(const char* pattern, const std::vector<Camera>& cameras,
           }};
 }
 
+/// COLMAP's dense workspace has undistorted images, on which maps of a lens do not lie.
+void warn_of_lenses(const std::vector<Camera>& cameras, Warnings& warnings) {
+  const auto count = std::ranges::count_if(
+      cameras, [](const Camera& camera) { return bends_rays(camera.projection); });
+  if (count == 0) return;
+  warnings.push_back(fmt::format(
+      "{} of {} {} lens distortion, but stereo/ belongs to undistorted images: take the model that "
+      "'colmap image_undistorter' makes, or the pinhole part with --ignore-distortion",
+      count, text::counted(cameras.size(), "camera"), count == 1 ? "has" : "have"));
+}
+
 int run_colmap(ColmapArguments& arguments, const Console& console) {
   Warnings warnings;
   Views views;
   views.cameras =
       chosen_cameras(import_colmap(arguments.input), arguments.input, arguments.choice, warnings);
+  warn_of_lenses(views.cameras, warnings);
   console.warn(warnings);
   views.noun = "depth and normal map";
   views.inputs = "colmap 1\n";

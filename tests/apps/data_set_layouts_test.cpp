@@ -326,6 +326,27 @@ class BopScenes : public ::testing::Test {
   TestFolder folder_;
 };
 
+// COLMAP's workspace has undistorted images.
+TEST(ColmapLayout, WarnsOfLenses) {
+  const TestFolder folder;
+  fs::create_directories(folder / "sparse");
+  folder.write("sparse/cameras.txt", "1 PINHOLE 8 6 6 6 4 3\n2 SIMPLE_RADIAL 8 6 6 4 3 -0.1\n");
+  folder.write("sparse/images.txt", "1 1 0 0 0 0 0 4 1 a.jpg\n\n2 1 0 0 0 0 0 4 2 b.jpg\n\n");
+  const auto warnings = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> command{"dataset", "colmap", "sparse", "--mesh",
+                                     source_dir() / "data/meshes/cube.obj"};
+    command.insert(command.end(), more.begin(), more.end());
+    const Outcome outcome = run_fathom(command, {.folder = folder.path()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_THAT(warnings({"--out", "with"}),
+              HasSubstr("1 of 2 cameras has lens distortion, but stereo/ belongs to undistorted "
+                        "images: take the model that 'colmap image_undistorter' makes"));
+  EXPECT_THAT(warnings({"--out", "without", "--ignore-distortion"}),
+              testing::Not(HasSubstr("lens distortion")));
+}
+
 TEST_F(BopScenes, HaveTheMasksAndCountsThatAreWorkedOutByHand) {
   const Outcome made = make();
   ASSERT_EQ(made.status, 0) << made.err;

@@ -242,7 +242,7 @@ TEST(ImportScanNet, ProjectsAsItsReaderDoes) {
   EXPECT_EQ(colour[1].camera.width, 1296U);
   Warnings warnings;
   EXPECT_EQ(chosen_cameras(depth, "scene", {}, warnings).size(), 1U);
-  EXPECT_THAT(warnings, ElementsAre(HasSubstr("1 of 2 cameras has no pose")));
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("1 of 2 cameras is left out")));
   write("pose/010.txt", four_rows);
   EXPECT_THAT(fault([&] { return import_scannet(folder.path(), ScanNetStream::depth, {}); }),
               HasSubstr("two images have the name '10'"));

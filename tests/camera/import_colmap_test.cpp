@@ -24,6 +24,7 @@ namespace {
 using namespace camera;
 using namespace test;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 std::vector<ImportedCamera> colmap_text(const std::string& cameras, const std::string& images) {
@@ -158,9 +159,31 @@ TEST(ImportColmap, DistortionIsToldUnlessItIsZero) {
         "RADIAL_FISHEYE 4 2 3 2 1 0 0", "THIN_PRISM_FISHEYE 4 2 3 3 2 1 0 0 0 0 0 0 0 0",
         "RAD_TAN_THIN_PRISM_FISHEYE 4 2 3 3 2 1 0 0 0 0 0 0 0 0 0 0 0 0",
         "SIMPLE_FISHEYE 4 2 3 2 1", "FISHEYE 4 2 3 3 2 1", "EQUIRECTANGULAR 4 2 4 2"})
-    EXPECT_THAT(message_of<InputError>([&] { colmap_text(std::string("1 ") + no_pinhole, image); }),
+    EXPECT_THAT(colmap_text(std::string("1 ") + no_pinhole, image).at(0).absence,
                 AllOf(HasSubstr("cameras.txt: line 1"), HasSubstr("undistort")))
         << no_pinhole;
+}
+
+TEST(ImportColmap, AFisheyeIsLeftOutOfAModelOfOthers) {
+  std::istringstream cameras(
+      "1 OPENCV_FISHEYE 4 2 3 3 2 1 0 0 0 0\n2 OPENCV 4 2 3 3 2 1 1 0 0 0\n"),
+      images("1 1 0 0 0 0 0 0 1 a.png\n\n2 1 0 0 0 0 0 0 2 b.png\n\n");
+  const std::vector<ImportedCamera> imported =
+      parse_colmap_text({cameras, "cameras.txt"}, {images, "images.txt"});
+  for (const bool ignore : {false, true}) {
+    Warnings warnings;
+    const std::vector<Camera> chosen =
+        chosen_cameras(imported, "model", {.ignore_distortion = ignore}, warnings);
+    ASSERT_EQ(chosen.size(), 1U);
+    EXPECT_EQ(chosen[0].name, "b.png");
+    EXPECT_EQ(chosen[0].projection.lens.has_value(), !ignore);
+    EXPECT_THAT(warnings,
+                ElementsAre(HasSubstr("1 of 2 cameras is left out: cameras.txt: line 1: camera 1: "
+                                      "the model OPENCV_FISHEYE is no pinhole camera")));
+    EXPECT_THAT(message_of<InputError>(
+                    [&] { chosen_cameras(imported, "model", {.image = "a.png"}, warnings); }),
+                HasSubstr("OPENCV_FISHEYE"));
+  }
 }
 
 // Binary files can have such numbers; they do not matter to who takes the pinhole part.

@@ -51,7 +51,9 @@ void require_valid(const Camera& camera) {
 void require_straight(const Camera& camera, std::string_view why) {
   if (!bends_rays(camera.projection)) return;
   throw UsageError("the lens " + std::string(name_of(camera.projection.lens->model)) + ": " +
-                   std::string(why));
+                   std::string(why) +
+                   " ('fathom camera import … --ignore-distortion' leaves the lens out; see "
+                   "docs/lenses.md)");
 }
 
 }  // namespace fathom

@@ -100,7 +100,7 @@ void expect_known_keys(const JsonValue& value) {
     const std::vector<std::string_view> of_lens = keys_of_lens(value);
     known.insert(known.end(), of_lens.begin(), of_lens.end());
   } else {
-    known.insert(known.end(), {"fx", "fy", "cx", "cy", "skew", "K"});
+    known.insert(known.end(), {"fx", "fy", "cx", "cy", "skew", "K", "model"});
   }
   if (!is_table(value)) known.insert(known.end(), {"pixel_centre", "pixel_center"});
   known.insert(known.end(), {"world_to_camera", "camera_to_world", "near", "far", "name"});

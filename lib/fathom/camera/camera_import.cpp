@@ -51,10 +51,12 @@ Camera the_one_of(const std::vector<ImportedCamera>& imported, const std::string
   return chosen(found->camera, choice);
 }
 
-std::string of_all(const LeftOut& left_out, std::size_t all, const char* have, const char* has) {
-  return fmt::format("{} of {} {} and {} left out: {}", left_out.count,
-                     text::counted(all, "camera"), left_out.count == 1 ? has : have,
-                     left_out.count == 1 ? "is" : "are", left_out.first);
+/// "1 of 2 cameras has lens distortion and is left out: …"
+std::string of_all(const LeftOut& left_out, std::size_t all, const char* have = "",
+                   const char* has = "") {
+  const bool is_one = left_out.count == 1;
+  return fmt::format("{} of {} {}{} left out: {}", left_out.count, text::counted(all, "camera"),
+                     is_one ? has : have, is_one ? "is" : "are", left_out.first);
 }
 
 }  // namespace
@@ -81,13 +83,11 @@ std::vector<Camera> chosen_cameras(const std::vector<ImportedCamera>& imported,
     throw InputError(distorted.count != 0 ? distorted.first + "; " + what_to_do : absent.first);
   }
   if (distorted.count != 0) {
-    warnings.push_back(
-        of_all(distorted, imported.size(), "have lens distortion", "has lens distortion") + "; " +
-        what_to_do);
+    const std::string left_out =
+        of_all(distorted, imported.size(), "have lens distortion and ", "has lens distortion and ");
+    warnings.push_back(left_out + "; " + what_to_do);
   }
-  if (absent.count != 0) {
-    warnings.push_back(of_all(absent, imported.size(), "have no pose", "has no pose"));
-  }
+  if (absent.count != 0) warnings.push_back(of_all(absent, imported.size()));
   return cameras;
 }
 

@@ -27,8 +27,8 @@ struct ImportedCamera {
   /// Where `camera` is the pinhole part of a lens that has no model here, or no valid numbers:
   /// which file, which lens.
   std::string distortion;
-  /// Why the data themselves have no camera of this image: it was not tracked, or not
-  /// reconstructed.
+  /// Why there is no camera to take: the image was not tracked or not reconstructed, or its lens
+  /// has no pinhole part.
   std::string absence;
   /// Why there is no camera though there should be: the message of an InputError.
   std::string fault;
@@ -52,9 +52,10 @@ std::vector<Camera> chosen_cameras(const std::vector<ImportedCamera>& imported,
 
 /// A COLMAP model: the folder with cameras and images, .bin (preferred where both exist) or .txt.
 /// Sorted by image name. Takes SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV, FULL_OPENCV,
-/// SIMPLE_DIVISION and DIVISION, and the pinhole part of FOV and EUCM; fisheye and spherical models
-/// have none. Rigs and frames (COLMAP 3.12) are not needed: images has the pose of each
-/// image. A folder that has models in folders below it (sparse/0) is refused with their names.
+/// SIMPLE_DIVISION and DIVISION, and the pinhole part of FOV and EUCM; cameras of fisheye and
+/// spherical models have none and are absent. Rigs and frames (COLMAP 3.12) are not needed: images
+/// has the pose of each image. A folder that has models in folders below it (sparse/0) is refused
+/// with their names.
 std::vector<ImportedCamera> import_colmap(const std::filesystem::path& folder);
 /// Whether a folder has the files of a COLMAP model.
 bool is_colmap_model(const std::filesystem::path& folder);

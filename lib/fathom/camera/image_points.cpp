@@ -16,6 +16,10 @@
 namespace fathom {
 namespace {
 
+constexpr std::string_view no_projection =
+    "points are projected and unprojected without a lens only; a table of directions has the rays "
+    "of its pixels";
+
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// The top left corner of the image is at (corner, corner) in the camera's own coordinates.
@@ -34,7 +38,7 @@ WordPair words_of(const Ratio& x) {
 
 ImageOfPoint project(const Camera& camera, const std::array<double, 3>& world) {
   const StandardArithmetic standard;
-  require_straight(camera);
+  require_straight(camera, no_projection);
   const CameraPoint p = to_camera(camera.world_to_camera, {world[0], world[1], world[2]});
   const double depth = round_to_binary64(Ratio(p.z));
   if (is_perspective(camera.projection) && p.z.sign() != Sign::positive) return {nan, nan, depth};
@@ -54,7 +58,7 @@ ImageRays::ImageRays(const Camera& camera, PointFrame frame)
       cy_(camera.projection.cy),
       perspective_(is_perspective(camera.projection)) {
   const StandardArithmetic standard;
-  require_straight(camera);
+  require_straight(camera, no_projection);
   const Projection& projection = camera.projection;
   const Dyadic fx = projection.fx, fy = projection.fy, skew = projection.skew, zero = 0.0;
   const ExactVector3 u{fy, zero, zero}, v{-skew, fx, zero}, d{zero, zero, fx * fy};

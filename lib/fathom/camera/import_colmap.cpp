@@ -79,12 +79,14 @@ ImportedCamera make_camera(const CameraRecord& record, const Model& model,
   ImportedCamera result;
   constexpr std::uint64_t largest = std::numeric_limits<std::uint32_t>::max();
   if (!model.pinhole) {
-    result.fault = about + "the model " + model.name +
-                   " is no pinhole camera; undistort the images (colmap image_undistorter)";
-  } else if (record.width > largest || record.height > largest) {
-    result.fault = about + "the image is too large";
+    result.absence = about + "the model " + model.name +
+                     " is no pinhole camera; undistort the images (colmap image_undistorter)";
+    return result;
   }
-  if (!result.fault.empty()) return result;
+  if (record.width > largest || record.height > largest) {
+    result.fault = about + "the image is too large";
+    return result;
+  }
   const auto distortion = record.parameters.begin() + static_cast<long>(model.focals) + 2;
   Camera& camera = result.camera;
   if (std::any_of(distortion, distortion + static_cast<long>(distortion_parameters(model)),
@@ -118,7 +120,7 @@ ImportedCamera place(const ImageRecord& image, const Cameras& cameras, const std
                      ", which the model does not have");
   ImportedCamera result = camera->second;
   result.camera.name = image.name;
-  if (!result.fault.empty()) return result;
+  if (!result.fault.empty() || !result.absence.empty()) return result;
   const auto finite = [](double x) { return std::isfinite(x); };
   if (!std::all_of(image.quaternion.begin(), image.quaternion.end(), finite) ||
       !std::all_of(image.translation.begin(), image.translation.end(), finite)) {
