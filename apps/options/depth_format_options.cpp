@@ -11,7 +11,8 @@ void DepthFormatOptions::add_to(Command& command) {
                  "Mapping from depth to stored value: standard (default), reversed, infinite, "
                  "reversed-infinite, opengl, linear, w, log or log-ulrich");
   command.option("--storage", "NAME", into(storage, storage_named),
-                 "Storage: unorm16, unorm24, unorm32, float16, float32 (default) or float64");
+                 "Storage: unorm16, unorm24, unorm32, float16, float32 (default) or float64; "
+                 "also as D24S8, GL_DEPTH_COMPONENT24, VK_FORMAT_D32_SFLOAT, …");
   command.option("--near", "D", into(near, parse_number), "Least depth").required();
   command.option("--far", "D", into(far, parse_number_or_infinity),
                  "Greatest depth; inf is the default of infinite and reversed-infinite");

@@ -301,16 +301,15 @@ TEST(DepthFormat, WhatMeansNothingIsRefused) {
   EXPECT_NE(without_far.find("infinite and reversed-infinite"), std::string::npos);
   EXPECT_THROW(mapping_named("Standard"), UsageError);
   EXPECT_THROW(storage_named("unorm8"), UsageError);
-  const auto asked_back = [](const std::string& name) {
-    const std::string text = message_of<UsageError>([&] { storage_named(name); });
-    return text.substr(text.find(';', text.find(';') + 1) + 2);
-  };
   for (const char* name : {"d24", "D24S8", "GL_DEPTH_COMPONENT24", "DXGI_FORMAT_D24_UNORM_S8_UINT",
                            "VK_FORMAT_X8_D24_UNORM_PACK32", "depth24plus"})
-    EXPECT_EQ(asked_back(name), "did you mean 'unorm24'?") << name;
+    EXPECT_EQ(storage_named(name), Storage::unorm24) << name;
   for (const char* name : {"D32F", "VK_FORMAT_D32_SFLOAT", "depth32float", "GL_DEPTH_COMPONENT32F"})
-    EXPECT_EQ(asked_back(name), "did you mean 'float32'?") << name;
-  EXPECT_EQ(asked_back("D32"), "did you mean 'unorm32' or 'float32'?");
+    EXPECT_EQ(storage_named(name), Storage::float32) << name;
+  EXPECT_NE(message_of<UsageError>([] {
+              storage_named("D32");
+            }).find("did you mean 'unorm32' or 'float32'?"),
+            std::string::npos);
   for (const Mapping mapping : all_mappings) EXPECT_EQ(mapping_named(name_of(mapping)), mapping);
   for (const Storage storage : all_storages) EXPECT_EQ(storage_named(name_of(storage)), storage);
 }

@@ -23,7 +23,7 @@ DepthFormat depth_format_of(const Camera& camera, Mapping mapping, Storage stora
   try {
     require_meaningful(format);
   } catch (const UsageError& error) {
-    throw UsageError("a depth format takes near and far from the camera: " +
+    throw UsageError("a depth format takes near and far from the camera (--near, --far): " +
                      std::string(error.what()));
   }
   return format;

@@ -126,7 +126,8 @@ Mapping mapping_named(std::string_view name) {
 }
 
 Storage storage_named(std::string_view name) {
-  return required(all_storages, name, "storage", other_storage_names);
+  const std::string_view own = name_meant_by(name, other_storage_names).value_or(name);
+  return required(all_storages, own, "storage", other_storage_names);
 }
 
 }  // namespace fathom

@@ -51,7 +51,7 @@ struct DepthFormat {
 void require_meaningful(const DepthFormat& format);
 
 /// The names used in the specification. Fails with UnknownName, which lists the existing
-/// names.
+/// names. A storage is also found by its name in OpenGL, Vulkan, Direct3D and WebGPU: D24S8.
 std::string_view name_of(Mapping mapping);
 std::string_view name_of(Storage storage);
 Mapping mapping_named(std::string_view name);

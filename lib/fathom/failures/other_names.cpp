@@ -20,6 +20,17 @@ std::string plain(std::string_view name) {
 
 }  // namespace
 
+std::optional<std::string_view> name_meant_by(std::string_view name,
+                                              std::span<const OtherName> others) {
+  std::optional<std::string_view> meant;
+  for (const OtherName& each : others) {
+    if (each.other != plain(name)) continue;
+    if (meant) return std::nullopt;
+    meant = each.name;
+  }
+  return meant;
+}
+
 UnknownName unknown_name(const std::string& message, const std::string& name,
                          std::vector<std::string> names, std::span<const OtherName> others) {
   std::vector<std::string> meant;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,6 +14,10 @@ namespace fathom {
 struct OtherName {
   std::string_view other, name;
 };
+
+/// The name that `others` lists for this one; nothing if there is none, or more than one.
+std::optional<std::string_view> name_meant_by(std::string_view name,
+                                              std::span<const OtherName> others);
 
 /// The failure for a name that is none of `names`. Unless the name is nearly one of them, it
 /// suggests those that `others` lists for it; upper case, hyphens and underscores do not matter.
