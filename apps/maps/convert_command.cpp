@@ -23,6 +23,7 @@
 #include "fathom/image/point_cloud.h"
 #include "fathom/image/surface.h"
 #include "fathom/text/counted.h"
+#include "fathom/text/printable.h"
 #include "fathom/text/small_letters.h"
 
 namespace fathom::app {
@@ -55,16 +56,36 @@ std::optional<StereoRig> rig_of(const ConvertArguments& arguments) {
   return std::nullopt;
 }
 
-/// The cameras of the camera file, one for each map; none if no file is given.
+/// Whether a map is called as a camera: views/a.npy as images/a.jpg, a.jpg.geometric.bin as a.jpg.
+bool is_called_as(const std::string& map, const std::string& camera) {
+  const std::string file = std::filesystem::path(map).filename().string();
+  const std::filesystem::path image = std::filesystem::path(camera).filename();
+  return !image.empty() && (std::filesystem::path(file).stem() == image.stem() ||
+                            file.starts_with(image.string() + "."));
+}
+
+/// The camera of a path that has the name of the map.
+Camera camera_called_as(const std::string& map, const std::vector<Camera>& cameras) {
+  std::vector<const Camera*> found;
+  for (const Camera& camera : cameras)
+    if (is_called_as(map, camera.name)) found.push_back(&camera);
+  if (found.size() == 1) return *found.front();
+  throw UsageError(fmt::format(
+      "--camera: {}, of which {} called as the map '{}'; expected a camera for each map, or file "
+      "names that are those of the images",
+      text::counted(cameras.size(), "camera"),
+      found.empty() ? "none is" : std::to_string(found.size()) + " are", text::printable(map)));
+}
+
+/// The cameras of the camera file, one for each map; none if no file is given. If there are more or
+/// fewer, maps find theirs by name.
 std::vector<Camera> cameras_in_file(const ConvertArguments& arguments, const Console& console) {
   if (arguments.camera.empty()) return {};
   std::vector<Camera> cameras = read_camera_file(arguments.camera, console);
-  const std::size_t maps = arguments.maps.size();
-  if (cameras.size() == maps) return cameras;
-  throw UsageError(
-      maps == 1 ? fmt::format("--camera: a path of {} cameras; a map has one", cameras.size())
-                : fmt::format("--camera: {}, but there are {} maps",
-                              text::counted(cameras.size(), "camera"), maps));
+  if (cameras.size() == arguments.maps.size()) return cameras;
+  std::vector<Camera> of_maps;
+  for (const std::string& map : arguments.maps) of_maps.push_back(camera_called_as(map, cameras));
+  return of_maps;
 }
 
 /// The camera of the file, of the size of the map, or else the map's own.
@@ -298,8 +319,8 @@ void add_convert(Command& program) {
                  "Quantity that the map holds: Z (default), distance or disparity");
   command.option(
       "--camera", "FILE", arguments->camera,
-      "Camera file, if the map does not contain its camera; of several maps, a camera for "
-      "each");
+      "Camera file, if the map does not contain its camera: a camera for each map, or more, of "
+      "which each map takes the one with its name (a.npy that of a.jpg)");
   command.option("--baseline", "B", into(arguments->baseline, parse_number),
                  "Baseline of the stereo pair, for disparity");
   command.option("--doffs", "D", into(arguments->doffs, parse_number),

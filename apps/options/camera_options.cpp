@@ -53,10 +53,21 @@ Camera framing_camera(const Scene& scene, const View& view, const LensChoice& le
   }
 }
 
+constexpr std::string_view takes_no_lens =
+    "this command takes no lens; 'fathom render' does, and so do info, preview and view of its "
+    "maps";
+
 std::vector<Camera> cameras_of_map(std::span<const std::byte> bytes, const std::string& file) {
   const std::optional<Camera> camera = camera_of(read_map_argument(bytes, file), file);
   if (!camera) throw InputError(file + ": the map carries no camera, expected a camera file");
   return {*camera};
+}
+
+/// Whether a text has the keys of a transforms.json. A camera file has none of them.
+bool looks_like_nerf(std::string_view text) {
+  const auto has = [&](std::string_view key) { return text.find(key) != text.npos; };
+  return text.find_first_not_of(" \t\r\n") == text.find('{') && has("\"frames\"") &&
+         has("\"transform_matrix\"");
 }
 
 /// The cameras of a camera file or a map, without fault.
@@ -70,6 +81,12 @@ std::vector<Camera> read_any_cameras(const std::string& file, const DirectionRea
         file));
   }
   const files::InputFile input(file);
+  if (looks_like_nerf(input.text())) {
+    throw InputError(fmt::format(
+        "{0}: is a transforms.json of NeRF, expected a camera file; 'fathom camera import nerf {0} "
+        "-o cameras.json' makes one",
+        file));
+  }
   Warnings warnings;
   std::vector<Camera> cameras = is_map(input.bytes())
                                     ? cameras_of_map(input.bytes(), file)
@@ -83,6 +100,20 @@ std::vector<Camera> read_any_cameras(const std::string& file, const DirectionRea
     }
   }
   return cameras;
+}
+
+/// The image has whole pixels, for which width and height may be scaled differently.
+void warn_of_unequal_scales(const std::vector<Camera>& given, const std::vector<Camera>& scaled,
+                            const Console& console) {
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const Camera &from = given[i], &to = scaled[i];
+    if (std::uint64_t{to.width} * from.height == std::uint64_t{to.height} * from.width) continue;
+    console.warn(fmt::format(
+        "--scale: {}x{} pixels become {}x{}, so that fx is scaled by {:.6g} and fy by {:.6g}",
+        from.width, from.height, to.width, to.height, 1.0 * to.width / from.width,
+        1.0 * to.height / from.height));
+    return;
+  }
 }
 
 }  // namespace
@@ -197,17 +228,30 @@ LensChoice CameraChanges::applied(LensChoice lens) const {
 }
 
 void CameraOptions::add_to(Command& command) {
-  const Option camera = command.option("--camera", "FILE", file_,
+  const auto take_file = [this](const std::string& file) {
+    file_ = file;
+    if (size_->is_given())
+      throw UsageError(
+          "the camera has a size, so that --size has no place; --scale FACTOR scales it");
+  };
+  const Option camera = command.option("--camera", "FILE", take_file,
                                        "Camera file (JSON), or a map, which contains its camera "
                                        "(default: a camera that frames the scene)");
   for (Option& framing : add_view_options(command, view_)) framing.excludes(camera);
-  for (Option& part : add_lens_options(command, lens_)) part.excludes(camera);
+  std::vector<Option> parts = add_lens_options(command, lens_);
+  size_ = parts.front();  // refused with another message
+  for (std::size_t i = 1; i < parts.size(); ++i) parts[i].excludes(camera);
   changes_.add_to(command);
 }
 
 std::vector<Camera> CameraOptions::get(const Scene& scene, const ReadLimits& limits,
                                        const Console& console) const {
-  if (from_file()) return changes_.applied(read_cameras_with_lenses(file_, limits, console));
+  if (from_file()) {
+    const std::vector<Camera> given = read_cameras_with_lenses(file_, limits, console);
+    std::vector<Camera> cameras = changes_.applied(given);
+    warn_of_unequal_scales(given, cameras, console);
+    return cameras;
+  }
   return changes_.applied({framing_camera(scene, view_, changes_.applied(lens_))});
 }
 
@@ -215,18 +259,20 @@ Camera CameraOptions::get_one(const Scene& scene, const ReadLimits& limits, cons
                               const Console& console) const {
   std::vector<Camera> cameras = get(scene, limits, console);
   if (cameras.size() != 1) {
-    throw UsageError(fmt::format("--camera: a path of {} cameras; {} takes a single one",
-                                 cameras.size(), command));
+    throw UsageError(fmt::format(
+        "--camera: a path of {} cameras; {} takes a single one, as 'fathom camera import … --image "
+        "NAME' writes it, or a map that contains its camera",
+        cameras.size(), command));
   }
   return cameras.front();
 }
 
 std::vector<Camera> read_camera_file(const std::string& file, const Console& console) {
   const auto refuse = [](const std::string&, auto, auto) -> std::shared_ptr<const DirectionTable> {
-    throw UsageError("the lens TABLE: " + std::string(computes_on_straight_edges));
+    throw UsageError("the lens TABLE: " + std::string(takes_no_lens));
   };
   std::vector<Camera> cameras = read_any_cameras(file, refuse, console);
-  for (const Camera& camera : cameras) require_straight(camera);
+  for (const Camera& camera : cameras) require_straight(camera, takes_no_lens);
   return cameras;
 }
 

@@ -73,6 +73,7 @@ class CameraOptions {
   View view_;
   LensChoice lens_;
   CameraChanges changes_;
+  std::optional<Option> size_;
 };
 
 /// The cameras of a camera file, or the camera that a map carries, each without fault; warnings go

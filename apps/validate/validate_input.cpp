@@ -38,7 +38,10 @@ Camera read_camera(const std::string& file, const Console& console) {
   if (file.empty()) throw UsageError("--camera FILE is missing");
   const std::vector<Camera> cameras = read_camera_file(file, console);
   if (cameras.size() != 1) {
-    throw UsageError(file + ": is a camera path; expected a single camera");
+    throw UsageError(fmt::format(
+        "{}: is a path of {} cameras; expected a single one, as 'fathom camera import … --image "
+        "NAME' writes it, or a map that contains its camera",
+        file, cameras.size()));
   }
   return cameras.front();
 }

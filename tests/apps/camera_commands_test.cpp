@@ -116,7 +116,7 @@ TEST_F(CameraCommands, CamerasOfAFileAreScaledAndGetADepthRange) {
     "cy": 239.5, "skew": 3, "pixel_centre": 0, "near": 1, "far": 9,
     "world_to_camera": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 4]]}])");
   fathom({"render", "square.obj", "--camera", "opencv.json", "--scale", "0.5", "--far", "inf",
-          "--save-camera", "half.json", "-o", "half.exr"});
+          "--quiet", "--save-camera", "half.json", "-o", "half.exr"});
   const auto half = nlohmann::json::parse(folder_.read("half.json"));
   // 320.5 is a tie: 320 is even.
   EXPECT_EQ(half["width"], 320);

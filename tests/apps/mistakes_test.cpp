@@ -95,6 +95,73 @@ TEST_F(Mistakes, FoldersAroundAColmapModelNameIt) {
   expect_done({"camera", "import", "colmap", "sparse/0", "-o", "c.json"});
 }
 
+TEST_F(Mistakes, ATransformsJsonAsTheCameraFile) {
+  folder_.write("transforms.json",
+                R"({"w": 8, "h": 6, "fl_x": 9, "frames": [{"file_path": "a.jpg", "transform_matrix":
+                [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 9], [0, 0, 0, 1]]}]})");
+  EXPECT_EQ(refusal({"render", "square.obj", "--camera", "transforms.json", "-o", "no.exr"}, 3),
+            "transforms.json: is a transforms.json of NeRF, expected a camera file; 'fathom camera "
+            "import nerf transforms.json -o cameras.json' makes one\n");
+  expect_done({"camera", "import", "nerf", "transforms.json", "-o", "cameras.json"});
+}
+
+TEST_F(Mistakes, CommandsWithoutLensesNameTheOnesThatTakeThem) {
+  folder_.write("lens.json", R"({"width": 8, "height": 6, "model": "SIMPLE_RADIAL", "f": 9, "cx": 4,
+      "cy": 3, "pixel_centre": 0.5, "k": -0.1,
+      "world_to_camera": [[1, 0, 0, 0], [0, -1, 0, 0], [0, 0, -1, 4]]})");
+  expect_done({"render", "square.obj", "--camera", "lens.json", "-o", "map.exr"});
+  for (const auto& arguments : std::vector<std::vector<std::string>>{
+           {"evaluate", "square.obj", "--truth", "square.obj", "--camera", "lens.json"},
+           {"convert", "map.exr", "--camera", "lens.json", "-o", "cloud.ply"}}) {
+    EXPECT_THAT(refusal(arguments, 2),
+                AllOf(StartsWith("the lens SIMPLE_RADIAL: this command takes no lens; 'fathom "
+                                 "render' does"),
+                      EndsWith("--ignore-distortion' leaves the lens out; see docs/lenses.md)\n")));
+  }
+  EXPECT_THAT(refusal({"probe", "square.obj", "--camera", "lens.json", "--pixel", "3,3"}, 2),
+              EndsWith("--ignore-distortion' leaves the lens out; see docs/lenses.md)\n"));
+  folder_.write("k1.json", R"({"width": 8, "height": 6, "fx": 9, "fy": 9, "cx": 4, "cy": 3,
+      "k1": 0,
+      "world_to_camera": [[1, 0, 0, 0], [0, -1, 0, 0], [0, 0, -1, 4]]})");
+  EXPECT_THAT(
+      refusal({"render", "square.obj", "--camera", "k1.json", "-o", "no.exr"}, 3),
+      HasSubstr("unknown key \"k1\", expected one of width, height, projection, fx, fy, cx, "
+                "cy, skew, K, model,"));
+}
+
+TEST_F(Mistakes, SizesBesideACamera) {
+  EXPECT_EQ(
+      refusal({"render", "square.obj", "--camera", "camera.json", "--size", "9x9", "-o", "no.exr"},
+              2),
+      "--camera: the camera has a size, so that --size has no place; --scale FACTOR scales "
+      "it\n");
+  const Outcome outcome = fathom(
+      {"render", "square.obj", "--camera", "camera.json", "--scale", "0.7", "-o", "small.exr"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("--scale: 8x6 pixels become 6x4, so that fx is scaled by 0.75 "
+                                     "and fy by 0.666667"));
+}
+
+TEST_F(Mistakes, APathWhereOneCameraIsNeeded) {
+  folder_.write("path.json", "[" + square_camera + "," + square_camera + "]");
+  EXPECT_THAT(refusal({"probe", "square.obj", "--camera", "path.json", "--pixel", "3,3"}, 2),
+              AllOf(StartsWith("--camera: a path of 2 cameras; probe takes a single one"),
+                    HasSubstr("--image NAME")));
+}
+
+TEST_F(Mistakes, MapsFindTheirCameraOfAPathByName) {
+  const auto named = [](const std::string& name) {
+    return "{\"name\": \"" + name + "\"," + square_camera.substr(1);
+  };
+  folder_.write("path.json", "[" + named("images/a.jpg") + "," + named("images/b.jpg") + "]");
+  expect_done(
+      {"render", "square.obj", "--camera", "path.json", "--channels", "Z", "-o", "{stem}.npy"});
+  expect_done({"convert", "b.npy", "--camera", "path.json", "-o", "b.ply"});
+  std::filesystem::rename(folder_ / "b.npy", folder_ / "c.npy");
+  EXPECT_THAT(refusal({"convert", "c.npy", "--camera", "path.json", "-o", "c.ply"}, 2),
+              StartsWith("--camera: 2 cameras, of which none is called as the map 'c.npy'"));
+}
+
 TEST_F(Mistakes, NamesOfChannels) {
   expect_done(
       {"render", "square.obj", "--camera", "camera.json", "--channels", "Z,N", "-o", "map.exr"});

@@ -333,7 +333,7 @@ for k, points in enumerate(views):
   EXPECT_THAT(convert({"-o", "all.ply", "--frame", "camera"}),
               HasSubstr("--frame camera is for the cloud of one map"));
   EXPECT_THAT(convert({"-o", "all.ply", "--camera", "camera.json"}),
-              HasSubstr("--camera: 1 camera, but there are 2 maps"));
+              HasSubstr("--camera: 1 camera, of which none is called as the map '0.exr'"));
   expect_done({"render", pair_, "--camera", "0.exr", "-o", "1.exr"});
   EXPECT_THAT(convert({"-o", "all.ply"}), HasSubstr("1.exr: the maps of a cloud need the same"));
 }

@@ -158,6 +158,17 @@ def test_names_are_kept(tmp_path):
     assert name == camera.name == "a\ufffd.png" and fathom.Camera.from_json(camera.to_json()).name == name
 
 
+def test_a_name_that_no_image_has_is_answered_with_the_names_there_are(tmp_path):
+    (tmp_path / "cameras.txt").write_text("1 PINHOLE 64 48 9 9 3 2\n")
+    (tmp_path / "images.txt").write_text("1 1 0 0 0 0 0 3 1 left.jpg\n\n2 1 0 0 0 0 0 3 1 right.jpg\n\n")
+    cameras = fathom.Camera.from_colmap(tmp_path)
+    with pytest.raises(KeyError, match="there is no camera 'left' of 2; did you mean 'left.jpg'"):
+        cameras["left"]
+    with pytest.raises(KeyError, match="there is no camera 7 of 2; the first is 'left.jpg'"):
+        cameras[7]
+    assert cameras.get("left") is None and list(cameras) == ["left.jpg", "right.jpg"]
+
+
 def test_distorted_cameras_are_left_out_with_a_warning(tmp_path):
     (tmp_path / "cameras.txt").write_text("1 FOV 64 48 9 9 3 2 0.1\n2 PINHOLE 64 48 9 9 3 2\n")
     (tmp_path / "images.txt").write_text("1 1 0 0 0 0 0 3 1 a\n\n2 1 0 0 0 0 0 3 2 b\n\n")
@@ -242,9 +253,9 @@ def test_data_sets(tmp_path):
     calibration = write("calib.txt", "P2: 500 0 320 50 0 510 240 0 0 0 1 0\n")
     poses = write("00.txt", " ".join(line.split()[:12]) + "\n")
     tum = fathom.Camera.from_tum(tmp_path, "ros")
-    with pytest.warns(fathom.ViewWarning, match="1 of 2 cameras has no pose"):
+    with pytest.warns(fathom.ViewWarning, match="1 of 2 cameras is left out"):
         of_images = fathom.Camera.from_tum(trajectory, (500, 510, 320, 240), images=images, pixel_centre=0.5)
-    with pytest.warns(fathom.ViewWarning, match="1 of 2 cameras has no pose"):
+    with pytest.warns(fathom.ViewWarning, match="1 of 2 cameras is left out"):
         depth, colour = (fathom.Camera.from_scannet(tmp_path / "scene", stream) for stream in ("depth", "colour"))
     found = [tum["1.5"], of_images["rgb/1.51.png"], fathom.Camera.from_7scenes(tmp_path / "seq")["frame-000007"],
              depth["0"], colour["0"], fathom.Camera.from_replica(tmp_path / "room")["frame000000"],

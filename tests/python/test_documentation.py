@@ -89,7 +89,7 @@ def test_type_checkers_know_names_and_channels(tmp_path):
 scene = fathom.Scene()
 camera = fathom.Camera.look_at((0, 0, 3), up="z")
 maps = scene.render(camera, channels=("Z", "id"))
-scene.render(camera, channels=("depth",))
+scene.render(camera, channels=("dpth",))
 fathom.validate(maps, scene, camera, "opengl")
 fathom.validate(maps.Z, scene, camera, "gl-unorm24")
 fathom.DepthFormat("standard", "d24", near=1, far=9)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Literal, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar
 
 from . import _core
 from ._core import InputError
@@ -305,8 +305,19 @@ def _fault_of_frame(camera: _core.Camera, size: tuple[int, int] | Literal[False]
     return ""
 
 
+class Cameras(dict[str, Any]):
+    """Cameras by the names of their images: a dict whose KeyError says what names there are."""
+
+    def __missing__(self, name: object) -> Any:
+        import difflib  # slow to import, and not needed elsewhere
+
+        near = difflib.get_close_matches(str(name), self, n=1, cutoff=0.5)
+        hint = f"did you mean {near[0]!r}?" if near else f"the first is {next(iter(self), None)!r}"
+        raise KeyError(f"there is no camera {name!r} of {len(self)}; {hint}")
+
+
 def _named(cls: type[Camera], imported: tuple[_core.Named, list[str]]) -> dict[str, Camera]:
     """Cameras of a class, with a warning for each note."""
     cameras, notes = imported
     warn(notes)
-    return {name: cls._of(camera) for name, camera in cameras}
+    return Cameras((name, cls._of(camera)) for name, camera in cameras)

@@ -111,7 +111,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         if name == "mask":
             return self.mask()
         own = _core.contents.get(name)
-        if own not in self:
+        if own is None or own not in self:
             raise KeyError(name)
         return self[own]
 
