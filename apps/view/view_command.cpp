@@ -104,7 +104,8 @@ int write_and_open(const ViewArguments& arguments, const std::vector<ViewedMap>&
   });
   output.commit();
   if (is_temporary) print(page.string() + "\n");
-  if (is_temporary || arguments.open) open_in_browser(std::filesystem::absolute(page).string());
+  if (is_temporary || arguments.open)
+    open_in_browser(std::filesystem::absolute(page).string(), console);
   return done;
 }
 
@@ -129,7 +130,7 @@ int serve(const ViewArguments& arguments, std::vector<ViewedMap> maps, const Con
   };
   ProbeServer server(std::move(page), answer);
   print(server.address() + "\n");
-  if (arguments.open) open_in_browser(server.address());
+  if (arguments.open) open_in_browser(server.address(), console);
   server.run();
   return done;
 }

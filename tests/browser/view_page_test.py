@@ -4,11 +4,13 @@
     tests/browser/view_page_test.py FATHOM-VIEW
 """
 import base64
+import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
+import urllib.parse
 
 import numpy
 import OpenImageIO
@@ -202,6 +204,40 @@ class ViewPage(PageCase):
         self.assertEqual(self.driver.execute_script("return fathom.state().pixel"), [x + 1, y - 1])
         self.wait_for(lambda: self.text("#where").startswith(f"Pixel {x + 1}, {y - 1}"), "its values")
         self.assertIn(f"pixel {x + 1}, {y - 1}: Z", self.one("#said").get_attribute("textContent"))
+
+    def test_arrows_need_no_focus_and_shift_means_ten(self):
+        (x, y), = self.surface_pixels(1)
+        self.open(f"#pixel={x},{y}")
+        for shift, step in ((False, 1), (True, 10)):
+            keys = ActionChains(self.driver)
+            if shift:
+                keys.key_down(Keys.SHIFT)
+            keys.send_keys(Keys.ARROW_RIGHT).key_up(Keys.SHIFT).perform()
+            x += step
+            self.assertEqual(self.driver.execute_script("return fathom.state().pixel"), [x, y])
+
+    def test_the_link_follows_what_keys_move_into_sight(self):
+        self.open("#x=100&y=100&zoom=32&pixel=100,100")
+        ActionChains(self.driver).key_down(Keys.SHIFT).send_keys(*[Keys.ARROW_RIGHT] * 9).key_up(Keys.SHIFT).perform()
+        self.wait_for(lambda: "pixel=190,100" in self.driver.current_url, "the link to the pixel")
+        link = dict(urllib.parse.parse_qsl(urllib.parse.urlparse(self.driver.current_url).fragment))
+        self.assertLess(abs(float(link["x"]) - 190), 20, link)
+
+    def test_maps_that_cannot_be_compared_say_why(self):
+        fathom("render", DATA / "scenes/pair.json", "--size", "20x10", "-o", self.folder / "small.npz")
+        self.open(page=self.viewed("pair.exr", "small.npz"))
+        self.assertFalse(self.one("#comparing").is_displayed())
+        self.assertEqual(self.text("#incomparable"), "Compare: no other map has 700 × 530 pixels")
+        self.open()
+        self.assertFalse(self.one("#incomparable").is_displayed())
+        self.assertTrue(self.one("#comparing").is_displayed())
+
+    def test_without_a_display_there_is_one_line(self):
+        bare = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")}
+        done = subprocess.run([PROGRAM, self.folder / "pair.exr", "-o", self.folder / "open.html", "--open"], env=bare,
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stderr, r"^fathom[a-z-]*: warning: no display for a browser: open \S+open.html yourself, .*\n$")
 
     def colour_of(self, place, name="viridis"):
         table = self.driver.execute_script(

@@ -36,6 +36,12 @@ export function mended(state) {
   return state;
 }
 
+/// Why no map can be laid upon this one.
+function whyIncomparable(a, channel) {
+  const isOfSize = (b) => b !== a && b.width === a.width && b.height === a.height;
+  return maps.some(isOfSize) ? `Compare: no other map of this size has ${channel}` : `Compare: no other map has ${a.width} × ${a.height} pixels`;
+}
+
 /// Shows the state in the controls.
 export function fillControls(state) {
   const names = shortNames(), a = maps[state.map], channel = channelOf(a, state.channel);
@@ -47,6 +53,8 @@ export function fillControls(state) {
   const isNumber = !channel.isIdentifier && channel.kind !== "colour", isDifference = state.mode === "difference";
   byId("map-label").hidden = maps.length < 2;
   byId("comparing").hidden = others.length === 0;
+  byId("incomparable").hidden = maps.length < 2 || others.length > 0;
+  byId("incomparable").textContent = whyIncomparable(a, state.channel);
   byId("other-label").hidden = state.mode === "single";
   byId("measure-label").hidden = !isDifference || channel.isIdentifier;
   byId("split-label").hidden = state.mode !== "slider";

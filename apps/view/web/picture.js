@@ -15,7 +15,6 @@ export class Picture {
       canvas.addEventListener(name, (event) => this[name](event));
     }
     canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
-    canvas.addEventListener("keydown", (event) => this.keydown(event));
     canvas.addEventListener("dblclick", (event) => this.zoomAt(event.offsetX, event.offsetY, event.shiftKey ? 0.5 : 2));
   }
   get source() { return this.layers[0]?.source; }
@@ -155,11 +154,14 @@ export class Picture {
     const steps = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }, step = steps[event.key];
     if (!step || event.ctrlKey || event.metaKey || event.altKey || !this.source) return;
     event.preventDefault();
-    const far = event.shiftKey ? Math.max(10, Math.round(50 / this.zoom)) : 1;
+    const far = event.shiftKey ? 10 : 1;
     const [x, y] = this.selected ?? [Math.floor(this.centre[0]) - step[0], Math.floor(this.centre[1]) - step[1]];
     const pixel = [clamped(x + far * step[0], 0, this.source.width - 1), clamped(y + far * step[1], 0, this.source.height - 1)];
     const { left, top, right, bottom } = this.view();
-    if (pixel[0] < left || pixel[0] + 1 > right || pixel[1] < top || pixel[1] + 1 > bottom) this.look(pixel[0] + 0.5, pixel[1] + 0.5, this.zoom);
+    if (pixel[0] < left || pixel[0] + 1 > right || pixel[1] < top || pixel[1] + 1 > bottom) {
+      this.look(pixel[0] + 0.5, pixel[1] + 0.5, this.zoom);
+      this.told.moved();
+    }
     this.told.select(pixel, "key");
   }
 }

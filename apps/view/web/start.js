@@ -132,6 +132,7 @@ function step(id, by) {
 const keys = { "+": "closer", "=": "closer", "-": "farther", 0: "fit", 1: "whole", n: "numbers-view", p: "draw-line", l: "link", "?": "help", b: "swap" };
 document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("input, select, dialog")) return;
+  if (event.key.startsWith("Arrow")) { if (!event.target.closest("pre")) picture.keydown(event); return; }
   if (event.key === "[" || event.key === "]") step("channel", event.key === "[" ? -1 : 1);
   else if (event.key === "Escape") { picture.drawsLine = false; showLineButton(); }
   else if (keys[event.key] === "swap" && state.mode !== "flicker") return;
