@@ -92,8 +92,12 @@ std::string html_document(const std::string& title, const std::string& body) {
   return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
          "<meta name=\"viewport\" content=\"width=device-width\">" +
          element("title", title) +
-         "\n<style>body{font-family:sans-serif;max-width:70em;margin:2em "
-         "auto;padding:0 1em}"
+         "\n<style>:root{color-scheme:light dark;--paper:#fff;--ink:#111;"
+         "--soft:#f3f3f3;--dim:#444;--line:#888}"
+         "@media(prefers-color-scheme:dark){:root{--paper:#171b21;--ink:#e4e8ee;--soft:#26292e;"
+         "--dim:#b4bac3;--line:#6a7078}}"
+         "body{font-family:sans-serif;max-width:70em;margin:2em auto;padding:0 1em;"
+         "background:var(--paper);color:var(--ink)}"
          ".wide{overflow-x:auto;width:max-content;min-width:100%;max-width:calc(100vw - 4em);"
          "position:relative;left:50%;transform:translateX(-50%)}th{vertical-align:bottom}pre{"
          "overflow-x:auto;margin:0}figure{margin:1em 0}"
@@ -101,12 +105,12 @@ std::string html_document(const std::string& title, const std::string& body) {
          ".small img,.row img{image-rendering:pixelated;outline:1px solid #ccc}.small "
          "figcaption{max-width:24em}"
          ".row{clear:both}.row figcaption{max-width:56em}"
-         "code{font-size:95%;background:#f3f3f3}code span{white-space:nowrap}"
-         "figcaption{color:#444;font-size:90%;padding-top:0.3em}"
-         "table{border-collapse:collapse}td,th{border:1px solid #888;padding:0.2em 0.6em;"
+         "code{font-size:95%;background:var(--soft)}code span{white-space:nowrap}"
+         "figcaption{color:var(--dim);font-size:90%;padding-top:0.3em}"
+         "table{border-collapse:collapse}td,th{border:1px solid var(--line);padding:0.2em 0.6em;"
          "text-align:right}td:not(:first-child){white-space:nowrap}td:first-child,th:first-child{"
          "text-align:left}"
-         "img{max-width:100%}@media(max-width:30em){td,th{padding:0.2em "
+         "img{max-width:100%;background:#fff}@media(max-width:30em){td,th{padding:0.2em "
          "0.3em}}</style></head>\n<body>\n" +
          body + "</body></html>\n";
 }

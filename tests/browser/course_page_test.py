@@ -10,6 +10,7 @@ import tempfile
 import unittest
 
 from headless_chromium import errors_in_console, headless_chromium
+from page_case import expect_readable_in_the_dark
 
 # The page has loaded when all its pictures have, or cannot be.
 WIDTHS_OF_PICTURES = """
@@ -34,6 +35,9 @@ class CoursePage(unittest.TestCase):
         self.assertTrue(widths)
         for name, width in widths.items():
             self.assertGreater(width, 0, name)
+
+    def test_it_is_readable_in_the_dark(self):
+        expect_readable_in_the_dark(self, self.driver)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,28 @@ CUT_OFF = """
 return [...arguments[0].querySelectorAll("th, td")].filter((c) => c.scrollWidth > c.clientWidth)
   .map((c) => c.textContent);
 """
+# The visible texts whose contrast to what is behind them is less than 4.5 (WCAG 2.2, 1.4.3). Plots keep white paper.
+FAINT = """
+const linear = (v) => (v /= 255) <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
+const light = ([r, g, b]) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
+const numbers = (colour) => colour.match(/[\\d.]+/g).map(Number);
+const behind = (e) => {
+  for (; e; e = e.parentElement) {
+    const colour = numbers(getComputedStyle(e).backgroundColor);
+    if (colour.length < 4 || colour[3] === 1) return colour;
+  }
+  return [255, 255, 255];
+};
+const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT), faint = [];
+while (texts.nextNode()) {
+  const e = texts.currentNode.parentElement, text = texts.currentNode.textContent.trim();
+  if (!text || !e.checkVisibility() || e.closest("svg, script, style, select, .hidden-visually")) continue;
+  const [a, b] = [light(numbers(getComputedStyle(e).color)), light(behind(e))].sort((x, y) => y - x);
+  if ((a + 0.05) / (b + 0.05) < 4.5) faint.push(text);
+}
+return faint;
+"""
+PAPER = "return getComputedStyle(document.body).backgroundColor"
 SIDEWAYS = "return arguments[0].scrollWidth - arguments[0].clientWidth"
 
 
@@ -64,6 +86,9 @@ class PageCase(unittest.TestCase):
                                     {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
         self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.clearDeviceMetricsOverride", {})
 
+    def expect_readable_in_the_dark(self):
+        expect_readable_in_the_dark(self, self.driver)
+
     def expect_words_explained(self):
         """Every word that is marked as one leads to its meaning."""
         meanings = dict(zip(self.texts("#words dt"), self.texts("#words dd")))
@@ -74,6 +99,17 @@ class PageCase(unittest.TestCase):
             word = ids[link.get_attribute("href").split("#")[1]]
             self.assertTrue(meanings[word])
             self.assertEqual(link.get_attribute("title"), meanings[word])
+
+
+def expect_readable_in_the_dark(case, driver):
+    """The page follows the system's dark colours, and its texts stand out from them as from light ones."""
+    papers = []
+    for scheme in ("light", "dark"):
+        driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
+        case.assertEqual(driver.execute_script(FAINT), [], scheme)
+        papers.append(driver.execute_script(PAPER))
+    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+    case.assertEqual(papers, ["rgb(255, 255, 255)", "rgb(23, 27, 33)"])
 
 
 def data_of(page, name):

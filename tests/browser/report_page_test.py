@@ -101,6 +101,10 @@ class ReportPage(PageCase):
         self.assertIn("4 maps of 2 scenes: every pixel is explained", self.text("#verdict"))
         self.assertEqual([cell.text for cell in self.all("#matrix button")], ["0"] * 4)
 
+    def test_it_is_readable_in_the_dark(self):
+        self.show(0)
+        self.expect_readable_in_the_dark()
+
     # Maps that are judged as if somebody had brought them have depths alone.
     def test_z_fighting_is_unknown_without_triangle_numbers(self):
         self.show(next(k for k, r in enumerate(self.results) if r["scene"] == "sphere"))
