@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "apps/commands.h"
 #include "apps/options/camera_options.h"
@@ -78,6 +80,13 @@ double parse_distance(const std::string& text) {
   return distance;
 }
 
+/// The pairs that cover most pixels first; among equals, the nearest ones.
+void put_important_first(std::vector<CoplanarPair>& pairs) {
+  std::ranges::stable_sort(pairs, [](const CoplanarPair& a, const CoplanarPair& b) {
+    return std::pair(b.pixels, a.separation) < std::pair(a.pixels, b.separation);
+  });
+}
+
 int run_coplanar(const CoplanarArguments& arguments, const Console& console) {
   RenderOptions options;
   options.cull = arguments.cull;
@@ -90,6 +99,7 @@ int run_coplanar(const CoplanarArguments& arguments, const Console& console) {
     Progress progress(console, "comparing");
     pairs = coplanar_pairs(scene, camera, arguments.within, options, progress.reporter());
   }
+  put_important_first(pairs);
   print(arguments.json ? as_json(scene, pairs, arguments.within)
                        : as_text(scene, pairs, arguments.within));
   return done;

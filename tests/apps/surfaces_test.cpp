@@ -183,5 +183,24 @@ TEST_F(Surfaces, CoplanarTellsWhatLiesCloseBehind) {
   EXPECT_EQ(json["pairs"][0]["behind"]["face"], 1);
 }
 
+TEST_F(Surfaces, CoplanarPairsOfMostPixelsComeFirst) {
+  folder_.write("four.obj",
+                "v -3 -2 2\nv -2 -2 2\nv -2 -1 2\nf 1 2 3\n"
+                "v -3 -2 2\nv -2 -2 2\nv -2 -1 2\nf 4 5 6\n"
+                "v -1 -1 2\nv 2 -1 2\nv 2 2 2\nf 7 8 9\n"
+                "v -1 -1 2.5\nv 2 -1 2.5\nv 2 2 2.5\nf 10 11 12\n"
+                "v -3 1 2\nv -2 1 2\nv -2 2 2\nf 13 14 15\n"
+                "v -3 1 2.25\nv -2 1 2.25\nv -2 2 2.25\nf 16 17 18\n");
+  folder_.write("camera.json", R"({"width": 8, "height": 6, "projection": "orthographic",
+    "fx": 1, "fy": 1, "cx": 4, "cy": 3, "pixel_centre": 0.5,
+    "world_to_camera": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]})");
+  const Json pairs = Json::parse(answer(
+      {"coplanar", "four.obj", "--camera", "camera.json", "--within", "0.5", "--json"}))["pairs"];
+  std::vector<std::pair<int, double>> found;
+  for (const Json& pair : pairs) found.emplace_back(pair["pixels"], pair["separation"]);
+  using Pairs = std::vector<std::pair<int, double>>;
+  EXPECT_EQ(found, (Pairs{{6, 0.5}, {1, 0.25}}));
+}
+
 }  // namespace
 }  // namespace fathom::test
