@@ -117,6 +117,8 @@ def test_reports_are_kept(spot, camera, depths, tmp_path):
     assert fathom.Camera.read(folder / "camera.json") == camera
     assert np.array_equal(fathom.read_map(folder / "map.exr")["Z"], depths[::-1])
     assert "the vertical axis is flipped" in (folder / "report.txt").read_text()
+    page = (folder / "report.html").read_text()
+    assert "the vertical axis is flipped" in page and "<td>orange</td>" in page and "data:image/png;base64," in page
 
 
 def test_the_fixture(tmp_path):

@@ -41,8 +41,8 @@ def assert_depth(
     """Raises AssertionError, with the cause in one line, unless the model explains every pixel of the map and the map has
     no fault. The arguments are the same as for fathom.validate().
 
-    report  folder for report.txt, map.exr, camera.json and classes.npy, written if the map fails. If they cannot be
-            written, the AssertionError contains the reason
+    report  folder for report.html, report.txt, map.exr, camera.json and classes.npy, written if the map fails. If they
+            cannot be written, the AssertionError contains the reason
     """
     __tracebackhide__ = True
     found = validate(map, scene, camera, model, channel=channel)
@@ -55,6 +55,8 @@ def assert_depth(
 def keep_report(folder: Path, map: Any, camera: Camera, found: Validation) -> Path:
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "report.txt").write_text(found.report(), encoding="utf-8")
+    page = f'<!DOCTYPE html><meta charset="utf-8"><title>{_folder_name(folder.name)}</title>{found._repr_html_()}'
+    (folder / "report.html").write_text(page, encoding="utf-8")
     np.save(folder / "classes.npy", found.classes)
     camera.write(folder / "camera.json")
     planes: dict[str, npt.NDArray[Any]] = {}

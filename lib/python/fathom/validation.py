@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _core
 from ._arguments import camera_handle, scene_handle
+from ._shown import html_of, png_of
 from .camera import Camera
 from .maps import Map, as_map
 
@@ -21,6 +22,13 @@ if TYPE_CHECKING:
 CLASSES: tuple[str, ...] = tuple(_core.class_names)
 
 _unexplained = CLASSES.index("unexplained")
+
+#: Of the picture of the classes.
+_colours = {"grey": (225, 228, 232), "blue": (95, 150, 210), "orange": (240, 150, 40), "red": (200, 20, 30)}
+
+
+def _colour_of(name: str) -> str:
+    return {"equal": "grey", "convention": "orange", "unexplained": "red"}.get(name, "blue")
 
 
 class Validation:
@@ -74,6 +82,18 @@ class Validation:
 
     def __repr__(self) -> str:
         return f"Validation({self.verdict})"
+
+    def _repr_html_(self) -> str:
+        import html  # not needed elsewhere
+
+        rows = [("class", "pixels", "colour")]
+        rows += [(name, f"{count}", _colour_of(name)) for name, count in self.counts.items()]
+        text = html.escape(self.report())
+        return html_of(self.verdict, rows, png_of(self._picture), f"<pre>{text}</pre>")
+
+    def _picture(self) -> npt.NDArray[np.uint8]:
+        """The classes as colours, H×W×3."""
+        return np.array([_colours[_colour_of(name)] for name in CLASSES], np.uint8)[self.classes]
 
 
 def validate(
