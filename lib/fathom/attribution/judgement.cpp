@@ -46,8 +46,8 @@ void judge_by_any(Judgement& judgement) {
        .evidence = std::move(choice.evidence)});
 }
 
-/// Whether the narrowest model of a ray tracer was excluded from the choice: a depth buffer may have
-/// drawn the map as well.
+/// Whether the narrowest model of a ray tracer was excluded from the choice, so that a depth buffer
+/// may have drawn the map as well.
 bool may_be_of_rasterizer(const Judgement& judgement) {
   return judgement.model.name != "float32-ray";
 }
