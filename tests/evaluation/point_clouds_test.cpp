@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "fathom/evaluate.h"
+#include "fathom/evaluation/box_tree.h"
 #include "fathom/evaluation/placed_cloud.h"
-#include "fathom/evaluation/placed_triangles.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "tests/evaluation/scenes.h"

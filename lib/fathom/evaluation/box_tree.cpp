@@ -7,7 +7,6 @@
 #include <span>
 
 #include "fathom/evaluation/placed_cloud.h"
-#include "fathom/evaluation/placed_triangles.h"
 #include "fathom/threads/interruption.h"
 #include "fathom/threads/threads.h"
 

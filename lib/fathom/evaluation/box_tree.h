@@ -1,13 +1,16 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace fathom::evaluation {
+#include "fathom/rays/placed_triangles.h"
 
-using Vector = std::array<double, 3>;
+namespace fathom::evaluation {
+using rays::in_unit;
+using rays::PlacedTriangles;
+using rays::power_of_unit;
+using rays::Vector;
 
 /// A box along the axes.
 struct Box {
@@ -18,7 +21,6 @@ struct Box {
 Box box_of(std::span<const Vector> points);
 
 class PlacedCloud;
-class PlacedTriangles;
 
 /// A tree of boxes around triangles or points, which must outlive it: each box contains the corners
 /// as PlacedTriangles or PlacedCloud has them. The same whatever the number of threads.

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "fathom/evaluation/box_tree.h"
 #include "fathom/evaluation/placed_cloud.h"
-#include "fathom/evaluation/placed_triangles.h"
 #include "fathom/evaluation/surface_points.h"
 #include "fathom/geometry/frames.h"
 #include "fathom/numeric/ratio.h"

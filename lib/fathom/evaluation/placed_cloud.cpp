@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "fathom/evaluation/placed_triangles.h"
+#include "fathom/evaluation/box_tree.h"
 #include "fathom/failures/errors.h"
 #include "fathom/mesh/element_counts.h"
 #include "fathom/text/counted.h"

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "fathom/camera/camera.h"
-#include "fathom/evaluation/placed_triangles.h"
+#include "fathom/evaluation/box_tree.h"
 #include "fathom/evaluation/surface_points.h"
 #include "fathom/numeric/certified_arithmetic.h"
 #include "fathom/rendering/options.h"

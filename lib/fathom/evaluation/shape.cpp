@@ -5,7 +5,6 @@
 #include "fathom/evaluation/box_tree.h"
 #include "fathom/evaluation/nearest_surface.h"
 #include "fathom/evaluation/placed_cloud.h"
-#include "fathom/evaluation/placed_triangles.h"
 #include "fathom/evaluation/point_sight.h"
 #include "fathom/failures/errors.h"
 

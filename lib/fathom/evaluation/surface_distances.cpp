@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "fathom/evaluation/box_tree.h"
 #include "fathom/evaluation/placed_cloud.h"
-#include "fathom/evaluation/placed_triangles.h"
 #include "fathom/evaluation/shape.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/error_metrics.h"

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fathom/evaluation/placed_triangles.h"
+#include "fathom/evaluation/box_tree.h"
 #include "fathom/geometry/frames.h"
 
 namespace fathom::evaluation {

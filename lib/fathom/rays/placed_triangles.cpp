@@ -1,4 +1,4 @@
-#include "fathom/evaluation/placed_triangles.h"
+#include "fathom/rays/placed_triangles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "fathom/numeric/rounding.h"
 #include "fathom/threads/threads.h"
 
-namespace fathom::evaluation {
+namespace fathom::rays {
 namespace {
 
 /// The t with |x| < 2^t of a number that is not 0.
@@ -64,4 +64,4 @@ PlacedTriangles::PlacedTriangles(const TriangleSource& triangles, long power)
   });
 }
 
-}  // namespace fathom::evaluation
+}  // namespace fathom::rays

@@ -4,10 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "fathom/evaluation/box_tree.h"
 #include "fathom/scene/triangle_source.h"
 
-namespace fathom::evaluation {
+namespace fathom::rays {
+
+using Vector = std::array<double, 3>;
 
 /// Powers of two to measure in: every corner of the scene has coordinates of less than 2 to this
 /// power, exactly.
@@ -17,11 +18,15 @@ long power_of_unit(const TriangleSource& triangles);
 /// is placed as it is nothing is lost but what lies below 2⁻¹⁰⁷⁴, and others are rounded once.
 Vector in_unit(const Object& object, const MeshPoint& p, long power);
 
+/// How far a coordinate of a placed corner may be from the exact one: it is below 1, and rounded
+/// once.
+inline constexpr double placing_error = 0x1p-54;
+
 /// The triangles of a scene in the world, in binary64 and in a unit in which all coordinates are
 /// below 1: bounds on errors are plain numbers then, and nothing overflows.
 class PlacedTriangles {
  public:
-  /// Each coordinate is within bounds::corner_error of the exact one (in_unit).
+  /// Each coordinate is within placing_error of the exact one (in_unit).
   using Corners = std::array<Vector, 3>;
 
   /// The unit is 2 to the power of `power`, at least power_of_unit().
@@ -36,4 +41,4 @@ class PlacedTriangles {
   std::vector<Corners> corners_;
 };
 
-}  // namespace fathom::evaluation
+}  // namespace fathom::rays

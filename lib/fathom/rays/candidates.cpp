@@ -1,0 +1,98 @@
+#include "fathom/rays/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fathom/numeric/rounding.h"
+#include "fathom/rays/ray_bounds.h"
+#include "fathom/rays/round_outwards.h"
+
+namespace fathom::rays {
+namespace {
+
+/// Contains the s where the ray meets the plane. With x = height/w and the exact X,
+/// │x − X│ ≤ (E_t + │x│·E)/(│w│ − E); the division and the ends lose less than 4u of x.
+Interval s_at_plane(const TestedTriangle& triangle) {
+  const double room = std::abs(triangle.w) - triangle.error;
+  if (!(room > 0)) return {-infinity, infinity};
+  const double s = triangle.height / triangle.w;
+  const double error = ((triangle.height_error + std::abs(s) * triangle.error) / room +
+                        4 * unit_roundoff<double> * std::abs(s)) *
+                           bounds::slack +
+                       bounds::floor;
+  return {s - error, s + error};
+}
+
+Interval enclose(const Ratio& t) {
+  const double nearest = round_to_binary64(t);
+  return {std::nextafter(nearest, -infinity), std::nextafter(nearest, infinity)};
+}
+
+}  // namespace
+
+void Candidates::begin(const Ray& given, const WalkRay& ray) {
+  given_ = &given;
+  ray_ = &ray;
+  exact_ray_.reset();
+  hits_.clear();
+  least_upper_ = infinity;
+  last_ = ray.last;
+}
+
+const ExactRay& Candidates::exact_ray() {
+  if (!exact_ray_) exact_ray_.emplace(*given_);
+  return *exact_ray_;
+}
+
+std::optional<Candidates::Hit> Candidates::settle(const TestedTriangle& triangle) {
+  const std::optional<ExactHit> hit = meet(exact_ray(), source_.world_corners(triangle.number));
+  if (!hit || !is_kept(hit->side, options_.cull) || !counts(hit->t, options_.segment))
+    return std::nullopt;
+  return Hit{triangle.number, triangle.place, hit->side, s_of(*ray_, enclose(hit->t))};
+}
+
+bool Candidates::offer(const TestedTriangle& triangle) {
+  const Interval s = s_at_plane(triangle);
+  if (s.upper < ray_->segment_first.lower || s.lower > ray_->segment_last.upper) return false;
+  if (question_ == Question::nearest && s.lower > least_upper_) return false;
+  std::optional<Hit> hit;
+  if (triangle.is_met && s.lower > ray_->segment_first.upper &&
+      s.upper < ray_->segment_last.lower) {
+    const Sign side = triangle.w < 0 ? Sign::negative : Sign::positive;
+    if (is_kept(side, options_.cull)) hit = {triangle.number, triangle.place, side, s};
+  } else {
+    hit = settle(triangle);
+  }
+  if (!hit) return false;
+  hits_.push_back(*hit);
+  if (question_ == Question::nearest && hit->s.upper < least_upper_) {
+    least_upper_ = hit->s.upper;
+    last_ = std::min(last_, round_up(least_upper_) * (1 + bounds::far_room));
+  }
+  return question_ == Question::any;
+}
+
+/// Where the intervals do not decide, exact numbers do.
+bool Candidates::is_before(const Hit& a, const Hit& b) {
+  if (a.s.upper < b.s.lower) return true;
+  if (b.s.upper < a.s.lower) return false;
+  if (a.triangle == b.triangle) return false;
+  const auto t_of = [&](const Hit& hit) {
+    return meet(exact_ray(), source_.world_corners(hit.triangle))->t;
+  };
+  const int order = compare(t_of(a), t_of(b));
+  return order < 0 || (order == 0 && a.triangle < b.triangle);
+}
+
+std::optional<Candidates::Hit> Candidates::nearest() {
+  const Hit* best = nullptr;
+  for (const Hit& hit : hits_)
+    if (hit.s.lower <= least_upper_ && (!best || is_before(hit, *best))) best = &hit;
+  return best ? std::optional(*best) : std::nullopt;
+}
+
+void Candidates::sort() {
+  std::ranges::sort(hits_, [&](const Hit& a, const Hit& b) { return is_before(a, b); });
+}
+
+}  // namespace fathom::rays

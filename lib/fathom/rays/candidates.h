@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "fathom/rays/exact_ray.h"
+#include "fathom/rays/walk_ray.h"
+
+namespace fathom::rays {
+
+/// What is asked of a ray.
+enum class Question { nearest, any, all };
+
+/// A triangle that the ray is not certain to miss: w = n·d and n·t in binary64 with the bounds of
+/// ray_bounds.h.
+struct TestedTriangle {
+  std::uint32_t number = 0;
+  /// Where the tree has it (RayTree::corners).
+  std::size_t place = 0;
+  /// Whether it is certain that the ray meets the triangle, at some t.
+  bool is_met = false;
+  double w = 0, height = 0;
+  /// Bounds on their errors; that of w bounds the weights, too.
+  double error = 0, height_error = 0;
+};
+
+/// The hits of a ray, as a walk finds them: doubtful triangles and limits are settled exactly when
+/// they are offered, the order of hits at the end.
+class Candidates {
+ public:
+  Candidates(const TriangleSource& source, const CastOptions& options, Question question)
+      : source_(source), options_(options), question_(question) {}
+
+  /// Forgets all hits and begins with a ray; both must stay as they are meanwhile.
+  void begin(const Ray& given, const WalkRay& ray);
+
+  /// Returns whether the answer is known, so that the walk can end.
+  bool offer(const TestedTriangle& triangle);
+  /// Nothing beyond this s can change the answer.
+  [[nodiscard]] float last() const { return last_; }
+
+  struct Hit {
+    std::uint32_t triangle = 0;
+    std::size_t place = 0;
+    /// The sign of n·d.
+    Sign side = Sign::zero;
+    /// Contains s.
+    Interval s;
+  };
+  /// Every hit that was found, in no order. Of a question for the nearest, further ones are
+  /// missing.
+  [[nodiscard]] const std::vector<Hit>& hits() const { return hits_; }
+
+  /// The hit with the least t, among equals the lowest number; nullopt if there is none.
+  [[nodiscard]] std::optional<Hit> nearest();
+  /// Sorts hits() by t, then by number.
+  void sort();
+
+ private:
+  [[nodiscard]] const ExactRay& exact_ray();
+  [[nodiscard]] std::optional<Hit> settle(const TestedTriangle& triangle);
+  [[nodiscard]] bool is_before(const Hit& a, const Hit& b);
+
+  const TriangleSource& source_;
+  const CastOptions& options_;
+  Question question_;
+
+  const Ray* given_ = nullptr;
+  const WalkRay* ray_ = nullptr;
+  std::optional<ExactRay> exact_ray_;
+  std::vector<Hit> hits_;
+  /// The least upper end of the s of a hit, and what follows from it.
+  double least_upper_ = 0;
+  float last_ = 0;
+};
+
+}  // namespace fathom::rays

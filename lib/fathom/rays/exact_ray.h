@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "fathom/geometry/frames.h"
+#include "fathom/numeric/certified.h"
+#include "fathom/numeric/ratio.h"
+#include "fathom/rays/ray.h"
+
+/// Section 11 of the specification in exact numbers: the referee of every doubtful decision.
+namespace fathom::rays {
+
+struct ExactRay {
+  ExactVector3 origin, direction;
+
+  ExactRay() = default;
+  explicit ExactRay(const Ray& ray);
+};
+
+/// How a ray meets a triangle.
+struct ExactHit {
+  /// Where. Of a triangle that the moved ray meets, it is that of the plane and the ray itself.
+  Ratio t;
+  /// The sign of n·d: negative for a front face.
+  Sign side = Sign::zero;
+  /// n, and the numerators of the weights of B and C, whose divisor is n·d.
+  ExactVector3 normal;
+  std::array<Dyadic, 2> weights;
+  Dyadic divisor;
+};
+
+/// The hit, if the ray meets the triangle, at any t. Of triangles that share an edge or a corner,
+/// and of a closed surface, a ray meets as many as if its origin were moved by (ε, ε², ε³) for an
+/// infinitely small ε > 0: it meets no edge then.
+/// Source   [EM90]
+std::optional<ExactHit> meet(const ExactRay& ray, const std::array<WorldPoint, 3>& corners);
+
+/// Whether a hit counts at this t.
+bool counts(const Ratio& t, const RaySegment& segment);
+/// Whether culling keeps a triangle whose n·d has this sign.
+bool is_kept(Sign side, Cull cull);
+
+}  // namespace fathom::rays

@@ -1,0 +1,68 @@
+#include "fathom/rays/hit_values.h"
+
+#include <cmath>
+#include <string>
+
+#include "fathom/failures/errors.h"
+#include "fathom/numeric/rounding.h"
+#include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/rays/exact_ray.h"
+
+namespace fathom {
+namespace {
+
+template <class Real>
+Real rounded(const Ratio& x) {
+  if constexpr (std::is_same_v<Real, float>) {
+    return round_to_binary32(x);
+  } else {
+    return round_to_binary64(x);
+  }
+}
+
+/// √x with a sign.
+template <class Real>
+Real rounded_root(const Ratio& x, Sign sign) {
+  Real root;
+  if constexpr (std::is_same_v<Real, float>) {
+    root = round_sqrt_to_binary32(x);
+  } else {
+    root = round_sqrt_to_binary64(x);
+  }
+  return sign == Sign::negative ? -root : root;
+}
+
+rays::ExactHit exact_hit(const TriangleSource& triangles, const rays::ExactRay& ray,
+                         std::uint32_t triangle) {
+  auto hit = rays::meet(ray, triangles.world_corners(triangle));
+  if (!hit) throw UsageError("the ray does not meet triangle " + std::to_string(triangle));
+  return std::move(*hit);
+}
+
+}  // namespace
+
+template <class Real>
+HitValues<Real> hit_values(const TriangleSource& triangles, const Ray& ray,
+                           std::uint32_t triangle) {
+  const StandardArithmetic standard;
+  const rays::ExactRay exact(ray);
+  const rays::ExactHit hit = exact_hit(triangles, exact, triangle);
+  HitValues<Real> values;
+  values.t = rounded<Real>(hit.t);
+  const Ratio squared_length(dot(exact.direction, exact.direction));
+  values.distance = rounded_root<Real>(hit.t * hit.t * squared_length, hit.t.sign());
+  const Dyadic squared_normal = dot(hit.normal, hit.normal);
+  for (std::size_t k = 0; k < 3; ++k) {
+    values.position[k] = rounded<Real>(Ratio(exact.origin[k]) + hit.t * Ratio(exact.direction[k]));
+    values.normal[k] = rounded_root<Real>(Ratio(hit.normal[k] * hit.normal[k], squared_normal),
+                                          -(hit.side * hit.normal[k].sign()));
+  }
+  for (std::size_t k = 0; k < 2; ++k)
+    values.barycentric[k] = rounded<Real>(Ratio(hit.weights[k], hit.divisor));
+  return values;
+}
+
+template HitValues<float> hit_values(const TriangleSource&, const Ray&, std::uint32_t);
+template HitValues<double> hit_values(const TriangleSource&, const Ray&, std::uint32_t);
+
+}  // namespace fathom

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "fathom/rays/ray.h"
+#include "fathom/scene/triangle_source.h"
+
+namespace fathom {
+
+/// The values of a hit, each the exact number rounded once to Real (specification, section 11).
+template <class Real>
+struct HitValues {
+  Real t = 0;
+  /// t·│direction│
+  Real distance = 0;
+  /// origin + t·direction
+  std::array<Real, 3> position{};
+  /// The weights of the corners B and C.
+  std::array<Real, 2> barycentric{};
+  /// The unit normal, turned against the ray.
+  std::array<Real, 3> normal{};
+};
+
+/// The values where a ray meets a triangle that a cast has found; all by exact numbers.
+/// Fails    std::out_of_range if there is no such triangle; UsageError if the ray does not meet it.
+template <class Real>
+HitValues<Real> hit_values(const TriangleSource& triangles, const Ray& ray, std::uint32_t triangle);
+
+}  // namespace fathom

@@ -1,0 +1,87 @@
+#include "fathom/rays/tree_elements.h"
+
+#include <cmath>
+
+#include "fathom/numeric/certified.h"
+#include "fathom/rays/ray_bounds.h"
+#include "fathom/rays/round_outwards.h"
+#include "fathom/threads/threads.h"
+
+namespace fathom::rays {
+namespace {
+
+/// Whether n is 0 exactly, as only a triangle without area has it.
+bool has_area(const PlacedTriangles::Corners& corners, double corner_error,
+              const TriangleSource& source, std::uint32_t number) {
+  Vector p, r;
+  double H = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    p[k] = corners[1][k] - corners[0][k];
+    r[k] = corners[2][k] - corners[0][k];
+    H = std::max({H, std::abs(p[k]), std::abs(r[k])});
+  }
+  const double error =
+      (bounds::of_normal * H * H + bounds::of_normal_corners * corner_error * H) * bounds::slack +
+      bounds::floor;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    if (std::abs(p[i] * r[j] - p[j] * r[i]) > error) return true;
+  }
+  const auto [a, b, c] = source.world_corners(number);
+  const ExactVector3 n =
+      cross({b.x - a.x, b.y - a.y, b.z - a.z}, {c.x - a.x, c.y - a.y, c.z - a.z});
+  return !std::ranges::all_of(n, &Dyadic::is_zero);
+}
+
+FloatBox box_of(const PlacedTriangles::Corners& corners, double corner_error) {
+  FloatBox box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [least, greatest] = std::minmax({corners[0][k], corners[1][k], corners[2][k]});
+    // The error is 0, or greater than what the sum is rounded by.
+    box.lower[k] = round_down(least - 2 * corner_error);
+    box.upper[k] = round_up(greatest + 2 * corner_error);
+  }
+  return box;
+}
+
+}  // namespace
+
+std::vector<Element> elements_of(const TriangleSource& source, const PlacedTriangles& triangles,
+                                 double corner_error) {
+  constexpr std::size_t together = 4096;
+  std::vector<Element> elements(triangles.count());
+  const std::size_t pieces = (elements.size() + together - 1) / together;
+  parallel_for(std::size_t{0}, pieces, [&](std::size_t piece) {
+    const std::size_t end = std::min(elements.size(), (piece + 1) * together);
+    for (std::size_t i = piece * together; i < end; ++i) {
+      const auto number = static_cast<std::uint32_t>(i);
+      if (!has_area(triangles[number], corner_error, source, number)) continue;
+      elements[i] = {box_of(triangles[number], corner_error), number};
+    }
+  });
+  // Those that were left out have empty boxes.
+  std::erase_if(elements, [](const Element& e) { return e.box.lower[0] > e.box.upper[0]; });
+  return elements;
+}
+
+bool is_scaled_exactly(const TriangleSource& source, long power) {
+  const double least = std::ldexp(1.0, static_cast<int>(power) - 960);
+  const auto is_kept = [&](double x) { return x == 0 || std::abs(x) >= least; };
+  bool are_kept = true;
+  source.for_each_part(0, [&](const TriangleSource::Part& part) {
+    are_kept = are_kept && std::ranges::all_of(part.mesh.vertices, [&](const MeshPoint& p) {
+                 return is_kept(p.x) && is_kept(p.y) && is_kept(p.z);
+               });
+  });
+  return are_kept;
+}
+
+bool are_in_binary32(const PlacedTriangles& triangles) {
+  const auto is_binary32 = [](double x) { return static_cast<float>(x) == x; };
+  for (std::uint32_t i = 0; i < triangles.count(); ++i)
+    for (const Vector& corner : triangles[i])
+      if (!std::ranges::all_of(corner, is_binary32)) return false;
+  return true;
+}
+
+}  // namespace fathom::rays

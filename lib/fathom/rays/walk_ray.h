@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "fathom/numeric/interval.h"
+#include "fathom/rays/ray.h"
+#include "fathom/rays/ray_tree.h"
+
+namespace fathom::rays {
+
+/// A ray as a tree is walked along it: in the tree's unit, its direction scaled by a power of two
+/// until the greatest component is in [1, 2), and its origin moved along it to near the scene.
+///
+/// With the tree's coordinates x/2^power, the direction d/2^k and the moved origin at `start`,
+///   t = (s + start)·2^(power − k)
+/// for the parameter s of the walk, which is at most 8 in the scene.
+struct WalkRay {
+  /// Each coordinate of the origin is within origin_error of the exact one, and below 8.
+  Vector origin{}, direction{};
+  double origin_error = 0;
+
+  /// The stretch that is searched, with certainty around that which is asked for: s ≥ 0.
+  float first = 0, last = 0;
+  /// Intervals that contain the ends of the segment, as s.
+  Interval segment_first, segment_last;
+
+  /// For the sides of a box that the ray meets first and last: bounds on the origin, by axis.
+  std::array<float, 3> origin_near{}, origin_far{};
+  /// 1/d, and the same times 1 + 2⁻²¹.
+  std::array<float, 3> inverse{}, inverse_far{};
+  /// Whether the ray goes towards smaller coordinates, and whether it goes neither way.
+  std::array<bool, 3> backward{}, parallel{};
+
+  /// The power of two that t is counted in, beside s: t = (s + start)·2^scale.
+  long scale = 0;
+  Interval start;
+};
+
+/// k for which the greatest component of d/2^k is in [1, 2).
+long power_of_direction(const Ray& ray);
+
+/// The ray, or nullopt if it certainly misses everything in the segment.
+/// Needs    a finite ray with a direction that is not 0.
+std::optional<WalkRay> prepare(const Ray& ray, const RaySegment& segment, const RayTree& tree);
+
+/// An interval that contains the s of a t in the interval.
+Interval s_of(const WalkRay& ray, const Interval& t);
+
+}  // namespace fathom::rays
