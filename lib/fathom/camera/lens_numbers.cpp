@@ -52,6 +52,7 @@ Lens lens_of_numbers(const LensModelEntry& model, std::span<const double> distor
 
 Lens lens_of_numbers(std::string_view model, std::span<const double> distortion,
                      double max_radius) {
+  const StandardArithmetic standard;
   return lens_of_numbers(lens_model_of(model), distortion, max_radius);
 }
 
