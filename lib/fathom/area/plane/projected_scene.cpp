@@ -13,9 +13,9 @@ using namespace triangle;
 
 namespace {
 
-constexpr std::uint32_t chunk = 4096;
+constexpr std::uint32_t triangles_of_chunk = 4096;
 /// Of the points of a file, so many are in memory at the same time.
-constexpr std::uint32_t triangles_of_file = 1U << 20U;
+constexpr std::uint32_t triangles_in_memory = 1U << 20U;
 
 /// A point that is not finite where the quotient is not known.
 BoundedPoint bounded_point(const Interval& U, const Interval& V, const Interval& W) {
@@ -61,7 +61,7 @@ class ProjectedScene::VertexNumbers {
 };
 
 std::uint64_t ProjectedScene::parts(const TriangleSource& triangles) {
-  return triangles.count() / chunk + 1;
+  return triangles.count() / triangles_of_chunk + 1;
 }
 
 ProjectedScene::ProjectedScene(const CoverageFrame& frame, Progress& progress)
@@ -69,16 +69,17 @@ ProjectedScene::ProjectedScene(const CoverageFrame& frame, Progress& progress)
       image_{0, 0, static_cast<double>(frame.camera.width),
              static_cast<double>(frame.camera.height)},
       corners_(frame.triangles.count()),
-      kinds_(frame.triangles.count(), TriangleKind::absent) {
+      kinds_(frame.triangles.count(), TriangleKind::absent),
+      orientations_(frame.triangles.count(), Sign::zero) {
   {
     VertexNumbers numbers(*this);
-    frame.triangles.for_each_part(triangles_of_file, [&](const TriangleSource::Part& part) {
+    frame.triangles.for_each_part(triangles_in_memory, [&](const TriangleSource::Part& part) {
       add_part(frame, part, numbers);
     });
   }
   parallel_for(std::uint64_t{0}, parts(frame.triangles), [&](std::uint64_t k) {
-    const auto end = std::min<std::uint64_t>(count(), (k + 1) * chunk);
-    for (std::uint64_t number = k * chunk; number < end; ++number) {
+    const auto end = std::min<std::uint64_t>(count(), (k + 1) * triangles_of_chunk);
+    for (std::uint64_t number = k * triangles_of_chunk; number < end; ++number) {
       check_interruption();
       const CornerIndices& its = corners_[number];
       const bool has_area = its[0] != its[1] && its[1] != its[2] && its[2] != its[0];
@@ -97,6 +98,7 @@ ProjectedScene::ProjectedScene(const CoverageFrame& frame, Progress& progress)
       surface = surface_region(t, frame.camera);
     }
     if (surface) {
+      orientations_[number] = t.orientation;
       by_forms_.emplace(number, std::move(*surface));
     } else {
       kinds_[number] = TriangleKind::absent;
@@ -111,8 +113,9 @@ void ProjectedScene::add_part(const CoverageFrame& frame, const TriangleSource::
   std::vector<BoundedPoint> points(count);
   std::vector<Interval> depths(count);
   const Camera& camera = frame.camera;
-  in_parallel(count / chunk + 1, [&](std::size_t k) {
-    for (std::size_t i = k * chunk; i < std::min(count, (k + 1) * chunk); ++i) {
+  in_parallel(count / triangles_of_chunk + 1, [&](std::size_t k) {
+    for (std::size_t i = k * triangles_of_chunk; i < std::min(count, (k + 1) * triangles_of_chunk);
+         ++i) {
       check_interruption();
       CameraPoint p =
           to_camera(camera.world_to_camera, to_world(part.object, part.mesh.vertices[i]));
@@ -139,7 +142,13 @@ ExactVector3 ProjectedScene::homogeneous(std::uint32_t vertex) const {
   return {v.U, v.V, is_perspective_ ? v.depth : Dyadic(1.0)};
 }
 
-Sign ProjectedScene::orientation(const CornerIndices& corners) const {
+Sign ProjectedScene::orientation(std::uint32_t number) const {
+  if (kinds_[number] != TriangleKind::absent) return orientations_[number];
+  const CornerIndices& its = corners_[number];
+  return determinant(homogeneous(its[0]), homogeneous(its[1]), homogeneous(its[2])).sign();
+}
+
+Sign ProjectedScene::orientation_of(const CornerIndices& corners) const {
   const int side = certain_side(points_[corners[0]], points_[corners[1]], points_[corners[2]]);
   if (side != 0) return sign_of(side);
   return determinant(homogeneous(corners[0]), homogeneous(corners[1]), homogeneous(corners[2]))
@@ -162,9 +171,10 @@ void ProjectedScene::classify(const CoverageFrame& frame, std::uint32_t number) 
     kinds_[number] = TriangleKind::by_forms;
     return;
   }
-  const Sign turn = orientation(its);
+  const Sign turn = orientation_of(its);
   if (turn == Sign::zero) return;
   if (frame.cull == (turn == Sign::negative ? Cull::front : Cull::back)) return;
+  orientations_[number] = turn;
   if (turn == Sign::negative) std::swap(its[1], its[2]);
   kinds_[number] = TriangleKind::regular;
 }

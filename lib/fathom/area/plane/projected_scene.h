@@ -57,6 +57,9 @@ class ProjectedScene {
   [[nodiscard]] const SurfaceRegion& kept_surface(std::uint32_t number) const {
     return by_forms_.at(number);
   }
+  /// The sign of the triangle's area on the image with its corners as the mesh has them, for
+  /// W > 0; zero if it is seen edge on. Negative where the front is seen.
+  [[nodiscard]] Sign orientation(std::uint32_t number) const;
   /// Where the area of a triangle is.
   [[nodiscard]] TriangleExtent extent(std::uint32_t number) const;
   /// The whole area of a regular triangle in pixels, also outside the image.
@@ -72,7 +75,7 @@ class ProjectedScene {
                 VertexNumbers& numbers);
   void classify(const CoverageFrame& frame, std::uint32_t number);
   [[nodiscard]] ExactVector3 homogeneous(std::uint32_t vertex) const;
-  [[nodiscard]] Sign orientation(const CornerIndices& corners) const;
+  [[nodiscard]] Sign orientation_of(const CornerIndices& corners) const;
 
   bool is_perspective_;
   PlanePart image_;
@@ -81,6 +84,8 @@ class ProjectedScene {
   std::vector<Interval> depths_;
   std::vector<CornerIndices> corners_;
   std::vector<TriangleKind> kinds_;
+  /// Of triangles that are not absent.
+  std::vector<Sign> orientations_;
   std::map<std::uint32_t, SurfaceRegion> by_forms_;
 };
 
