@@ -18,6 +18,7 @@ void add_convert(Command& program);
 void add_probe(Command& program);
 void add_evaluate(Command& program);
 void add_visible(Command& program);
+void add_areas(Command& program);
 void add_coplanar(Command& program);
 
 /// `fathom depth encode | decode | resolution | codes`: depth formats as a calculator.

@@ -13,6 +13,7 @@
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
+#include "apps/surfaces/csv_field.h"
 #include "fathom/area/visible_areas.h"
 #include "fathom/failures/errors.h"
 #include "fathom/scene/triangle_source.h"
@@ -69,14 +70,6 @@ std::string as_json(const Answer& answer) {
                   {"objects", objects},
                   {"triangles", triangles}};
   return json_answer(json, 1);
-}
-
-/// A name as a field of CSV (RFC 4180).
-std::string quoted(const std::string& name) {
-  std::string field = "\"";
-  for (const char c : text::printable(name))
-    field += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return field + "\"";
 }
 
 std::string figures(const VisibleArea& area) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "fathom/area/areas.h"
 #include "fathom/area/coplanar.h"
 #include "fathom/area/coverage.h"
 #include "fathom/area/sampled_coverage.h"
@@ -83,6 +84,7 @@ std::map<std::string, Door> doors_of_scenes() {
     verify(map_of_triangle(), s, c, {}, PixelChoice(16, true));
   };
   doors["visible_areas"] = [](const Scene& s, const Camera& c) { visible_areas(s, c, {}); };
+  doors["areas_from_camera"] = [](const Scene& s, const Camera& c) { areas_from_camera(s, c); };
   doors["coplanar_pairs"] = [](const Scene& s, const Camera& c) { coplanar_pairs(s, c, 1, {}); };
   doors["pixel_coverage"] = [](const Scene& s, const Camera& c) {
     pixel_coverage({s, c}, std::vector<std::uint32_t>{0}, 2, 2);
@@ -114,6 +116,10 @@ std::map<std::string, Door> doors_of_scenes() {
 std::map<std::string, Door> all_doors_of_scenes() {
   std::map<std::string, Door> doors = doors_of_scenes();
   doors["world_bounds"] = [](const Scene& s, const Camera&) { world_bounds(s); };
+  doors["areas_in_direction"] = [](const Scene& s, const Camera&) {
+    areas_in_direction(s, {1, 2, 3});
+  };
+  doors["areas_from_point"] = [](const Scene& s, const Camera&) { areas_from_point(s, {1, 2, 3}); };
   doors["frame_scene"] = [](const Scene& s, const Camera&) { frame_scene(s); };
   return doors;
 }

@@ -327,7 +327,6 @@ void require_groups(const TriangleSource& triangles, const AreaOptions& options)
 template <class Work>
 std::vector<LitArea> in_arena(const TriangleSource& triangles, const AreaOptions& options,
                               const Work& work) {
-  const StandardArithmetic standard;
   return with_threads(options.threads, [&] {
     require_groups(triangles, options);
     return work();
@@ -339,6 +338,7 @@ std::vector<LitArea> in_arena(const TriangleSource& triangles, const AreaOptions
 std::vector<LitArea> areas_in_direction(const TriangleSource& triangles,
                                         const AreaDirection& direction,
                                         const AreaOptions& options) {
+  const StandardArithmetic standard;
   return in_arena(triangles, options, [&] {
     require_valid(triangles);
     return measure(triangles, LightKind::direction, {camera_of_direction(triangles, direction)},
@@ -348,6 +348,7 @@ std::vector<LitArea> areas_in_direction(const TriangleSource& triangles,
 
 std::vector<LitArea> areas_from_point(const TriangleSource& triangles, const AreaPoint& point,
                                       const AreaOptions& options) {
+  const StandardArithmetic standard;
   return in_arena(triangles, options, [&] {
     require_valid(triangles);
     return measure(triangles, LightKind::point, cameras_of_point(point), point, options);
@@ -356,6 +357,7 @@ std::vector<LitArea> areas_from_point(const TriangleSource& triangles, const Are
 
 std::vector<LitArea> areas_from_camera(const TriangleSource& triangles, const Camera& camera,
                                        const AreaOptions& options) {
+  const StandardArithmetic standard;
   return in_arena(triangles, options, [&] {
     require_renderable(triangles, camera);
     return measure(triangles, LightKind::camera, {camera}, {}, options);

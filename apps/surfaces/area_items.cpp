@@ -1,0 +1,108 @@
+#include "apps/surfaces/area_items.h"
+
+#include <map>
+#include <utility>
+
+#include "apps/shell/values.h"
+#include "fathom/area/areas.h"
+#include "fathom/scene/scene_segments.h"
+
+namespace fathom::app {
+namespace {
+
+constexpr std::pair<const char*, AreaItemKind> kinds[] = {
+    {"object", AreaItemKind::object},     {"face", AreaItemKind::face},
+    {"triangle", AreaItemKind::triangle}, {"material", AreaItemKind::material},
+    {"group", AreaItemKind::group},       {"part", AreaItemKind::part},
+    {"label", AreaItemKind::label}};
+
+AreaItems triangles_of(const Scene& scene, const TriangleSource& triangles) {
+  AreaItems result;
+  for (std::uint32_t number = 0; number < triangles.count(); ++number) {
+    const TriangleOrigin origin = triangles.origin(number);
+    result.items.push_back({number, scene.objects[origin.object].name, origin.object, origin.face});
+  }
+  return result;
+}
+
+AreaItems objects_of(const Scene& scene, const TriangleSource& triangles) {
+  AreaItems result;
+  for (std::size_t object = 0; object < scene.objects.size(); ++object) {
+    result.items.push_back({object, scene.objects[object].name, {}, {}});
+  }
+  for (std::uint32_t number = 0; number < triangles.count(); ++number) {
+    result.of_triangle.push_back(triangles.origin(number).object);
+  }
+  return result;
+}
+
+AreaItems faces_of(const Scene& scene, const TriangleSource& triangles) {
+  AreaItems result;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
+  for (std::uint32_t number = 0; number < triangles.count(); ++number) {
+    const TriangleOrigin origin = triangles.origin(number);
+    const auto next = static_cast<std::uint32_t>(result.items.size());
+    const auto [face, is_new] = known.emplace(std::pair(origin.object, origin.face), next);
+    if (is_new) {
+      result.items.push_back(
+          {origin.face, scene.objects[origin.object].name, origin.object, origin.face});
+    }
+    result.of_triangle.push_back(face->second);
+  }
+  return result;
+}
+
+AreaItems segments_of(const TriangleSource& triangles, Segmentation by) {
+  AreaItems result;
+  const SceneSegments segments(triangles, {by});
+  std::map<std::uint32_t, std::uint32_t> known;
+  for (std::uint32_t number = 0; number < triangles.count(); ++number) {
+    const std::uint32_t segment = segments.number(by, triangles.origin(number));
+    if (segment == unsegmented) {
+      result.of_triangle.push_back(AreaOptions::no_group);
+      continue;
+    }
+    const auto next = static_cast<std::uint32_t>(result.items.size());
+    const auto [item, is_new] = known.emplace(segment, next);
+    if (is_new) {
+      const auto& names = segments.names(by);
+      result.items.push_back({segment, names.empty() ? std::string() : names[segment], {}, {}});
+    }
+    result.of_triangle.push_back(item->second);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string name_of(AreaItemKind kind) {
+  return kinds[static_cast<std::size_t>(kind)].first;
+}
+
+AreaItemKind parse_area_item_kind(const std::string& text) {
+  return parse_word<AreaItemKind>(
+      text, {kinds[0], kinds[1], kinds[2], kinds[3], kinds[4], kinds[5], kinds[6]});
+}
+
+AreaItems area_items(const Scene& scene, AreaItemKind kind) {
+  const TriangleSource triangles(scene);
+  switch (kind) {
+    case AreaItemKind::object:
+      return objects_of(scene, triangles);
+    case AreaItemKind::face:
+      return faces_of(scene, triangles);
+    case AreaItemKind::triangle:
+      return triangles_of(scene, triangles);
+    case AreaItemKind::material:
+      return segments_of(triangles, Segmentation::material);
+    case AreaItemKind::group:
+      return segments_of(triangles, Segmentation::group);
+    case AreaItemKind::part:
+      return segments_of(triangles, Segmentation::part);
+    case AreaItemKind::label:
+      break;
+  }
+  return segments_of(triangles, Segmentation::label);
+}
+
+}  // namespace fathom::app
