@@ -202,6 +202,12 @@ calls = {
     "Scene.faces": lambda g: g.scene.faces(),
     "Scene.origin": lambda g: g.scene.origin(1),
     "Scene.render": lambda g: g.scene.render(g.camera, background=0.1),
+    "Scene.cast": lambda g: [g.scene.cast((0.1, 0.2, 0), [(0.01, 0, 1.1), (0, 0, 5e-324), (0.3, 0, 1)], dtype=dtype, mode=mode,
+                                          channels=("t", "id", "distance", "P", "bary", "N"))
+                             for dtype in ("float32", "float64") for mode in ("nearest", "all")],
+    "Scene.occluded": lambda g: g.scene.occluded((0.1, 0.2, 0), [(0.01, 0, 1.1), (0, 0, 5e-324)]),
+    "Scene.count": lambda g: g.scene.count((0.1, 0.2, 0), [(0.01, 0, 1.1), (0, 0, 5e-324)]),
+    "Scene.contains": lambda g: g.scene.contains([(0.1, 0.2, 0), (5e-324, 0.3, 4.1)]),
     "Validation.report": lambda g: g.validation.report(),
 }
 #: An object of each class whose properties are looked at.

@@ -78,7 +78,7 @@ bool Candidates::is_before(const Hit& a, const Hit& b) {
   if (b.s.upper < a.s.lower) return false;
   if (a.triangle == b.triangle) return false;
   const auto t_of = [&](const Hit& hit) {
-    return meet(exact_ray(), source_.world_corners(hit.triangle))->t;
+    return require_hit(exact_ray(), source_.world_corners(hit.triangle)).t;
   };
   const int order = compare(t_of(a), t_of(b));
   return order < 0 || (order == 0 && a.triangle < b.triangle);

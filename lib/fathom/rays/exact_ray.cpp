@@ -1,6 +1,9 @@
 #include "fathom/rays/exact_ray.h"
 
 #include <cmath>
+#include <utility>
+
+#include "fathom/failures/errors.h"
 
 namespace fathom::rays {
 namespace {
@@ -48,6 +51,12 @@ std::optional<ExactHit> meet(const ExactRay& ray, const std::array<WorldPoint, 3
     return std::nullopt;
   hit.t = Ratio(dot(hit.normal, t), hit.divisor);
   return hit;
+}
+
+ExactHit require_hit(const ExactRay& ray, const std::array<WorldPoint, 3>& corners) {
+  std::optional<ExactHit> hit = meet(ray, corners);
+  if (!hit) throw InputError("scene: it has changed since it was prepared for rays");
+  return std::move(*hit);
 }
 
 bool counts(const Ratio& t, const RaySegment& segment) {

@@ -36,6 +36,10 @@ struct ExactHit {
 /// Source   [EM90]
 std::optional<ExactHit> meet(const ExactRay& ray, const std::array<WorldPoint, 3>& corners);
 
+/// The hit of a triangle that has been found to be met.
+/// Fails    InputError if it is not met: the scene has changed since.
+ExactHit require_hit(const ExactRay& ray, const std::array<WorldPoint, 3>& corners);
+
 /// Whether a hit counts at this t.
 bool counts(const Ratio& t, const RaySegment& segment);
 /// Whether culling keeps a triangle whose n·d has this sign.

@@ -92,7 +92,7 @@ std::optional<double> settled_t(const RayTree& tree, const Ray& ray, std::size_t
 double rounded_t(const TriangleSource& source, const RayTree& tree, const Ray& ray,
                  const Candidates::Hit& hit) {
   if (const auto settled = settled_t(tree, ray, hit.place)) return *settled;
-  return round_to_binary64(meet(ExactRay(ray), source.world_corners(hit.triangle))->t);
+  return round_to_binary64(require_hit(ExactRay(ray), source.world_corners(hit.triangle)).t);
 }
 
 }  // namespace fathom::rays

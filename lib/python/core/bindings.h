@@ -14,6 +14,7 @@ void bind_pictures(Module& core);
 void bind_render(Module& core);
 void bind_questions(Module& core);
 void bind_evaluation(Module& core);
+void bind_rays(Module& core);
 void bind_deep(Module& core);
 void bind_depth_formats(Module& core);
 void bind_clipping(Module& core);

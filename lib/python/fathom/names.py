@@ -12,6 +12,10 @@ Channel = Literal["Z", "A", "Zlow", "distance", "id", "face", "object", "materia
                   "bary", "Nc", "Ns", "valid", "depth", "normal", "camera-normal", "segmentation", "mask"]
 #: Names, or a single string of names with commas between them.
 Channels = Union[Sequence[Channel], str]
+#: Of rays.
+RayChannel = Literal["t", "id", "distance", "P", "bary", "N", "object", "face"]
+RayChannels = Union[Sequence[RayChannel], str]
+RayMode = Literal["nearest", "all"]
 Cull = Literal["none", "back", "front"]
 Engine = Literal["fast", "reference"]
 Normals = Literal["file", "vertex", "place"]

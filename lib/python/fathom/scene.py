@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from . import _core
+from . import _core, _rays
 from ._arguments import (
     as_count,
     as_text,
@@ -14,6 +14,7 @@ from ._arguments import (
     faces_of,
     labels_of,
     names_of,
+    one_of,
     pose_of,
     vertices_of,
 )
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 
     from ._meshes import Mesh
     from ._shown import Picture
-    from .names import Background, Channels, Cull, Engine, Normals
+    from .names import Background, Channels, Cull, Engine, Normals, RayChannels, RayMode
 
 #: Larger scenes are shown in notebooks without a picture, and more objects are counted.
 most_triangles_to_draw = 10_000_000
@@ -71,11 +72,14 @@ class Scene:
     (2, ['sheet', 'two behind'])
     """
 
-    __slots__ = ("_handle",)
+    __slots__ = ("_handle", "_rays")
     _handle: _core.Scene
+    #: Prepared when rays are first cast, until something is added.
+    _rays: _core.Rays | None
 
     def __init__(self) -> None:
         self._handle = _core.Scene()
+        self._rays = None
 
     @classmethod
     def read(cls, *files: Path, threads: int = 0, clouds: bool = False) -> Scene:
@@ -130,6 +134,7 @@ class Scene:
         corners = faces_of(faces, len(numbers))
         of_labels = None if labels is None else labels_of(labels, len(corners))
         of_materials = None if materials is None else names_of("materials", materials, len(corners))
+        self._rays = None
         mesh = self._handle.add_mesh(numbers, corners)
         if of_labels is not None:
             self._handle.set_segments(mesh, "label", of_labels, [])
@@ -144,6 +149,7 @@ class Scene:
         number = as_count("mesh", mesh, 0, self.mesh_count - 1) if self.mesh_count else _no_mesh()
         placed = None if pose is None else pose_of("pose", pose)
         objects = self._handle.object_count
+        self._rays = None
         self._handle.add_object(number, placed, as_text("name", name) or f"object {objects}")
         return objects
 
@@ -217,6 +223,91 @@ class Scene:
             result._set_background(nothing)
         warn(notes)
         return result
+
+    def cast(
+        self,
+        origins: npt.ArrayLike,
+        directions: npt.ArrayLike,
+        *,
+        tmin: float = 0,
+        tmax: float = float("inf"),
+        open: bool = False,
+        cull: Cull = "none",
+        mode: RayMode = "nearest",
+        channels: RayChannels = ("t", "id"),
+        dtype: npt.DTypeLike = "float64",
+        threads: int = 0,
+    ) -> dict[str, npt.NDArray[Any]]:
+        """Finds the triangles that rays meet. Every decision is exact: no ray passes between two triangles that share an
+        edge, and none meets both there.
+
+        origins     N×3, or any shape that ends in 3; one origin fits many directions. Numbers are taken exactly
+        directions  likewise; they need no length of 1: t counts their lengths
+        tmin, tmax  which hits count: tmin ≤ t ≤ tmax, or tmin < t < tmax if `open`. tmin may be -inf
+        cull        leaves out "back" or "front" faces. A face is a front face if its normal points against the ray
+        mode        "nearest": the hit with the least t, among equals the lowest triangle number. "all": every hit, by t,
+                    then by number
+        channels    "t"; "id", the triangle number (NO_SURFACE without a hit); "distance"; "P", the point; "bary", the
+                    weights of the second and third corner; "N", the unit normal against the ray; "object", "face"
+        dtype       float64 or float32, of t, distance, P, bary and N: each is the exact number rounded once
+
+        Returns an array for each channel. Of "nearest" it has the shape of the rays; without a hit t and distance are
+        inf, P and bary nan, N 0. Of "all" it has a row for each hit; the hits of ray i (in C order) are those from
+        splits[i] to splits[i + 1], and "ray" is the number of each hit's ray.
+
+        The scene is prepared when rays are first cast. After that, do not change arrays given to add_mesh().
+
+        >>> import numpy as np
+        >>> scene = Scene()
+        >>> _ = scene.add_mesh(np.array([(0, 0, 4), (4, 0, 4), (0, 4, 4)]), np.array([(0, 1, 2)]))
+        >>> hits = scene.cast((1, 1, 0), [(0, 0, 1), (0, 0, -1)])
+        >>> hits["t"].tolist(), (hits["id"] != 4294967295).tolist()
+        ([4.0, inf], [True, False])
+        """
+        question = _rays.asked(origins, directions, tmin, tmax, open, cull, threads)
+        names, kind = _rays.checked_channels(channels), _rays.real_type(dtype)
+        prepared = self._prepared_rays(threads)
+        if one_of("mode", mode, _rays.ray_modes) == "all":
+            return _rays.hit_lists(prepared, question, names, kind)
+        found = _core.cast_rays(prepared, question.origins, question.directions, *question.options)
+        arrays = _rays.hit_arrays(prepared, question, found, names, kind)
+        return {name: array.reshape(question.shape + array.shape[1:]) for name, array in arrays.items()}
+
+    def occluded(
+        self, origins: npt.ArrayLike, directions: npt.ArrayLike, *, tmin: float = 0, tmax: float = float("inf"),
+        open: bool = False, cull: Cull = "none", threads: int = 0,
+    ) -> npt.NDArray[np.bool_]:
+        """Whether each ray meets a triangle. The arguments are as in cast()."""
+        question = _rays.asked(origins, directions, tmin, tmax, open, cull, threads)
+        found = _core.occluded(self._prepared_rays(threads), question.origins, question.directions, *question.options)
+        return found.reshape(question.shape).astype(bool)
+
+    def count(
+        self, origins: npt.ArrayLike, directions: npt.ArrayLike, *, tmin: float = 0, tmax: float = float("inf"),
+        open: bool = False, cull: Cull = "none", threads: int = 0,
+    ) -> npt.NDArray[np.uint32]:
+        """How many triangles each ray meets. The arguments are as in cast()."""
+        question = _rays.asked(origins, directions, tmin, tmax, open, cull, threads)
+        found = _core.count_hits(self._prepared_rays(threads), question.origins, question.directions, *question.options)
+        return found.reshape(question.shape)
+
+    def contains(self, points: npt.ArrayLike, *, threads: int = 0) -> npt.NDArray[np.bool_]:
+        """Whether points (N×3, or any shape that ends in 3) are inside: whether the surface winds around them, seen along
+        +x. For a closed surface every point is inside or outside, also on the surface; for an open surface the result
+        depends on that direction."""
+        given = _rays.rows_of_three("points", points)
+        numbers = _core.winding_numbers(self._prepared_rays(threads), given.reshape(-1, 3), as_threads(threads))
+        inside: npt.NDArray[np.bool_] = numbers != 0
+        return inside.reshape(given.shape[:-1])
+
+    def _prepared_rays(self, threads: int) -> _core.Rays:
+        if self._rays is None:
+            try:
+                self._rays = _core.prepare_rays(self._handle, as_threads(threads))
+            except _core.InputError:
+                self._check()
+                raise
+        return self._rays
 
     def _check(self) -> None:
         """Raises an exception that names the faulty argument, if one is faulty."""

@@ -1,0 +1,178 @@
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings.h"
+#include "fathom/rays/cast.h"
+#include "fathom/rays/hit_values.h"
+#include "fathom/rendering/option_names.h"
+#include "fathom/threads/threads.h"
+#include "objects.h"
+#include "options.h"
+#include "running.h"
+#include "values.h"
+
+namespace py = pybind11;
+
+namespace fathom::python {
+namespace {
+
+/// A scene that is prepared, and kept meanwhile.
+struct PreparedRays {
+  std::shared_ptr<const Scene> scene;
+  RayScene rays;
+
+  PreparedRays(std::shared_ptr<const Scene> given, int threads)
+      : scene(std::move(given)), rays(*scene, threads) {}
+};
+
+using SharedRays = std::shared_ptr<const PreparedRays>;
+using Numbers = ContiguousArray<double>;
+
+std::shared_ptr<PreparedRays> prepare(const SharedScene& given, int threads) {
+  const std::shared_ptr<const Scene> scene = given.scene;
+  return run([&](const auto&) { return std::make_shared<PreparedRays>(scene, threads); });
+}
+
+std::vector<std::array<double, 3>> rows_of(const Numbers& numbers) {
+  std::vector<std::array<double, 3>> rows(static_cast<std::size_t>(numbers.shape(0)));
+  const double* from = numbers.data();
+  for (std::array<double, 3>& row : rows) {
+    std::copy_n(from, 3, row.begin());
+    from += 3;
+  }
+  return rows;
+}
+
+std::vector<Ray> rays_of(const Numbers& origins, const Numbers& directions) {
+  const auto o = rows_of(origins), d = rows_of(directions);
+  std::vector<Ray> rays(o.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = {o[i], d[i]};
+  return rays;
+}
+
+CastOptions options_of(double t_min, double t_max, bool open, const std::string& cull,
+                       int threads) {
+  return {{t_min, t_max, open}, named_value("cull", all_culls, cull), threads};
+}
+
+/// Numbers of triangles and t, an element for each hit.
+py::tuple arrays_of(const std::vector<RayHit>& hits) {
+  std::vector<std::uint32_t> triangles(hits.size());
+  std::vector<double> t(hits.size());
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    triangles[i] = hits[i].triangle;
+    t[i] = hits[i].t;
+  }
+  return py::make_tuple(array_of(std::move(triangles)), array_of(std::move(t)));
+}
+
+py::tuple cast_rays(const SharedRays& prepared, const Numbers& origins, const Numbers& directions,
+                    double t_min, double t_max, bool open, const std::string& cull, int threads) {
+  const std::vector<Ray> rays = rays_of(origins, directions);
+  const CastOptions options = options_of(t_min, t_max, open, cull, threads);
+  return arrays_of(run([&](const auto&) { return cast(prepared->rays, rays, options); }));
+}
+
+py::tuple all_hits_of(const SharedRays& prepared, const Numbers& origins, const Numbers& directions,
+                      double t_min, double t_max, bool open, const std::string& cull, int threads) {
+  const std::vector<Ray> rays = rays_of(origins, directions);
+  const CastOptions options = options_of(t_min, t_max, open, cull, threads);
+  RayHitLists lists = run([&](const auto&) { return all_hits(prepared->rays, rays, options); });
+  const py::tuple hits = arrays_of(lists.hits);
+  return py::make_tuple(array_of(std::move(lists.splits)), hits[0], hits[1]);
+}
+
+py::array occluded_rays(const SharedRays& prepared, const Numbers& origins,
+                        const Numbers& directions, double t_min, double t_max, bool open,
+                        const std::string& cull, int threads) {
+  const std::vector<Ray> rays = rays_of(origins, directions);
+  const CastOptions options = options_of(t_min, t_max, open, cull, threads);
+  const auto is_hit = run([&](const auto&) { return occluded(prepared->rays, rays, options); });
+  return array_of(std::vector<std::uint8_t>(is_hit.begin(), is_hit.end()));
+}
+
+py::array count_of(const SharedRays& prepared, const Numbers& origins, const Numbers& directions,
+                   double t_min, double t_max, bool open, const std::string& cull, int threads) {
+  const std::vector<Ray> rays = rays_of(origins, directions);
+  const CastOptions options = options_of(t_min, t_max, open, cull, threads);
+  return array_of(run([&](const auto&) { return count_hits(prepared->rays, rays, options); }));
+}
+
+py::array winding_numbers_of(const SharedRays& prepared, const Numbers& given, int threads) {
+  const auto points = rows_of(given);
+  return array_of(
+      run([&](const auto&) { return winding_numbers(prepared->rays, points, threads); }));
+}
+
+/// t, distance, P, bary and N of hits, a row for each; where there is no hit, the rows have what
+/// the specification says.
+template <class Real>
+py::tuple values_of(const SharedRays& prepared, const Numbers& origins, const Numbers& directions,
+                    const ContiguousArray<std::uint32_t>& triangles, int threads) {
+  const std::vector<Ray> rays = rays_of(origins, directions);
+  const std::uint32_t* const numbers = triangles.data();
+  constexpr auto infinity = std::numeric_limits<Real>::infinity();
+  constexpr auto nan = std::numeric_limits<Real>::quiet_NaN();
+  const HitValues<Real> nothing{infinity, infinity, {nan, nan, nan}, {nan, nan}, {}};
+  const std::size_t count = rays.size();
+  Samples<Real> t(count), distance(count), position(3 * count), weights(2 * count),
+      normal(3 * count);
+  run([&](const auto&) {
+    run_with_threads(threads, [&] {
+      parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+        const auto values = numbers[i] == no_triangle
+                                ? nothing
+                                : hit_values<Real>(prepared->rays.triangles(), rays[i], numbers[i]);
+        t[i] = values.t;
+        distance[i] = values.distance;
+        std::ranges::copy(values.position, position.begin() + 3 * i);
+        std::ranges::copy(values.barycentric, weights.begin() + 2 * i);
+        std::ranges::copy(values.normal, normal.begin() + 3 * i);
+      });
+    });
+  });
+  const auto rows = static_cast<py::ssize_t>(count);
+  return py::make_tuple(array_of(std::move(t), {rows}), array_of(std::move(distance), {rows}),
+                        array_of(std::move(position), {rows, 3}),
+                        array_of(std::move(weights), {rows, 2}),
+                        array_of(std::move(normal), {rows, 3}));
+}
+
+/// Object and face of triangles.
+py::tuple origins_of(const SharedRays& prepared, const ContiguousArray<std::uint32_t>& triangles) {
+  const auto count = static_cast<std::size_t>(triangles.size());
+  const std::uint32_t* const numbers = triangles.data();
+  std::vector<std::uint32_t> objects(count, no_triangle), faces(count, no_triangle);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (numbers[i] == no_triangle) continue;
+    const TriangleOrigin origin = prepared->rays.triangles().origin(numbers[i]);
+    objects[i] = origin.object;
+    faces[i] = origin.face;
+  }
+  return py::make_tuple(array_of(std::move(objects)), array_of(std::move(faces)));
+}
+
+}  // namespace
+
+void bind_rays(Module& core) {
+  Class<PreparedRays, std::shared_ptr<PreparedRays>>(core, "Rays");
+  core.def("prepare_rays", &prepare);
+  core.def("cast_rays", &cast_rays);
+  core.def("all_hits", &all_hits_of);
+  core.def("occluded", &occluded_rays);
+  core.def("count_hits", &count_of);
+  core.def("winding_numbers", &winding_numbers_of);
+  core.def("hit_values32", &values_of<float>);
+  core.def("hit_values64", &values_of<double>);
+  core.def("origins_of", &origins_of);
+}
+
+}  // namespace fathom::python

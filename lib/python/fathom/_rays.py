@@ -1,0 +1,109 @@
+"""Rays: which triangles they meet, and where. Every decision is exact; values are rounded once."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from . import _core
+from ._arguments import as_finite, as_number, as_threads, culls, in_words, one_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+    from .names import Cull, RayChannels
+
+    Numbers = npt.NDArray[np.float64]
+
+#: The channels of hits, and their values where a ray meets nothing.
+ray_channels = ("t", "id", "distance", "P", "bary", "N", "object", "face")
+ray_modes = ("nearest", "all")
+
+
+class Asked(NamedTuple):
+    """The arguments that all questions have, checked."""
+
+    origins: Numbers
+    directions: Numbers
+    #: Of the results.
+    shape: tuple[int, ...]
+    #: t_min, t_max, open, cull and threads as the extension module takes them.
+    options: tuple[float, float, bool, str, int]
+
+
+def asked(
+    origins: npt.ArrayLike, directions: npt.ArrayLike, tmin: float, tmax: float, open: bool, cull: Cull, threads: int
+) -> Asked:
+    o, d = rows_of_three("origins", origins), rows_of_three("directions", directions)
+    try:
+        shape = np.broadcast_shapes(o.shape, d.shape)
+    except ValueError:
+        raise ValueError(f"directions: the shape {in_words(d.shape)} does not fit {in_words(o.shape)} of origins") from None
+    with _core.standard_arithmetic():  # or else subnormal numbers might be 0
+        is_zero = (d == 0).all(axis=-1)
+    if is_zero.any():
+        place = [int(i) for i in np.argwhere(is_zero)[0]]
+        raise ValueError(f"directions: the direction at {place} is 0")
+    first, last = as_number("tmin", tmin), as_number("tmax", tmax)
+    if not first <= last:
+        raise ValueError(f"tmin: expected a number that is at most tmax, found {first} and {last}")
+    options = (first, last, bool(open), one_of("cull", cull, culls), as_threads(threads))
+    return Asked(_flat(o, shape), _flat(d, shape), shape[:-1], options)
+
+
+def rows_of_three(name: str, value: npt.ArrayLike) -> Numbers:
+    numbers = as_finite(name, value)
+    if numbers.ndim == 0 or numbers.shape[-1] != 3:
+        raise ValueError(f"{name}: expected shape N×3, found {in_words(numbers.shape)}")
+    return numbers
+
+
+def _flat(numbers: Numbers, shape: tuple[int, ...]) -> Numbers:
+    return np.ascontiguousarray(np.broadcast_to(numbers, shape)).reshape(-1, 3)
+
+
+def checked_channels(channels: RayChannels) -> list[str]:
+    given = channels.split(",") if isinstance(channels, str) else list(channels)
+    return [one_of("channels", name, ray_channels) for name in given]
+
+
+def real_type(dtype: npt.DTypeLike) -> np.dtype[Any]:
+    kind = np.dtype(dtype)
+    if kind not in (np.float32, np.float64):
+        raise TypeError(f"dtype: expected float32 or float64, found {kind}")
+    return kind
+
+
+def hit_arrays(
+    rays: _core.Rays, question: Asked, found: tuple[npt.NDArray[np.uint32], Numbers], channels: Sequence[str],
+    kind: np.dtype[Any],
+) -> dict[str, npt.NDArray[Any]]:
+    """The channels of hits, one for each row of the question."""
+    triangles, t = found
+    arrays: dict[str, npt.NDArray[Any]] = {"id": triangles}
+    threads = question.options[-1]
+    if kind == np.float64:
+        arrays["t"] = t
+    if not {"distance", "P", "bary", "N"}.isdisjoint(channels) or ("t" in channels and kind == np.float32):
+        given = (rays, question.origins, question.directions, triangles, threads)
+        names = ("t", "distance", "P", "bary", "N")
+        if kind == np.float32:
+            arrays.update(zip(names, _core.hit_values32(*given)))
+        else:
+            arrays.update(zip(names, _core.hit_values64(*given)))
+    if not {"object", "face"}.isdisjoint(channels):
+        arrays.update(zip(("object", "face"), _core.origins_of(rays, triangles)))
+    return {name: arrays[name] for name in channels}
+
+
+def hit_lists(rays: _core.Rays, question: Asked, channels: Sequence[str], kind: np.dtype[Any]) -> dict[str, npt.NDArray[Any]]:
+    """The channels of all hits, with "splits" and "ray"."""
+    splits, triangles, t = _core.all_hits(rays, question.origins, question.directions, *question.options)
+    bounds = splits.astype(np.int64)
+    ray = np.repeat(np.arange(len(bounds) - 1), np.diff(bounds))
+    of_hits = question._replace(origins=np.ascontiguousarray(question.origins[ray]),
+                                directions=np.ascontiguousarray(question.directions[ray]))
+    return {"splits": bounds, "ray": ray, **hit_arrays(rays, of_hits, (triangles, t), channels, kind)}

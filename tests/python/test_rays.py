@@ -1,0 +1,160 @@
+"""Scene.cast() and its companions, against brute force in fractions."""
+
+from fractions import Fraction
+
+import fathom
+import numpy as np
+import pytest
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def minus(a, b):
+    return [x - y for x, y in zip(a, b)]
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def sign(x):
+    return (x > 0) - (x < 0)
+
+
+def meet(o, d, corners):
+    """(t, weights of the second and third corner) by section 11 of the specification."""
+    a, b, c = corners
+    n = cross(minus(b, a), minus(c, a))
+    divisor = dot(n, d)
+    if divisor == 0:
+        return None
+    edges = []
+    for p, q in ((a, b), (b, c), (c, a)):
+        s = dot(cross(minus(p, o), minus(q, o)), d)
+        moved = [s] + [-x for x in cross(minus(q, p), d)]
+        if sign(next(x for x in moved if x)) != sign(divisor):
+            return None
+        edges.append(s)
+    return dot(n, minus(a, o)) / divisor, edges[2] / divisor, edges[0] / divisor
+
+
+def hits_of(o, d, triangles, first, last):
+    found = []
+    for number, corners in enumerate(triangles):
+        hit = meet(o, d, corners)
+        if hit and first <= hit[0] <= last:
+            found.append((hit[0], number, *hit[1:]))
+    return sorted(found)
+
+
+def fractions(rows):
+    return [[Fraction(float(x)) for x in row] for row in rows]
+
+
+@pytest.fixture(scope="module")
+def grid():
+    random = np.random.default_rng(3)
+    vertices = random.integers(-4, 5, (30, 3)).astype(float)
+    faces = random.integers(0, 30, (40, 3))
+    scene = fathom.Scene()
+    scene.add_mesh(vertices, faces)
+    origins = random.integers(-6, 7, (200, 3)).astype(float)
+    directions = vertices[random.integers(0, 30, 200)] - origins
+    directions[(directions == 0).all(axis=1)] = (0, 1, 0)
+    corners = fractions(vertices)
+    return scene, origins, directions, [[corners[i] for i in face] for face in faces]
+
+
+def test_hits_are_those_of_fractions(grid):
+    scene, origins, directions, triangles = grid
+    last = 1.5
+    nearest = scene.cast(origins, directions, tmax=last, channels=("t", "id", "bary", "P"))
+    lists = scene.cast(origins, directions, tmax=last, mode="all")
+    counts, occluded = scene.count(origins, directions, tmax=last), scene.occluded(origins, directions, tmax=last)
+    some = 0
+    for i, (o, d) in enumerate(zip(fractions(origins), fractions(directions))):
+        expected = hits_of(o, d, triangles, 0, Fraction(last))
+        some += len(expected)
+        rows = slice(lists["splits"][i], lists["splits"][i + 1])
+        assert lists["id"][rows].tolist() == [hit[1] for hit in expected]
+        assert lists["t"][rows].tolist() == [float(hit[0]) for hit in expected]
+        assert (lists["ray"][rows] == i).all()
+        assert counts[i] == len(expected) and occluded[i] == bool(expected)
+        if not expected:
+            assert nearest["id"][i] == fathom.NO_SURFACE and nearest["t"][i] == np.inf and np.isnan(nearest["P"][i]).all()
+            continue
+        t, number, u, v = expected[0]
+        assert (nearest["t"][i], nearest["id"][i]) == (float(t), number)
+        assert nearest["bary"][i].tolist() == [float(u), float(v)]
+        assert nearest["P"][i].tolist() == [float(x + t * y) for x, y in zip(o, d)]
+    assert some > 100
+
+
+def test_results_have_the_shape_of_the_rays(grid):
+    scene, origins, directions, _ = grid
+    flat = scene.cast(origins, directions, channels="t,N,id,object,face")
+    folded = scene.cast(origins.reshape(10, 20, 3), directions.reshape(10, 20, 3), channels="t,N,id,object,face")
+    for name, array in flat.items():
+        assert (folded[name] == array.reshape((10, 20) + array.shape[1:])).all()
+    assert folded["N"].shape == (10, 20, 3)
+    hit = flat["id"] != fathom.NO_SURFACE
+    assert (flat["object"][hit] == 0).all() and (flat["face"] == flat["id"]).all()
+    one = scene.cast(origins[0], directions[:5])
+    assert one["t"].shape == (5,) and scene.count(origins[0], directions[0]).shape == ()
+
+
+def test_float32_is_rounded_once():
+    scene = fathom.Scene()
+    scene.add_mesh(np.array([(-8, -8, 1), (8, -8, 1), (0, 8, 1)], float), np.array([(0, 1, 2)]))
+    # t = 1 + 2^-24 + 2^-60: as float64 it would be half-way between two float32 numbers, and then 1.
+    hits = scene.cast((0, 0, -(2.0**-24 + 2.0**-60)), [(0, 0, 1)], dtype=np.float32)
+    assert hits["t"].dtype == np.float32
+    assert hits["t"][0] == np.float32(1 + 2.0**-23)
+    assert scene.cast((0, 0, -(2.0**-24 + 2.0**-60)), (0, 0, 1))["t"] == 1 + 2.0**-24
+
+
+def test_points_are_inside_a_closed_surface():
+    corners = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    scene = fathom.Scene()
+    scene.add_mesh(corners, np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]))
+    axis = np.array([-0.5, 0.0, 0.25, 0.5, 1.0, 1.5])
+    points = np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1)
+    # A point of the surface belongs to the side that the point moved by (ε, ε², ε³) is on.
+    within = (points >= 0) & (points < 1)
+    assert (scene.contains(points) == within.all(axis=-1)).all()
+
+
+def test_meshes_that_are_added_count():
+    scene = fathom.Scene()
+    sheet = scene.add_mesh(np.array([(0, 0, 4), (4, 0, 4), (0, 4, 4)], float), np.array([(0, 1, 2)]))
+    assert scene.cast((1, 1, 0), (0, 0, 1))["t"] == 4
+    scene.add_instance(sheet, [(1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, -2)])
+    assert scene.cast((1, 1, 0), (0, 0, 1))["t"] == 2
+    scene.add_mesh(np.array([(0, 0, 1), (4, 0, 1), (0, 4, 1)], float), np.array([(0, 1, 2)]))
+    assert scene.cast((1, 1, 0), (0, 0, 1))["t"] == 1
+
+
+@pytest.mark.parametrize("arguments, options, message", [
+    (((0, 0), (0, 0, 1)), {}, "origins: expected shape N×3, found 2"),
+    (((0, 0, 0), [(0, 0, 1), (0, 0, 0)]), {}, r"directions: the direction at \[1\] is 0"),
+    (((0, 0, 0), (0, 0, np.nan)), {}, "directions: nan at"),
+    (((0, 0, 0), (0, 0, 1)), {"tmin": 2, "tmax": 1}, "tmin: expected a number that is at most tmax"),
+    (((0, 0, 0), (0, 0, 1)), {"tmin": np.nan}, "tmin: expected a number that is at most tmax"),
+    (((0, 0, 0), (0, 0, 1)), {"cull": "all"}, "cull: expected 'back', 'front', 'none'"),
+    (((0, 0, 0), (0, 0, 1)), {"mode": "first"}, "mode: expected 'nearest', 'all'"),
+    (((0, 0, 0), (0, 0, 1)), {"channels": ("Z",)}, "channels: expected 't', 'id'"),
+    ((np.zeros((2, 3)), np.ones((3, 3))), {}, "directions: the shape 3×3 does not fit 2×3"),
+])
+def test_wrong_arguments_are_named(grid, arguments, options, message):
+    with pytest.raises(ValueError, match=message):
+        grid[0].cast(*arguments, **options)
+
+
+def test_faults_of_the_scene_are_named():
+    scene = fathom.Scene()
+    scene.add_mesh(np.array([(0, 0, np.nan), (4, 0, 4), (0, 4, 4)]), np.array([(0, 1, 2)]))
+    with pytest.raises(ValueError, match="vertices: nan at"):
+        scene.cast((0, 0, 0), (0, 0, 1))
