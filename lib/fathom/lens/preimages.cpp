@@ -101,4 +101,19 @@ std::optional<ExactDirection> Preimages::of_pixel(std::uint32_t column, std::uin
   return ExactDirection(std::move(direction));
 }
 
+// K⁻¹ and the tilt are linear: three points show the matrix of both.
+std::array<ExactVector3, 3> Preimages::plane_map() const {
+  const StandardArithmetic standard;
+  const auto at = [&](double u, double v) {
+    const DistortedPoint y = plane_.at(u, v);
+    const ExactVector3 vector{y.a, y.b, y.c};
+    return tilt_ ? tilt_->inverse_times(vector) : vector;
+  };
+  const ExactVector3 origin = at(0, 0), along_u = at(1, 0), along_v = at(0, 1);
+  std::array<ExactVector3, 3> rows;
+  for (std::size_t i = 0; i < 3; ++i)
+    rows[i] = {along_u[i] - origin[i], along_v[i] - origin[i], origin[i]};
+  return rows;
+}
+
 }  // namespace fathom::lens

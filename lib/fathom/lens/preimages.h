@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -33,6 +34,15 @@ class Preimages {
   /// Needs    of a table, a pixel that it has.
   [[nodiscard]] std::optional<ExactDirection> of_pixel(std::uint32_t column,
                                                        std::uint32_t row) const;
+
+  /// The stage and its disc, of a model of the plane: the ray of a sample is (m, 1) with S(m) = y,
+  /// in the disc, where y is what plane_map() makes of the sample; nullptr of other models.
+  [[nodiscard]] const PolynomialStage* stage() const {
+    return entry_of(lens_.model).is_plane ? &stage_ : nullptr;
+  }
+  /// The rows of the matrix that takes (u, v, 1) to a positive multiple of (y, 1), exactly; where
+  /// the third component is not positive, the sample sees nothing.
+  [[nodiscard]] std::array<ExactVector3, 3> plane_map() const;
 
   /// Q: rays of a model with a stage have |m|² ≤ Q, and max_radius may narrow that. +∞ if there is
   /// no bound, or no stage.

@@ -63,9 +63,13 @@ std::optional<Tilt> Tilt::of(const Lens& lens) {
 }
 
 std::optional<DistortedPoint> Tilt::undone(const DistortedPoint& point) const {
-  auto [a, b, c] = adjugate_ * ExactVector3{point.a, point.b, point.c};
+  auto [a, b, c] = inverse_times(ExactVector3{point.a, point.b, point.c});
   if (c.sign() != Sign::positive) return std::nullopt;
   return DistortedPoint{std::move(a), std::move(b), std::move(c)};
+}
+
+ExactVector3 Tilt::inverse_times(const ExactVector3& point) const {
+  return adjugate_ * point;
 }
 
 }  // namespace fathom::lens

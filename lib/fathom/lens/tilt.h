@@ -24,6 +24,8 @@ class Tilt {
   /// The point before the tilt; nullopt if the third component of M⁻¹·(x_d, y_d, 1) is not
   /// positive.
   [[nodiscard]] std::optional<DistortedPoint> undone(const DistortedPoint& point) const;
+  /// A positive multiple of M⁻¹·point.
+  [[nodiscard]] ExactVector3 inverse_times(const ExactVector3& point) const;
 
  private:
   std::array<ExactVector3, 3> matrix_, adjugate_;
