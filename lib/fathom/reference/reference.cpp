@@ -346,11 +346,7 @@ Rendered render_reference(const Scene& scene, const Camera& camera, const Render
   require_meaningful(options);
   return with_threads(options.threads, [&] {
     require_renderable_by_rays(scene, camera);
-    if (std::ranges::count(options.channels, Channel::A) != 0) {
-      require_straight(camera,
-                       "channel A: the edges of triangles are curves in this image, and the last "
-                       "digit of an area between curves cannot be proved; leave out A");
-    }
+    require_channels_of(camera, options);
     return render_in_arena(scene, camera, options, context, std::move(before));
   });
 }

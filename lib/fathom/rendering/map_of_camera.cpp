@@ -73,6 +73,13 @@ ImageChannel channel_of_kind(const std::string& name, const ChannelDescription& 
 
 }  // namespace
 
+void require_channels_of(const Camera& camera, const RenderOptions& options) {
+  if (std::ranges::count(options.channels, Channel::A) == 0) return;
+  require_straight(camera,
+                   "channel A: the edges of triangles are curves in this image, and the last "
+                   "digit of an area between curves cannot be proved; leave out A");
+}
+
 void MapBackground::fill(std::size_t first_pixel, std::size_t count) const {
   for_each(
       [&](auto* values, auto background) { std::fill_n(values + first_pixel, count, background); });

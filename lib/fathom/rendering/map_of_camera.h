@@ -19,6 +19,10 @@ namespace fathom::rendering {
 DepthMap make_background(const Camera& camera, const RenderOptions& options,
                          const RenderContext& context = {}, DepthMap before = {});
 
+/// Refuses channels that no map of the camera has: A, where edges are curves.
+/// Fails    UsageError.
+void require_channels_of(const Camera& camera, const RenderOptions& options);
+
 /// What channels of a map have where no surface is seen, for filling a map part by part.
 class MapBackground {
  public:

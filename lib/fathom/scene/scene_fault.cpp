@@ -341,9 +341,10 @@ void require_renderable(const TriangleSource& triangles, const Camera& camera,
   require_valid(triangles, when);
 }
 
-void require_renderable_by_rays(const TriangleSource& triangles, const Camera& camera) {
+void require_renderable_by_rays(const TriangleSource& triangles, const Camera& camera,
+                                LookAtElements when) {
   require_camera(camera);
-  require_valid(triangles);
+  require_valid(triangles, when);
 }
 
 void scene::fail_of_elements(const TriangleSource& triangles) {

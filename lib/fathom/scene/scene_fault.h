@@ -46,6 +46,7 @@ void require_valid(const TriangleSource& triangles, LookAtElements when = LookAt
 void require_renderable(const TriangleSource& triangles, const Camera& camera,
                         LookAtElements when = LookAtElements::now);
 /// The same for a function that takes lenses.
-void require_renderable_by_rays(const TriangleSource& triangles, const Camera& camera);
+void require_renderable_by_rays(const TriangleSource& triangles, const Camera& camera,
+                                LookAtElements when = LookAtElements::now);
 
 }  // namespace fathom

@@ -49,6 +49,8 @@ class ChannelWriter {
   [[nodiscard]] const rendering::ChannelValues& values() const { return values_; }
   [[nodiscard]] const CodeFactor& code_factor() const { return code_factor_; }
   [[nodiscard]] rendering::OriginNumbers numbers_of(std::uint32_t triangle) const;
+  /// The number of the triangle, and those of its origin.
+  void write_origin(std::size_t pixel, std::uint32_t triangle);
   std::optional<EncodingFault> write_depth(std::size_t pixel, const ProjectedTriangle& triangle,
                                            const ImagePoint& s);
   std::optional<EncodingFault> write_distance(std::size_t pixel, const ProjectedTriangle& triangle,
@@ -76,7 +78,6 @@ class ChannelWriter {
   void write_position(std::size_t pixel, const ProjectedTriangle& t, const lens::ExactDirection& d);
   void write_barycentric(std::size_t pixel, const ProjectedTriangle& t,
                          const lens::ExactDirection& d);
-  void write_origin(std::size_t pixel, std::uint32_t number);
 
   TriangleSource triangles_;
   /// Null where no channel shows segments.

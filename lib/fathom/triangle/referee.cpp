@@ -8,9 +8,6 @@
 namespace fathom::triangle {
 namespace {
 
-/// About 5 kB each.
-constexpr std::size_t most_remembered = 2048;
-
 /// Whether D of both is the same function on the image: n_a·w_b = n_b·w_a as polynomials. One of n
 /// and w is constant, the same one for both (|Δ|: w for an orthographic, n for a perspective
 /// camera), so three products of coefficients are compared.
@@ -29,23 +26,9 @@ bool in_one_plane(const ProjectedTriangle& a, const ProjectedTriangle& b, bool p
 
 }  // namespace
 
-void Referee::make_room() {
-  if (remembered_.size() + 2 > most_remembered) remembered_.clear();
-}
-
-const ProjectedTriangle& Referee::remember(std::uint32_t number) {
-  auto& slot = remembered_[number];
-  if (!slot) {
-    TierCounts counted_before;  // facing is counted when triangles are binned
-    slot = std::make_unique<ProjectedTriangle>(
-        project(triangles_.world_corners(number), number, camera_, counted_before));
-  }
-  return *slot;
-}
-
 const ProjectedTriangle& Referee::projected(std::uint32_t number) {
-  make_room();
-  return remember(number);
+  remembered_.make_room();
+  return remembered_.get(number);
 }
 
 // The sign of Δ was certain when the triangle was binned, so double-words need not decide it.
@@ -90,9 +73,9 @@ bool Referee::is_in_range(std::uint32_t number, const ImagePoint& s, RenderStati
 /// Needs    triangles that are not degenerate.
 bool Referee::lie_in_one_plane(std::uint32_t a, std::uint32_t b) {
   if (wide_ && wide_->lie_in_one_plane(a, b)) return true;
-  make_room();
-  const ProjectedTriangle& ta = remember(a);
-  return in_one_plane(ta, remember(b), is_perspective(camera_.projection));
+  remembered_.make_room();
+  const ProjectedTriangle& ta = remembered_.get(a);
+  return in_one_plane(ta, remembered_.get(b), is_perspective(camera_.projection));
 }
 
 bool Referee::hides(std::uint32_t a, std::uint32_t b, const ImagePoint& s,
@@ -114,9 +97,9 @@ bool Referee::hides(std::uint32_t a, std::uint32_t b, const ImagePoint& s,
     ++statistics.same_plane;
     return a < b;
   }
-  make_room();
-  const ProjectedTriangle& ta = remember(a);
-  const int order = compare(depth_at(ta, s), depth_at(remember(b), s));
+  remembered_.make_room();
+  const ProjectedTriangle& ta = remembered_.get(a);
+  const int order = compare(depth_at(ta, s), depth_at(remembered_.get(b), s));
   return order < 0 || (order == 0 && a < b);
 }
 

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
-#include <unordered_map>
 
 #include "fathom/rendering/rendered.h"
 #include "fathom/scene/triangle_source.h"
 #include "fathom/triangle/double_word_referee.h"
 #include "fathom/triangle/projected_triangle.h"
+#include "fathom/triangle/remembered_triangles.h"
 
 namespace fathom::triangle {
 
@@ -18,7 +17,7 @@ class Referee {
  public:
   /// With `rays`, double-words are tried before exact numbers.
   Referee(const TriangleSource& triangles, const Camera& camera, const SceneRays* rays = nullptr)
-      : triangles_(triangles), camera_(camera) {
+      : camera_(camera), remembered_(triangles, camera) {
     if (rays) wide_.emplace(*rays);
   }
 
@@ -38,16 +37,12 @@ class Referee {
   bool hides(std::uint32_t a, std::uint32_t b, const ImagePoint& s, RenderStatistics& statistics);
 
  private:
-  /// Forgets everything if there is no room for two more.
-  void make_room();
-  const ProjectedTriangle& remember(std::uint32_t number);
   bool lie_in_one_plane(std::uint32_t a, std::uint32_t b);
   std::optional<bool> is_in_range_by_double_words(std::uint32_t number, const ImagePoint& s);
 
-  TriangleSource triangles_;
   const Camera& camera_;
   std::optional<WideReferee> wide_;
-  std::unordered_map<std::uint32_t, std::unique_ptr<ProjectedTriangle>> remembered_;
+  RememberedTriangles remembered_;
   /// The pair asked about last, lower number first, and whether they lie in one plane.
   std::uint32_t first_ = 0, second_ = 0;
   bool same_plane_ = false;
