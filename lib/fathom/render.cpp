@@ -101,7 +101,7 @@ Mattes mattes_by_segment(const Scene& scene, const Camera& camera, const RenderO
 }  // namespace
 
 Engine engine_for(const Camera& camera, const RenderOptions& options) {
-  return bends_rays(camera.projection) ? Engine::reference : options.engine;
+  return counts_distance(camera.projection) ? Engine::reference : options.engine;
 }
 
 Rendered render(const Scene& scene, const Camera& camera, const RenderOptions& options,

@@ -5,6 +5,7 @@
 #include "fathom/evaluation/bounds.h"
 #include "fathom/fast/channels/resolve_bounds.h"
 #include "fathom/fast/coverage/area_bounds.h"
+#include "fathom/fast/lenses/lens_bounds.h"
 #include "fathom/fast/setup/setup_bounds.h"
 #include "fathom/fast/vertices/vertex_bounds.h"
 #include "fathom/numeric/certified_rounding.h"
@@ -36,6 +37,7 @@ int main() {
   print("q_room", fast::setup_bounds::q_room);
   print("lane_error", fast::setup_bounds::lane_error);
   print("lane_room", fast::setup_bounds::lane_room);
+  print("lane_extent", fast::lens_bounds::lane_extent);
   print("tile_q_error", fast::setup_bounds::tile_q_error);
   print("exact_edge_error", fast::setup_bounds::exact_edge_error);
   print("exact_q_error", fast::setup_bounds::exact_q_error);

@@ -4,6 +4,7 @@
 
 #include "fathom/fast/channels/fast_output.h"
 #include "fathom/fast/coverage/tile_coverage.h"
+#include "fathom/fast/render_lens.h"
 #include "fathom/fast/render_memory_parts.h"
 #include "fathom/fast/setup/setup.h"
 #include "fathom/fast/tiles/frame.h"
@@ -24,16 +25,6 @@ using namespace triangle;
 
 namespace {
 
-constexpr std::uint32_t parts_of_scene = 64;
-
-ImageObjects transform(const Scene& scene, const Camera& camera, VertexMemory* kept) {
-  ImageObjects objects;
-  TriangleSource(scene).for_each_part(0, [&](const TriangleSource::Part& part) {
-    objects.emplace_back(part.object, part.mesh, camera, part.first_number, kept);
-  });
-  return objects;
-}
-
 Rendered render_in_arena(const Scene& scene, const Camera& camera, const RenderOptions& options,
                          const RenderContext& context, RenderMemory::Parts& memory,
                          DepthMap before) {
@@ -43,7 +34,8 @@ Rendered render_in_arena(const Scene& scene, const Camera& camera, const RenderO
   PerThread<TakenTile> tiles([&] { return TakenTile(memory.tiles); });
   FastWorkers workers([&] { return FastWorker(triangles, camera, rays); });
 
-  const ImageObjects objects = transform(scene, camera, context.kept ? &memory.vertices : nullptr);
+  const ImageObjects objects =
+      image_objects(triangles, camera, context.kept ? &memory.vertices : nullptr);
   memory.vertices.forget();
   const std::vector<Bins>& bins = memory.bins =
       sort_into_tiles(objects, 0, static_cast<std::uint32_t>(triangles.count()), parts_of_scene,
@@ -87,6 +79,9 @@ Rendered render_fast(const Scene& scene, const Camera& camera, const RenderOptio
   RenderMemory for_once;
   RenderMemory::Parts& memory = (context.kept ? *context.kept : for_once).parts();
   return with_threads(options.threads, [&] {
+    if (bends_rays(camera.projection)) {
+      return render_lens(scene, camera, options, context, memory, std::move(before));
+    }
     require_renderable(scene, camera, LookAtElements::later);
     return scene::explaining_faults(scene, [&] {
       return render_in_arena(scene, camera, options, context, memory, std::move(before));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fathom/fast/bins/bins.h"
+#include "fathom/fast/lenses/places.h"
 #include "fathom/fast/render_memory.h"
 #include "fathom/fast/tiles/tile.h"
 
@@ -55,6 +56,8 @@ struct RenderMemory::Parts {
   fast::VertexMemory vertices;
   std::vector<fast::Bins> bins;
   fast::TileMemory tiles;
+  /// Of the last camera with a lens.
+  std::unique_ptr<const fast::Places> places;
 };
 
 }  // namespace fathom

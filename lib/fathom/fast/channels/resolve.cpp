@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "fathom/fast/channels/depth_interval-inl.h"
+#include "fathom/fast/channels/surfaces_at-inl.h"
 #include "fathom/fast/lanes/each_bit.h"
 #include "fathom/fast/lanes/lanes-inl.h"
 #include "fathom/fast/tiles/lane_batch-inl.h"
@@ -41,9 +42,6 @@ HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
-/// For as many samples of a row as there are lanes of binary64.
-using DT32 = hn::Rebind<LaneTag, D>;
-
 HWY_INLINE hn::Vec<DT32> lane_tags_at(const Tile& tile, std::uint32_t column, std::uint32_t row) {
   const LaneTag* const first = tile.tags() + Tile::index(column, row);
 #if HWY_HAVE_SCALABLE
@@ -63,29 +61,6 @@ HWY_INLINE hn::Vec<DT32> lane_tags_at(const Tile& tile, std::uint32_t column, st
 #endif
   return hn::LoadU(DT32(), first);
 #endif
-}
-
-struct Surfaces {
-  V q;
-  hn::Vec<DU> tag;
-};
-
-HWY_INLINE Surfaces surfaces_of(const Tile& tile, hn::Vec<DT32> tags, std::uint32_t column,
-                                std::uint32_t row) {
-  const DT32 dt;
-  const TileSurface* const surfaces = tile.surfaces();
-  const V x = counting_lanes(D(), static_cast<double>(column)), y = constant(row);
-  const LaneTag first = hn::GetLane(tags);
-  if (hn::AllTrue(dt, hn::Eq(tags, hn::Set(dt, first)))) {
-    const TileSurface& s = surfaces[Tile::place_of(first)];
-    return {hn::MulAdd(constant(s.b), y, hn::MulAdd(constant(s.a), x, constant(s.c))),
-            hn::Set(DU(), s.tag)};
-  }
-  HWY_ALIGN LaneTag tag_of[SetupBatch::most];
-  hn::Store(tags, dt, tag_of);
-  const Records r = load_records(
-      [&](std::size_t lane) HWY_ATTR { return &surfaces[Tile::place_of(tag_of[lane])].c; });
-  return {hn::MulAdd(r.third, y, hn::MulAdd(r.second, x, r.first)), hn::BitCast(DU(), r.fourth)};
 }
 
 HWY_INLINE void store(const Surfaces& s, hn::Vec<DT32> places, std::uint32_t column,
@@ -114,7 +89,8 @@ HWY_INLINE std::uint64_t look_at_row(const Tile& tile, std::uint32_t row, Surfac
       empty(column);
       continue;
     }
-    const Surfaces s = surfaces_of(tile, tags, column, row);
+    const Surfaces s = surfaces_at(tile.surfaces(), tags,
+                                   counting_lanes(D(), static_cast<double>(column)), constant(row));
     if (surfaces) store(s, places, column, *surfaces);
     with_surface |= std::uint64_t{lane_bits(dt, surface)} << column;
     shown(column, s, surface);

@@ -325,19 +325,7 @@ HWY_INLINE void store(V v, SetupBatch::Numbers& numbers) {
   hn::Store(v, D(), numbers.data());
 }
 
-/// As many triangles as there are lanes; see certified_setups() in setup.h.
-HWY_INLINE void set_up_lanes(const ImageVertex* vertices, const CornerIndices* triangles,
-                             const PixelBox& area, const DepthRange& range, SetupBatch& batch) {
-  const Corners t = load_corners(vertices, triangles);
-  const M usable = are_usable(t);
-  const Boxes box = sample_boxes(t, area);
-  const LocalTriangles l = localise(t, box);
-  Edges e = certified_edges(l);
-  const M safe =
-      hn::And(usable, hn::Ge(l.T, hn::Mul(constant(setup_bounds::triangle_thinness), e.error)));
-  const M snapped = have_exact_edges(t, l);
-  use_top_left_rule(snapped, e);
-  const Depths q = certified_depths(t, l, e);
+HWY_INLINE void store(const Edges& e, const Depths& q, const Boxes& box, SetupBatch& batch) {
   for (std::size_t i = 0; i < 3; ++i) {
     store(e.a[i], batch.edge_a[i]);
     store(e.b[i], batch.edge_b[i]);
@@ -352,6 +340,22 @@ HWY_INLINE void set_up_lanes(const ImageVertex* vertices, const CornerIndices* t
   store(box.last_column, batch.last_column);
   store(box.first_row, batch.first_row);
   store(box.last_row, batch.last_row);
+}
+
+/// As many triangles as there are lanes; see certified_setups() in setup.h.
+HWY_INLINE void set_up_lanes(const ImageVertex* vertices, const CornerIndices* triangles,
+                             const PixelBox& area, const DepthRange& range, SetupBatch& batch) {
+  const Corners t = load_corners(vertices, triangles);
+  const M usable = are_usable(t);
+  const Boxes box = sample_boxes(t, area);
+  const LocalTriangles l = localise(t, box);
+  Edges e = certified_edges(l);
+  const M safe =
+      hn::And(usable, hn::Ge(l.T, hn::Mul(constant(setup_bounds::triangle_thinness), e.error)));
+  const M snapped = have_exact_edges(t, l);
+  use_top_left_rule(snapped, e);
+  const Depths q = certified_depths(t, l, e);
+  store(e, q, box, batch);
   batch.empty = bits_of(hn::And(usable, are_empty(box)));
   batch.refused = bits_of(hn::Not(safe));
   batch.snapped = bits_of(snapped);

@@ -121,8 +121,9 @@ struct Pen {
              hn::MulAdd(f.b[2], y, f.c[2])},
             hn::MulAdd(f.q_b, y, f.q_c)};
   }
-  HWY_INLINE std::size_t draw(VF x, VF y, const AtRow& at_x_0, std::size_t at, int part, int column,
-                              int row) const;
+  template <class Settle>
+  HWY_INLINE std::size_t draw(VF x, VF y, const AtRow& at_x_0, std::size_t at,
+                              const Settle& settle) const;
 };
 
 template <bool test_edges, bool test_range>
@@ -152,12 +153,13 @@ HWY_INLINE Pen<test_edges, test_range> pen(Tile& tile, const Drawn& t, const Dra
 // half covers the rounding of the end (moved_q.gappa.in).
 // Samples of the cells beyond the box are not covered, unless the box ends where the area does: a
 // sample beyond the area counts for nothing.
-/// The samples of a vector, `part` the number of the first one in the cell that begins at this
-/// column and row, `at` its place in the tile. Returns how many of them are won.
+/// The samples of a vector, the first of them at the place `at` of the tile; settle(samples) is
+/// called with a bit for each about which neither is certain. Returns how many of them are won.
 template <bool test_edges, bool test_range>
+template <class Settle>
 HWY_INLINE std::size_t Pen<test_edges, test_range>::draw(VF x, VF y, const AtRow& at_x_0,
-                                                         std::size_t at, int part, int column,
-                                                         int row) const {
+                                                         std::size_t at,
+                                                         const Settle& settle) const {
   const DF d;
   const DT dt;
   float* const q_at = tile.q() + at;
@@ -193,7 +195,7 @@ HWY_INLINE std::size_t Pen<test_edges, test_range>::draw(VF x, VF y, const AtRow
   hn::Store(hn::IfThenElse(hn::RebindMask(dt, wins), tag, tag_there), dt, tag_at);
   const MF doubtful = hn::AndNot(wins, open);
   if (HWY_UNLIKELY(!hn::AllFalse(d, doubtful))) {
-    settle_samples(tile, t, lane_bits(d, doubtful) << part, column, row, context);
+    settle(lane_bits(d, doubtful));
   }
   return hn::CountTrue(d, wins);
 }
@@ -218,7 +220,9 @@ HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
       VF x = hn::Add(lane_columns(part), left);
       for (int column = cells.first_column; column <= cells.last_column;
            column += cell, at += cell * cell, x = hn::Add(x, step)) {
-        wins += p.draw(x, y, values, at, part, column, row);
+        wins += p.draw(x, y, values, at, [&](unsigned samples) HWY_ATTR {
+          settle_samples(tile, t, samples << part, column, row, context);
+        });
       }
     }
   }
@@ -253,7 +257,9 @@ HWY_INLINE void draw_list(Tile& tile, const Drawn& t, const CellList& cells,
       const VF y = hn::Add(y_in_cell, constant32(static_cast<float>(row)));
       const auto values = p.at_row(y);
       const std::size_t at = std::size_t{number} * (cell * cell) + static_cast<std::size_t>(part);
-      wins += p.draw(x, y, values, at, part, column, row);
+      wins += p.draw(x, y, values, at, [&](unsigned samples) HWY_ATTR {
+        settle_samples(tile, t, samples << part, column, row, context);
+      });
     }
   }
   context.statistics.samples_tested += cells.count * (cell * cell);

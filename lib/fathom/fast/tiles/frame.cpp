@@ -17,6 +17,15 @@ FastFrame::FastFrame(const Camera& the_camera, const RenderOptions& the_options,
       perspective(is_perspective(camera.projection)),
       by_area(std::ranges::count(options.channels, Channel::A) != 0) {}
 
+ImageObjects image_objects(const TriangleSource& triangles, const Camera& camera,
+                           VertexMemory* kept) {
+  ImageObjects objects;
+  triangles.for_each_part(0, [&](const TriangleSource::Part& part) {
+    objects.emplace_back(part.object, part.mesh, camera, part.first_number, kept);
+  });
+  return objects;
+}
+
 std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t first,
                                   std::uint32_t end, std::uint32_t parts, const FastFrame& frame,
                                   FastWorkers& workers, std::vector<Bins> bins) {
@@ -39,20 +48,6 @@ std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t fir
 }
 
 namespace {
-
-/// Draws triangles, possibly of several objects, those of one object next to each other.
-void draw(std::span<const std::uint32_t> numbers, const ImageObjects& objects, Tile& tile,
-          const DrawContext& context) {
-  while (!numbers.empty()) {
-    const ImageObject& object = object_of(objects, numbers.front());
-    const auto next = std::find_if(numbers.begin(), numbers.end(), [&](std::uint32_t number) {
-      return number < object.first_number || number >= object.end_number();
-    });
-    const auto count = static_cast<std::size_t>(next - numbers.begin());
-    tile.draw(object, numbers.first(count), context);
-    numbers = numbers.subspan(count);
-  }
-}
 
 bool covers_samples(const TileEntry& entry) {
   return (entry.nearness & nearness_without_samples) == 0;
@@ -82,8 +77,12 @@ void draw_tile(Tile& tile, std::uint32_t number, const std::vector<Bins>& all_bi
       }
     }
     context.visible.for_each_part(
-        tile, context.switches.early_rejection,
-        [&](std::span<const std::uint32_t> numbers) { draw(numbers, objects, tile, context); });
+        tile, context.switches.early_rejection, [&](std::span<const std::uint32_t> numbers) {
+          for_each_object(numbers, objects,
+                          [&](const ImageObject& object, std::span<const std::uint32_t> of_object) {
+                            tile.draw(object, of_object, context);
+                          });
+        });
   }
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "fathom/fast/bins/bins.h"
@@ -59,6 +61,13 @@ struct FastFrame {
   bool by_area;
 };
 
+/// All objects of a scene that is in memory, in the image of a camera with straight edges.
+ImageObjects image_objects(const TriangleSource& triangles, const Camera& camera,
+                           VertexMemory* kept);
+
+/// Parts of a whole scene, for sort_into_tiles().
+inline constexpr std::uint32_t parts_of_scene = 64;
+
 /// Sorts triangles [first, end) of the scene, all of which belong to these objects, into tiles:
 /// `parts` bins of equal length, or fewer, so that each thread has several and their tables of
 /// tiles stay small.
@@ -66,6 +75,22 @@ struct FastFrame {
 std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t first,
                                   std::uint32_t end, std::uint32_t parts, const FastFrame& frame,
                                   FastWorkers& workers, std::vector<Bins> bins = {});
+
+/// Calls visit(object, numbers) for triangles of several objects, those of one object next to each
+/// other.
+template <class Visit>
+void for_each_object(std::span<const std::uint32_t> numbers, const ImageObjects& objects,
+                     const Visit& visit) {
+  while (!numbers.empty()) {
+    const ImageObject& object = object_of(objects, numbers.front());
+    const auto next = std::find_if(numbers.begin(), numbers.end(), [&](std::uint32_t number) {
+      return number < object.first_number || number >= object.end_number();
+    });
+    const auto count = static_cast<std::size_t>(next - numbers.begin());
+    visit(object, numbers.first(count));
+    numbers = numbers.subspan(count);
+  }
+}
 
 /// Draws the triangles of a tile.
 void draw_tile(Tile& tile, std::uint32_t number, const std::vector<Bins>& all_bins,

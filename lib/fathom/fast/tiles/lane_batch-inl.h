@@ -174,9 +174,9 @@ HWY_INLINE void make_lane_boxes(const SetupBatch& setups, const PixelBox& area, 
   store(setups.last_row, top, lanes.last_row);
 }
 
-/// The boxes, and the tags of the surfaces, which will be kept from `place` on.
-HWY_INLINE void make_lane_places(const SetupBatch& setups, const PixelBox& area,
-                                 std::uint32_t place, V extent, double widening, LaneBatch& lanes) {
+/// The tags of the surfaces, which will be kept from `place` on.
+HWY_INLINE void make_lane_tags(const SetupBatch& setups, std::uint32_t place, V extent,
+                               double widening, LaneBatch& lanes) {
   const V terms = terms_of(load(setups.q_a), load(setups.q_b), load(setups.q_c), extent);
   const V error = hn::IfThenElse(hn::Lt(terms, constant(setup_bounds::lane_limit)),
                                  lane_error(terms, load(setups.q_error)),
@@ -185,6 +185,12 @@ HWY_INLINE void make_lane_places(const SetupBatch& setups, const PixelBox& area,
   for (std::size_t k = 0; k < hn::Lanes(D()); ++k) {
     lanes.tag[k] = lane_tag(place + static_cast<std::uint32_t>(k), lanes.q_error[k]);
   }
+}
+
+/// The boxes and the tags.
+HWY_INLINE void make_lane_places(const SetupBatch& setups, const PixelBox& area,
+                                 std::uint32_t place, V extent, double widening, LaneBatch& lanes) {
+  make_lane_tags(setups, place, extent, widening, lanes);
   make_lane_boxes(setups, area, lanes);
 }
 

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fathom/fast/lenses/lens_depths.h"
+#include "fathom/fast/lenses/lens_tile.h"
+#include "fathom/triangle/channels.h"
+
+namespace fathom::fast {
+
+/// Writes tiles of a lens to a map that has its background. One for each thread.
+class LensOutput {
+ public:
+  LensOutput(triangle::ChannelWriter& writer, std::uint32_t width);
+
+  /// Writes `valid` for an area whose samples have no surface.
+  void write_valid(const PixelBox& area, const Places::OfTile& places) const;
+  /// Returns the fault of the first pixel in row order that has one.
+  std::optional<triangle::EncodingFault> write(const LensTile& tile, const LensContext& context);
+
+ private:
+  /// Writes the depths that are settled, and +∞ where there is no surface.
+  void write_depths(const PixelBox& area) const;
+  std::optional<triangle::EncodingFault> write_along_ray(const LensTile& tile, std::size_t i,
+                                                         std::size_t pixel,
+                                                         const LensContext& context) const;
+  /// The channels that are the same wherever a surface is seen.
+  void write_others(const LensTile& tile, std::size_t i, std::size_t pixel,
+                    const LensContext& context);
+  /// The channels that do not depend on where a surface is seen.
+  void write_what_is_the_same(std::size_t pixel, std::uint32_t number,
+                              const LensContext& context) const;
+  void copy_what_is_the_same(std::size_t from, std::size_t to) const;
+
+  triangle::ChannelWriter& writer_;
+  std::uint32_t width_;
+  /// Whether Z in binary32 is all that depends on the place of a sample.
+  bool depths_only_;
+  /// Whether a channel is asked for that is the same wherever a surface is seen.
+  bool others_;
+  LensDepths rounded_;
+  /// By the places of surfaces in the tile: the first pixel at which one was written.
+  std::vector<std::size_t> first_pixel_;
+};
+
+}  // namespace fathom::fast

@@ -1,0 +1,82 @@
+#include "fathom/fast/lenses/window.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fathom/fast/lenses/lens_bounds.h"
+#include "fathom/numeric/unit_roundoff.h"
+
+namespace fathom::fast {
+namespace {
+
+/// Pixels of a window; their coordinates have the bounds of images.
+constexpr double most_pixels = 16384;
+/// Beside the samples: more than their errors.
+constexpr double margin = 2;
+
+/// Coordinates from the camera's axis are below this: the errors of places, which are below 2⁻²⁸ of
+/// them (places.cpp), are then less than the margin.
+constexpr double most_shift = 0x1p26;
+
+/// The power of two next to a focal length, in its sign; less where the window would be too large
+/// or too far from the camera's axis.
+double scale_for(double focal_length, double least, double greatest) {
+  const double size = std::max(std::abs(least), std::abs(greatest));
+  int exponent = std::ilogb(std::abs(focal_length) * 1.5);
+  const auto fits = [&] {
+    return std::ldexp(greatest - least, exponent) <= most_pixels - 4 * margin &&
+           std::ldexp(size, exponent) <= most_shift;
+  };
+  while (!fits()) --exponent;
+  return std::copysign(std::ldexp(1.0, exponent), focal_length);
+}
+
+/// One axis of the window: u = scale·x + shift, between `margin` and `pixels` less that.
+struct Axis {
+  Axis(double focal_length, double least, double greatest)
+      : scale(scale_for(focal_length, least, greatest)) {
+    const double a = scale * least, b = scale * greatest;
+    shift = margin - std::floor(std::min(a, b));
+    pixels = static_cast<std::uint32_t>(std::ceil(std::max(a, b) + shift + margin));
+  }
+  double scale, shift;
+  std::uint32_t pixels;
+};
+
+}  // namespace
+
+Window::Window(const Camera& the_camera, const Places& places) : camera(the_camera) {
+  const PlaneBox& box = places.box();
+  const Projection& lens = the_camera.projection;
+  const Axis u(lens.fx, box.left, box.right), v(lens.fy, box.top, box.bottom);
+  camera.width = u.pixels;
+  camera.height = v.pixels;
+  camera.projection = {.fx = u.scale, .fy = v.scale, .cx = u.shift, .cy = v.shift};
+}
+
+// A product with a power of two is exact, the sum is rounded once: by u times less than the width
+// of the area, which is below 2¹⁵.
+TileInWindow::TileInWindow(const Window& window, const Places::OfTile& places) {
+  const Projection& p = window.camera.projection;
+  const auto ends = [&](double scale, double shift, double a, double b, std::uint32_t pixels) {
+    const double low = std::min(scale * a, scale * b) + shift;
+    const double high = std::max(scale * a, scale * b) + shift;
+    const auto pixel = [&](double x) {
+      return static_cast<std::uint32_t>(std::clamp(std::floor(x), 0.0, pixels - 1.0));
+    };
+    return std::pair(pixel(low - 0.5), pixel(high + 0.5));
+  };
+  scale_x = p.fx;
+  scale_y = p.fy;
+  const auto columns = ends(p.fx, p.cx, places.box.left, places.box.right, window.camera.width);
+  const auto rows = ends(p.fy, p.cy, places.box.top, places.box.bottom, window.camera.height);
+  error = places.error * std::max(std::abs(scale_x), std::abs(scale_y)) * (1 + 0x1p-40) +
+          0x1p15 * unit_roundoff<double>;
+  is_certain = error <= lens_bounds::greatest_error;
+  area = {0, window.camera.width - 1, 0, window.camera.height - 1};
+  if (is_certain) area = {columns.first, columns.second, rows.first, rows.second};
+  shift_x = p.cx - (area.first_column + 0.5);
+  shift_y = p.cy - (area.first_row + 0.5);
+}
+
+}  // namespace fathom::fast
