@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "fathom/camera/lens_numbers.h"
 #include "fathom/failures/errors.h"
 #include "fathom/failures/unknown_name.h"
 #include "fathom/render.h"
@@ -18,8 +20,8 @@
 /// or with --keep render_into(), reusing the previous map and its memory:
 ///   engine_bench [SCENE…] [--size WxH] [--threads N] [--repeat N] [--engine fast|reference]
 ///                [--channels Z,id,…] [--depths binary32|binary64|scaled_unorm16] [--cull
-///                back|front|none] [--without avx-512,simd,hierarchy,early-rejection] [--tiers]
-///                [--keep]
+///                back|front|none] [--lens OPENCV,-0.25,0.05,…] [--without
+///                avx-512,simd,hierarchy,early-rejection] [--tiers] [--keep]
 /// Scenes are named in scenes.h, or are mesh files. The first run of each is not counted. --tiers
 /// counts how many decisions and values each arithmetic settled.
 namespace {
@@ -33,6 +35,7 @@ struct Arguments {
   int repeat = 9;
   bool tiers = false, keep = false;
   RenderOptions options{.engine = Engine::fast};
+  std::optional<Lens> lens;
 };
 
 /// The parts of a text between commas.
@@ -78,6 +81,14 @@ StoredType type_named(const std::string& word) {
 Cull cull_named(const std::string& word) {
   if (const auto cull = value_named(all_culls, word)) return *cull;
   refuse_word("--cull", word, "not one of back, front and none");
+}
+
+/// A model and its distortion.
+Lens lens_named(const std::string& list) {
+  const std::vector<std::string> words = parts_of(list);
+  std::vector<double> numbers;
+  for (std::size_t i = 1; i < words.size(); ++i) numbers.push_back(std::atof(words[i].c_str()));
+  return lens_of_numbers(words.front(), numbers);
 }
 
 /// Leaves out what makes the fast engine fast; its map stays the same.
@@ -127,6 +138,8 @@ Arguments parse(int argc, char** argv) {
       arguments.options.depth_encoding.type = type_named(value);
     } else if (name == "--cull") {
       arguments.options.cull = cull_named(value);
+    } else if (name == "--lens") {
+      arguments.lens = lens_named(value);
     } else if (name == "--without") {
       leave_out(value, arguments.options.fast);
     } else {
@@ -160,7 +173,8 @@ void print_tiers(const RenderStatistics& s) {
 }
 
 void time_scene(const std::string& name, const Arguments& arguments) {
-  const bench::BenchScene bench = bench::make_scene(name, arguments.width, arguments.height);
+  bench::BenchScene bench = bench::make_scene(name, arguments.width, arguments.height);
+  bench.camera.projection.lens = arguments.lens;
   std::vector<double> milliseconds;
   std::size_t covered = 0;
   RenderMemory memory;
