@@ -1,0 +1,217 @@
+// The fast engine against the reference engine under lenses, bit for bit.
+#include <gtest/gtest.h>
+
+#include "fathom/failures/errors.h"
+#include "fathom/render.h"
+#include "tests/adversaries.h"
+#include "tests/effort.h"
+#include "tests/engines/expect_same_map.h"
+#include "tests/inputs/lens_scenes.h"
+#include "tests/inputs/soup.h"
+#include "tests/inputs/spheres.h"
+
+namespace fathom {
+namespace {
+
+using testing::expect_same;
+using testing::expect_same_map;
+using testing::Kind;
+using testing::LensCase;
+using testing::LensCaseMaker;
+
+std::vector<Channel> lens_channels(const std::vector<Channel>& channels) {
+  std::vector<Channel> with_valid = channels;
+  std::erase(with_valid, Channel::A);
+  with_valid.push_back(Channel::valid);
+  return with_valid;
+}
+
+class LensAdversaries : public ::testing::TestWithParam<std::tuple<LensModel, Kind>> {};
+
+TEST_P(LensAdversaries, AreTheSame) {
+  const auto [model, kind] = GetParam();
+  RenderStatistics sum;
+  testing::for_each_adversary(25, [&, model = model, kind = kind](std::uint64_t seed) {
+    LensCaseMaker maker(10000 * seed + static_cast<std::uint64_t>(100 * static_cast<int>(model)) +
+                            static_cast<std::uint64_t>(kind),
+                        kind);
+    const LensCase c = maker.make(model);
+    RenderOptions options;
+    options.threads = 1;
+    options.channels =
+        lens_channels(seed % 10 == 0 ? testing::every_channel : testing::quick_channels);
+    options.cull = seed % 7 == 0 ? Cull::back : seed % 7 == 1 ? Cull::front : Cull::none;
+    add(sum, expect_same(c.view.scene, c.view.camera, options));
+  });
+  if (testing::effort > 1 || (kind != Kind::few_bits && kind != Kind::neighbours)) return;
+  // Every tier was reached.
+  EXPECT_GT(sum.exact_setups, 5U);
+  EXPECT_GT(sum.edges.exact, 5U);
+  EXPECT_GT(sum.rounding.interval, 5U);
+}
+
+std::string name_of_case(const ::testing::TestParamInfo<std::tuple<LensModel, Kind>>& info) {
+  const auto [model, kind] = info.param;
+  constexpr std::array kinds{"few_bits", "neighbours", "huge", "tiny"};
+  return std::string(name_of(model)) + '_' + kinds[static_cast<std::size_t>(kind)];
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Fast, LensAdversaries,
+    ::testing::Combine(::testing::Values(LensModel::simple_radial, LensModel::radial,
+                                         LensModel::opencv, LensModel::full_opencv,
+                                         LensModel::opencv_14, LensModel::brown),
+                       ::testing::Values(Kind::few_bits, Kind::neighbours, Kind::huge, Kind::tiny)),
+    name_of_case);
+
+/// A lens that is used far beyond where it folds, in most of them.
+struct NamedLens {
+  const char* name;
+  Lens lens;
+};
+
+std::vector<NamedLens> lenses() {
+  const auto opencv = [](std::array<double, 14> distortion) {
+    return Lens{LensModel::opencv_14, distortion};
+  };
+  Lens narrow{LensModel::simple_radial, {-0.1}};
+  narrow.max_radius = 0.8;
+  Lens ends{LensModel::simple_pinhole};
+  ends.max_radius = 0.75;
+  return {{"barrel", {LensModel::simple_radial, {-0.25}}},
+          {"pincushion", {LensModel::simple_radial, {0.2}}},
+          {"folds", {LensModel::radial, {-0.4, 0.05}}},
+          {"tangential", {LensModel::opencv, {-0.15, 0.02, 0.01, -0.02}}},
+          {"rational", opencv({-0.1, 0.02, 0.001, 0.002, 0.003, 0.05, 0.01, 0.001})},
+          {"thin prism",
+           opencv({-0.1, 0.02, 0.001, 0.002, 0.003, 0, 0, 0, 0.01, -0.002, 0.004, 0.001})},
+          {"tilted", opencv({-0.1, 0.02, 0.001, 0.002, 0, 0, 0, 0, 0, 0, 0, 0, 0.05, -0.03})},
+          {"narrow", narrow},
+          {"pinhole that ends", ends}};
+}
+
+Camera camera_with(const Lens& lens) {
+  Camera camera = testing::camera_of(160, 140, 64);
+  camera.projection.lens = lens;
+  return camera;
+}
+
+TEST(FastLenses, TrianglesAcrossTilesOfAnyNumberOfThreads) {
+  std::mt19937_64 random(4712);
+  int i = 0;
+  for (const NamedLens& named : lenses()) {
+    SCOPED_TRACE(named.name);
+    const Scene scene =
+        i % 2 == 0 ? testing::soup(random, 60, i % 4 == 0) : testing::slivers(random, 60);
+    Camera camera = camera_with(named.lens);
+    if (i % 3 == 0) camera.far = 5;
+    if (i % 3 == 1) camera.near = 2;
+    if (!has_one_focal_length(entry_of(named.lens.model))) {
+      if (i % 2 == 0) camera.projection.fx = -camera.projection.fx;
+      if (i % 4 > 1) camera.projection.skew = 7;
+    }
+    RenderOptions options;
+    options.channels = lens_channels(testing::quick_channels);
+    const DepthMap truth = render_reference(scene, camera, options).map;
+    options.threads = 1 + i % 3;
+    expect_same_map(render_fast(scene, camera, options).map, truth);
+    options.fast.early_rejection = options.fast.hierarchy = false;
+    options.fast.widening = 0x1p20;
+    expect_same_map(render_fast(scene, camera, options).map, truth);
+    ++i;
+  }
+}
+
+TEST(FastLenses, EveryChannelOfSpheres) {
+  const Scene scene = testing::two_spheres(24);
+  for (const NamedLens& named : lenses()) {
+    SCOPED_TRACE(named.name);
+    Camera camera = camera_with(named.lens);
+    camera.width = 70;
+    camera.height = 66;
+    camera.projection.fx = camera.projection.fy = 40;
+    camera.projection.cx = 35;
+    camera.projection.cy = 33;
+    camera.world_to_camera[2][3] = 3;
+    RenderOptions options;
+    options.channels = lens_channels(testing::every_channel);
+    expect_same(scene, camera, options);
+  }
+}
+
+// The eye lies inside of the scene, triangles pass it, and some corners are behind it.
+TEST(FastLenses, TrianglesAroundTheEye) {
+  const Scene scene = testing::two_spheres(8);
+  Camera camera = camera_with({LensModel::simple_radial, {-0.2}});
+  camera.world_to_camera[2][3] = 0.125;
+  RenderOptions options;
+  options.channels = lens_channels(testing::quick_channels);
+  expect_same(scene, camera, options);
+}
+
+TEST(FastLenses, MemoryOfOneFrameServesTheNext) {
+  std::mt19937_64 random(4713);
+  const Scene scene = testing::soup(random, 60, false);
+  RenderMemory memory;
+  const RenderContext context{.kept = &memory};
+  RenderOptions options;
+  options.channels = lens_channels(testing::quick_channels);
+  DepthMap before;
+  const std::vector<NamedLens> all = lenses();
+  for (const std::size_t number : {0U, 3U, 7U}) {
+    const NamedLens& named = all[number];
+    SCOPED_TRACE(named.name);
+    for (const double z : {0.0, 0.5}) {
+      for (const std::uint32_t width : {80U, 70U}) {
+        Camera camera = camera_with(named.lens);
+        camera.width = width;
+        camera.height = 70;
+        camera.world_to_camera[2][3] = z;
+        const DepthMap truth = render_reference(scene, camera, options).map;
+        before = render_fast(scene, camera, options, context, std::move(before)).map;
+        expect_same_map(before, truth);
+      }
+    }
+  }
+}
+
+// The image lies so far from the axis of the camera that its pixels are less than those of the
+// window.
+TEST(FastLenses, AnImageFarFromTheAxis) {
+  Camera camera = camera_with({LensModel::simple_radial, {1e-22}});
+  camera.width = camera.height = 20;
+  camera.projection.cx = -1e12;
+  const double m = 1.53e10;
+  const Scene scene = testing::scene_of(
+      {{0, -1, 1}, {2 * m, -1, 1}, {m, 1, 1}, {m, -m, 2}, {m, m, 2}, {2 * m, 0, 2}},
+      {{0, 1, 2}, {3, 4, 5}});
+  RenderOptions options;
+  options.channels = lens_channels(testing::quick_channels);
+  const RenderStatistics statistics = expect_same(scene, camera, options);
+  EXPECT_GT(statistics.pixels_with_surface, 0U);
+}
+
+// Of samples beyond the disc, and of all samples.
+TEST(FastLenses, NoSampleHasARay) {
+  Camera camera = camera_with({LensModel::simple_radial, {-0.25}});
+  camera.projection.cx = 1000;
+  RenderOptions options;
+  options.channels = lens_channels(testing::quick_channels);
+  std::mt19937_64 random(4714);
+  expect_same(testing::soup(random, 20, false), camera, options);
+}
+
+TEST(FastLenses, TheEnginesRefuseTheSame) {
+  std::mt19937_64 random(4715);
+  const Scene scene = testing::soup(random, 2, false);
+  const Camera camera = camera_with({LensModel::simple_radial, {-0.25}});
+  RenderOptions options;
+  options.channels = {Channel::A};
+  for (const Engine engine : {Engine::fast, Engine::reference}) {
+    options.engine = engine;
+    EXPECT_THROW(render(scene, camera, options), UsageError);
+  }
+}
+
+}  // namespace
+}  // namespace fathom

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <cmath>
+#include <random>
+
+#include "tests/inputs/random_scenes.h"
+#include "tests/oracle/lens_rays.h"
+
+namespace fathom::testing {
+
+struct LensCase {
+  Case view;
+  oracle::LensNumbers numbers;
+};
+
+/// Random lenses of few bits in front of the cameras of CaseMaker; some of the scenes are moved so
+/// that corners and edges lie on the ray of a sample, exactly.
+class LensCaseMaker {
+ public:
+  LensCaseMaker(std::uint64_t seed, Kind kind) : random_(seed), cases_(seed + 1, kind) {}
+
+  LensCase make(LensModel model) {
+    LensCase c;
+    do c.view = cases_.make();
+    while (is_orthographic(c.view.camera.projection));
+    set_lens(model, c);
+    if (below(2) == 0) put_corners_on_a_ray(c);
+    return c;
+  }
+
+ private:
+  int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
+  double term() { return std::ldexp(below(9) - 5, -4 - below(3)); }
+  double small_term() { return below(2) == 0 ? 0 : std::ldexp(below(5) - 2, -7); }
+
+  void set_lens(LensModel model, LensCase& c) {
+    Lens lens{model};
+    oracle::LensNumbers& n = c.numbers;
+    switch (model) {
+      case LensModel::simple_radial:
+        lens.distortion[0] = n.above[0] = term();
+        break;
+      case LensModel::radial:
+        lens.distortion[0] = n.above[0] = term();
+        lens.distortion[1] = n.above[1] = term() / 4;
+        break;
+      case LensModel::opencv:
+        lens.distortion = {n.above[0] = term(), n.above[1] = term() / 4, n.p1 = small_term(),
+                           n.p2 = small_term()};
+        break;
+      case LensModel::full_opencv:
+      case LensModel::opencv_14:
+        lens.distortion = {n.above[0] = term(), n.above[1] = term() / 4, n.p1 = small_term(),
+                           n.p2 = small_term(), n.above[2] = term() / 8};
+        if (below(2) == 0) {
+          lens.distortion[5] = n.below[0] = term() / 2;
+          lens.distortion[6] = n.below[1] = term() / 8;
+          lens.distortion[7] = n.below[2] = term() / 16;
+        }
+        if (model == LensModel::full_opencv) break;
+        lens.distortion[8] = n.s1 = small_term();
+        lens.distortion[9] = n.s2 = small_term() / 2;
+        lens.distortion[10] = n.s3 = small_term();
+        lens.distortion[11] = n.s4 = small_term() / 2;
+        break;
+      case LensModel::brown:
+        lens.distortion = {n.above[0] = term(),     n.above[1] = term() / 4,
+                           n.above[2] = term() / 8, n.above[3] = term() / 16,
+                           n.p1 = small_term(),     n.p2 = small_term()};
+        break;
+      case LensModel::simple_division:
+      case LensModel::division:
+        lens.distortion[0] = term();
+        n.division = lens.distortion[0];
+        break;
+      case LensModel::fisheye_stereographic:
+        n.division = -0.25;
+        break;
+      default:
+        break;
+    }
+    Projection& projection = c.view.camera.projection;
+    if (has_one_focal_length(entry_of(model))) {
+      projection.fy = projection.fx;
+      projection.skew = 0;
+    }
+    projection.lens = lens;
+  }
+
+  /// Moves the image so that a sample sees a point m of few bits, and corners onto its ray.
+  void put_corners_on_a_ray(LensCase& c) {
+    Camera& camera = c.view.camera;
+    Projection& p = camera.projection;
+    if (c.numbers.division) return;
+    for (const double below : c.numbers.below)
+      if (below != 0) return;
+    const double x = std::ldexp(this->below(9) - 4, -3), y = std::ldexp(this->below(9) - 4, -3);
+    const double q = x * x + y * y;
+    double factor = 1, power = 1;
+    for (const double k : c.numbers.above) factor += k * (power *= q);
+    const oracle::LensNumbers& n = c.numbers;
+    const double gx =
+        x * factor + 2 * n.p1 * x * y + n.p2 * (q + 2 * x * x) + n.s1 * q + n.s2 * q * q;
+    const double gy =
+        y * factor + n.p1 * (q + 2 * y * y) + 2 * n.p2 * x * y + n.s3 * q + n.s4 * q * q;
+    p.skew = 0;
+    p.pixel_centre = 0.5;
+    p.cx = this->below(6) + 0.5 - p.fx * gx;
+    p.cy = this->below(5) + 0.5 - p.fy * gy;
+    camera.world_to_camera = Camera().world_to_camera;
+    for (Mesh& mesh : c.view.scene.meshes) {
+      std::vector<MeshPoint> corners(mesh.vertices.begin(), mesh.vertices.end());
+      for (std::size_t i = 0; i + 1 < corners.size(); i += 2) {
+        const double z = 1 + this->below(4);
+        const double across = std::ldexp(this->below(9) - 4, -1),
+                     up = std::ldexp(this->below(9) - 4, -1);
+        // Either the corner is on the ray, or the ray meets the middle between two corners.
+        const double aside = this->below(2);
+        corners[i] = {x * z + aside * across, y * z + aside * up, z};
+        if (aside != 0) corners[i + 1] = {x * z - across, y * z - up, z};
+      }
+      mesh.vertices = std::move(corners);
+    }
+  }
+
+  std::mt19937_64 random_;
+  CaseMaker cases_;
+};
+
+}  // namespace fathom::testing
