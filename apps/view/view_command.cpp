@@ -148,7 +148,7 @@ int run_view(const ViewArguments& arguments, const Console& console) {
       throw UsageError("--serve: " + viewed.name +
                        " carries no camera, so that no pixel of it can be probed");
     }
-    require_straight(*viewed.camera);
+    require_straight(*viewed.camera, "pixels are probed without a lens only");
   }
   return serve(arguments, std::move(maps), console);
 }
