@@ -59,11 +59,11 @@ struct Errors {
 
   Errors(const WalkRay& ray, double corner_error) {
     const Vector& d = ray.direction;
-    const double D1 = (std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2])) * bounds::slack;
+    const double size = (std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2])) * bounds::slack;
     const double near = corner_error + ray.origin_error;
-    products = D1 * bounds::of_products;
-    origin = D1 * bounds::of_origin * near;
-    corners = D1 * bounds::of_corners * corner_error;
+    products = size * bounds::of_products;
+    origin = size * bounds::of_origin * near;
+    corners = size * bounds::of_corners * corner_error;
     height = bounds::of_height * bounds::slack;
     height_corners = bounds::of_height_corners * corner_error * bounds::slack;
     height_origin = bounds::of_height_origin * near * bounds::slack;
@@ -115,12 +115,12 @@ HWY_INLINE void test_block(const TriangleBlock<Stored>& block, const WalkRay& ra
     hn::StoreU(w, tag, &test.w[i]);
     hn::StoreU(error, tag, &test.error[i]);
     hn::StoreU(dot(n, t), tag, &test.height[i]);
-    const V HH_part =
+    const V of_squares =
         hn::Add(hn::Mul(T, hn::Set(tag, errors.height)), hn::Set(tag, errors.height_origin));
-    const V HT_part = hn::Mul(T, hn::Set(tag, errors.height_corners));
-    hn::StoreU(
-        hn::Add(hn::Mul(H, hn::Add(hn::Mul(H, HH_part), HT_part)), hn::Set(tag, bounds::floor)),
-        tag, &test.height_error[i]);
+    const V of_distance = hn::Mul(T, hn::Set(tag, errors.height_corners));
+    hn::StoreU(hn::Add(hn::Mul(H, hn::Add(hn::Mul(H, of_squares), of_distance)),
+                       hn::Set(tag, bounds::floor)),
+               tag, &test.height_error[i]);
   }
 }
 

@@ -163,7 +163,7 @@ py::tuple origins_of(const SharedRays& prepared, const ContiguousArray<std::uint
 }  // namespace
 
 void bind_rays(Module& core) {
-  Class<PreparedRays, std::shared_ptr<PreparedRays>>(core, "Rays");
+  const Class<PreparedRays, std::shared_ptr<PreparedRays>> rays(core, "Rays");
   core.def("prepare_rays", &prepare);
   core.def("cast_rays", &cast_rays);
   core.def("all_hits", &all_hits_of);
