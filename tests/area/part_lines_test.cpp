@@ -5,7 +5,9 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "fathom/area/plane/certain_sides.h"
@@ -100,6 +102,54 @@ TEST(LineOrder, IsThatOfThePlaces) {
     }
   }
   EXPECT_GT(ties, 100);
+}
+
+/// Of places outside the square, only the side on which they are.
+TEST(LineOrder, WithinAPolygonIsThatOfThePlacesMovedToItsEnds) {
+  std::mt19937_64 random(8);
+  const auto number = [&] { return static_cast<double>(random() % 33) / 4 - 4; };
+  int inside = 0;
+  for (int round = 0; round < 300; ++round) {
+    PartLines lines;
+    std::vector<Coefficients> all{{1, 0, 0}, {0, 1, 0}, {-1, 0, 2}, {0, -1, 3}};
+    LinePolygon square;
+    for (const Coefficients& l : all) square.push_back(lines.add({l.a, l.b, l.c}));
+    while (all.size() < 12) {
+      const Coefficients l{number(), number(), number()};
+      if (l.a == 0 && l.b == 0) continue;
+      if (lines.add({l.a, l.b, l.c}).line == all.size()) all.push_back(l);
+    }
+    for (std::uint32_t e = 4; e < all.size(); ++e) {
+      std::optional<Q> first, last;
+      std::uint32_t from = 0, to = 0xFFFFFFFF;
+      const LineOrder order(lines, e, square);
+      for (std::uint32_t side = 0; side < 4; ++side) {
+        if (lines.turn(e, side) == Sign::zero) continue;
+        const Q at = place(all[e], all[side]);
+        if (lines.turn(e, side) == Sign::negative) {
+          if (!first || at > *first) first = at;
+          from = std::max(from, order.rank(side));
+        } else {
+          if (!last || at < *last) last = at;
+          to = std::min(to, order.rank(side));
+        }
+      }
+      if (!(*first < *last)) continue;
+      ASSERT_LT(from, to);
+      for (std::uint32_t m = 0; m < all.size(); ++m) {
+        for (std::uint32_t n = 0; n < all.size(); ++n) {
+          if (lines.turn(e, m) == Sign::zero || lines.turn(e, n) == Sign::zero) continue;
+          const int expected = cmp(std::clamp(place(all[e], all[m]), *first, *last),
+                                   std::clamp(place(all[e], all[n]), *first, *last));
+          const auto found =
+              std::clamp(order.rank(m), from, to) <=> std::clamp(order.rank(n), from, to);
+          ASSERT_EQ(found < 0, expected < 0) << round << ' ' << e << ' ' << m << ' ' << n;
+          ++inside;
+        }
+      }
+    }
+  }
+  EXPECT_GT(inside, 10'000);
 }
 
 TEST(CertainSides, AreThoseOfEveryPointWithinTheErrors) {

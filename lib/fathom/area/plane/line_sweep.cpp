@@ -115,7 +115,10 @@ LineSweep::Order LineSweep::order_of(std::uint32_t s, std::uint32_t t) {
 class LineSweep::Walk {
  public:
   Walk(LineSweep& sweep, std::uint32_t along)
-      : sweep_(sweep), lines_(sweep.lines_), along_(along), order_(sweep.lines_, along) {}
+      : sweep_(sweep),
+        lines_(sweep.lines_),
+        along_(along),
+        order_(sweep.lines_, along, sweep.sides_) {}
 
   void add_boundaries(std::vector<Boundary>& boundaries) {
     const auto part = extent_of(0, sweep_.sides_, 0, order_.end());

@@ -124,7 +124,24 @@ LineOrder::Place LineOrder::place_of(const Certified<double>& value, const Certi
   return {tau - error, tau + error, line};
 }
 
-LineOrder::LineOrder(const PartLines& lines, std::uint32_t along) : ranks_(lines.size(), 0) {
+LineOrder::Ends LineOrder::ends_in(const PartLines& lines, std::uint32_t along,
+                                   const LinePolygon& within, const std::vector<Place>& places) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Ends ends{-infinity, infinity};
+  for (const OrientedLine& h : within) {
+    const auto place = std::ranges::find(places, h.line, &Place::line);
+    if (place == places.end()) continue;
+    if (oriented(lines.turn(along, h.line), h.reversed) == Sign::negative) {
+      ends.least_low = std::max(ends.least_low, place->low);
+    } else {
+      ends.greatest_high = std::min(ends.greatest_high, place->high);
+    }
+  }
+  return ends;
+}
+
+LineOrder::LineOrder(const PartLines& lines, std::uint32_t along, const LinePolygon& within)
+    : ranks_(lines.size(), 0) {
   std::vector<Place> places;
   places.reserve(lines.size());
   const HalfPlane& e = lines[along];
@@ -134,6 +151,15 @@ LineOrder::LineOrder(const PartLines& lines, std::uint32_t along) : ranks_(lines
     const HalfPlane& m = lines[line];
     places.push_back(place_of(foot.value(m), approximate_turn(e, m), line));
   }
+  const Ends ends = ends_in(lines, along, within, places);
+  std::vector<std::uint32_t> before, after;
+  for (const Place& each : places) {
+    if (each.high < ends.least_low) before.push_back(each.line);
+    if (each.low > ends.greatest_high) after.push_back(each.line);
+  }
+  std::erase_if(places, [&](const Place& each) {
+    return each.high < ends.least_low || each.low > ends.greatest_high;
+  });
   // As compare_crossings().
   const auto compare = [&](const Place& a, const Place& b) {
     if (a.high < b.low) return Sign::negative;
@@ -149,6 +175,8 @@ LineOrder::LineOrder(const PartLines& lines, std::uint32_t along) : ranks_(lines
     if (is_new) first_of_rank_.push_back(places[k].line);
     ranks_[places[k].line] = end() - 1;
   }
+  for (const std::uint32_t line : before) ranks_[line] = 0;
+  for (const std::uint32_t line : after) ranks_[line] = end() - 1;
 }
 
 }  // namespace fathom::area
