@@ -90,7 +90,7 @@ std::optional<EncodingFault> ChannelWriter::write_distance(std::size_t pixel,
                                                            const ProjectedTriangle& t,
                                                            const ExactDirection& d) {
   if (float* const values = values_.distance.binary32) {
-    if (const auto settled = distance_at(d, t.volume, t.weight)) {
+    if (const auto settled = distance_in(d.box(), t.volume, t.weight)) {
       values[pixel] = *settled;
       return std::nullopt;
     }
@@ -139,13 +139,9 @@ void ChannelWriter::write_shading_normal(std::size_t pixel, const ProjectedTrian
 
 void ChannelWriter::write_position(std::size_t pixel, const ProjectedTriangle& t,
                                    const ExactDirection& d) {
-  constexpr Dyadic WorldPoint::*coordinates[] = {&WorldPoint::x, &WorldPoint::y, &WorldPoint::z};
-  const auto& [A, B, C] = t.world;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto coordinate = coordinates[k];
-    const LinearForm form = interpolated_form(t, {A.*coordinate, B.*coordinate, C.*coordinate});
-    values_.position[k][pixel] = binary32_at(d, form, t.weight);
-  }
+  const std::array<LinearForm, 3> forms = position_forms(t);
+  for (std::size_t k = 0; k < 3; ++k)
+    values_.position[k][pixel] = binary32_at(d, forms[k], t.weight);
 }
 
 void ChannelWriter::write_barycentric(std::size_t pixel, const ProjectedTriangle& t,

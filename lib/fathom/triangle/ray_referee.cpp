@@ -1,6 +1,5 @@
 #include "fathom/triangle/ray_referee.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace fathom::triangle {
@@ -13,10 +12,6 @@ LinearForm difference(const LinearForm& a, const Dyadic& of_a, const LinearForm&
   for (std::size_t k = 0; k < 3; ++k)
     l[k] = of_a * a.coefficients()[k] - of_b * b.coefficients()[k];
   return LinearForm(l);
-}
-
-bool is_zero(const LinearForm& form) {
-  return std::ranges::all_of(form.coefficients(), [](const Dyadic& x) { return x.is_zero(); });
 }
 
 }  // namespace
@@ -51,7 +46,7 @@ bool RayReferee::hides(std::uint32_t a, std::uint32_t b, const lens::ExactDirect
   remembered_.make_room();
   const ProjectedTriangle &ta = remembered_.get(a), &tb = remembered_.get(b);
   const LinearForm nearer = difference(ta.weight, tb.volume, tb.weight, ta.volume);
-  if (is_zero(nearer)) {
+  if (nearer.is_zero()) {
     ++statistics.same_plane;
     return a < b;
   }

@@ -111,11 +111,17 @@ Certified<double> root_of(const Certified<double>& x) {
   return {root, (x.error / root + epsilon<double> * root) * slack};
 }
 
-Certified<double> certified_at(const ExactDirection& d, const LinearForm& form) {
-  return to_certified(form.enclose_at(d.box()));
+Certified<double> certified_in(const RayBox& box, const LinearForm& form) {
+  return to_certified(form.enclose_at(box));
 }
 
 }  // namespace
+
+std::array<LinearForm, 3> position_forms(const ProjectedTriangle& t) {
+  const auto& [A, B, C] = t.world;
+  return {interpolated_form(t, {A.x, B.x, C.x}), interpolated_form(t, {A.y, B.y, C.y}),
+          interpolated_form(t, {A.z, B.z, C.z})};
+}
 
 Real quotient_at(const ExactDirection& d, const LinearForm& numerator,
                  const LinearForm& denominator) {
@@ -124,20 +130,26 @@ Real quotient_at(const ExactDirection& d, const LinearForm& numerator,
 
 float binary32_at(const ExactDirection& d, const LinearForm& numerator,
                   const LinearForm& denominator) {
-  const Certified<double> value =
-      quotient(certified_at(d, numerator), certified_at(d, denominator));
-  if (const auto settled = to_binary32(value.value, value.error)) return *settled;
+  if (const auto settled = binary32_in(d.box(), numerator, denominator)) return *settled;
   return round_to_binary32(quotient_at(d, numerator, denominator));
 }
 
-std::optional<float> distance_at(const ExactDirection& d, const Dyadic& volume,
+std::optional<float> binary32_in(const RayBox& box, const LinearForm& numerator,
+                                 const LinearForm& denominator) {
+  const Certified<double> value =
+      quotient(certified_in(box, numerator), certified_in(box, denominator));
+  return to_binary32(value.value, value.error);
+}
+
+std::optional<float> distance_in(const RayBox& box, const Dyadic& volume,
                                  const LinearForm& weight) {
   Certified<double> squared{0, 0};
-  for (const Interval& component : d.box()) {
+  for (const Interval& component : box) {
     const Certified<double> x = to_certified(component);
     squared = sum(squared, product(x, x));
   }
-  const Certified<double> along = quotient(to_certified(enclose(volume)), certified_at(d, weight));
+  const Certified<double> along =
+      quotient(to_certified(enclose(volume)), certified_in(box, weight));
   const Certified<double> value = product(along, root_of(squared));
   return to_binary32(value.value, value.error);
 }

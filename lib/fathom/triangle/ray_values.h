@@ -1,16 +1,21 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "fathom/lens/exact_direction.h"
 #include "fathom/numeric/quadratic_form.h"
 #include "fathom/numeric/real.h"
+#include "fathom/triangle/projected_triangle.h"
 
 /// Values of a surface along the ray of a sample, where a camera bends rays: quotients of forms of
 /// the ray's direction, as numbers that round correctly. A direction need not be rational:
 /// roundings are decided by enclosures, and by the sign of a form where a value may lie where
 /// rounding steps.
 namespace fathom::triangle {
+
+/// The numerators of the world point that a ray sees: each is interpolated from the corners'.
+std::array<LinearForm, 3> position_forms(const ProjectedTriangle& triangle);
 
 /// numerator(d) / denominator(d).
 /// Needs    denominator(d) > 0.
@@ -23,9 +28,15 @@ Real quotient_at(const lens::ExactDirection& d, const LinearForm& numerator,
 float binary32_at(const lens::ExactDirection& d, const LinearForm& numerator,
                   const LinearForm& denominator);
 
-/// The ray distance volume·|d| / weight(d), rounded to binary32, if binary64 settles that.
-std::optional<float> distance_at(const lens::ExactDirection& d, const Dyadic& volume,
-                                 const LinearForm& weight);
+/// Intervals that contain the direction of a ray, as ExactDirection::box().
+using RayBox = std::array<Interval, 3>;
+
+/// numerator(d) / denominator(d), rounded to binary32, if binary64 settles that for every ray of
+/// the box.
+std::optional<float> binary32_in(const RayBox& box, const LinearForm& numerator,
+                                 const LinearForm& denominator);
+/// The ray distance volume·|d| / weight(d), likewise.
+std::optional<float> distance_in(const RayBox& box, const Dyadic& volume, const LinearForm& weight);
 
 /// The quotient of two squares, or sums of squares.
 /// Exact    rational() knows the value where rounding of its square root steps there, too.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -15,10 +16,10 @@ namespace {
 
 constexpr std::size_t not_written = std::numeric_limits<std::size_t>::max();
 
-bool are_depths_only(const rendering::ChannelValues& values) {
-  return !values.distance.wanted() && !values.low && !values.shading_normal[0] &&
-         !values.position[0] && !values.barycentric[0] && !values.depth.binary64 &&
-         !values.depth.codes;
+/// Whether a channel is asked for of which only the exact ray says the value.
+bool need_exact_rays(const rendering::ChannelValues& values) {
+  return values.low || values.shading_normal[0] || values.depth.binary64 || values.depth.codes ||
+         values.distance.binary64 || values.distance.codes;
 }
 
 bool has_others(const rendering::ChannelValues& values) {
@@ -30,7 +31,8 @@ bool has_others(const rendering::ChannelValues& values) {
 LensOutput::LensOutput(ChannelWriter& writer, std::uint32_t width)
     : writer_(writer),
       width_(width),
-      depths_only_(are_depths_only(writer.values())),
+      needs_exact_rays_(need_exact_rays(writer.values())),
+      along_rays_(writer.values()),
       others_(has_others(writer.values())) {}
 
 void LensOutput::write_valid(const PixelBox& area, const Places::OfTile& places) const {
@@ -87,6 +89,21 @@ std::optional<EncodingFault> LensOutput::write_along_ray(const LensTile& tile, s
   return writer_.write(pixel, context.referee.projected(number), *ray);
 }
 
+bool LensOutput::write_in_binary64(const LensTile& tile, std::size_t i, std::size_t pixel,
+                                   const LensContext& context) {
+  std::optional<RaySurface>& surface = surfaces_[Tile::place_of(tile.tile().tags()[i])];
+  if (!surface)
+    surface.emplace(context.referee.projected(tile.tile().surface_at(i).number()), along_rays_);
+  const Places::OfTile& places = tile.places();
+  const auto around = [&](double x) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return Interval{std::nextafter(x - places.error, -infinity),
+                    std::nextafter(x + places.error, infinity)};
+  };
+  return surface->write(pixel, {around(places.x[i]), around(places.y[i]), {1, 1}},
+                        writer_.values());
+}
+
 void LensOutput::write_others(const LensTile& tile, std::size_t i, std::size_t pixel,
                               const LensContext& context) {
   std::size_t& first = first_pixel_[Tile::place_of(tile.tile().tags()[i])];
@@ -99,41 +116,48 @@ void LensOutput::write_others(const LensTile& tile, std::size_t i, std::size_t p
 }
 
 // Normals and numbers are those of the first pixel of a surface, once for each tile. Other
-// channels, and depths that are not settled, are values along the exact ray.
+// channels are settled in binary64 for all rays within the error of the place, or else, with depths
+// that are not settled, computed along the exact ray.
 std::optional<EncodingFault> LensOutput::write(const LensTile& tile, const LensContext& context) {
   const PixelBox& area = tile.tile().area();
-  RenderStatistics& statistics = context.window.statistics;
   write_valid(area, tile.places());
   round_depths(tile, rounded_);
-  float* const depths = writer_.values().depth.binary32;
-  if (depths) write_depths(area);
+  const bool has_depths = writer_.values().depth.binary32 != nullptr;
+  if (has_depths) write_depths(area);
   first_pixel_.assign(tile.tile().end_of_places(), not_written);
+  surfaces_.clear();
+  if (along_rays_.any()) surfaces_.resize(tile.tile().end_of_places());
   std::optional<EncodingFault> fault;
+  RenderStatistics& statistics = context.window.statistics;
   for (std::size_t word = 0; word < rounded_.surface.size(); ++word) {
-    const std::uint64_t shown = rounded_.surface[word];
-    const std::uint64_t along_rays = !depths_only_ ? shown
-                                     : depths      ? rounded_.open[word]
-                                                   : std::uint64_t{0};
-    const auto count = [](std::uint64_t bits) {
-      return static_cast<std::uint64_t>(std::popcount(bits));
-    };
-    statistics.pixels_with_surface += count(shown);
-    statistics.rounding.interval += count(shown & ~along_rays);
-    statistics.rounding.exact += count(along_rays);
-    const auto pixel_of = [&](std::size_t i) {
-      return (std::size_t{area.first_row} + Tile::row_of(i)) * width_ + area.first_column +
-             Tile::column_of(i);
-    };
-    for (const std::size_t k : EachBit(along_rays)) {
+    for (const std::size_t k : EachBit(work_at(word, statistics))) {
       const std::size_t i = 64 * word + k;
-      auto found = write_along_ray(tile, i, pixel_of(i), context);
-      if (found && (!fault || found->pixel < fault->pixel)) fault = std::move(found);
+      const std::size_t pixel = (std::size_t{area.first_row} + Tile::row_of(i)) * width_ +
+                                area.first_column + Tile::column_of(i);
+      const bool is_open = needs_exact_rays_ || (has_depths && rounded_.is_open(i));
+      if (is_open || (along_rays_.any() && !write_in_binary64(tile, i, pixel, context))) {
+        ++statistics.rounding.exact;
+        auto found = write_along_ray(tile, i, pixel, context);
+        if (found && (!fault || found->pixel < fault->pixel)) fault = std::move(found);
+      } else {
+        ++statistics.rounding.interval;
+        if (others_) write_others(tile, i, pixel, context);
+      }
     }
-    if (!others_) continue;
-    for (const std::size_t k : EachBit(shown & ~along_rays))
-      write_others(tile, 64 * word + k, pixel_of(64 * word + k), context);
   }
   return fault;
+}
+
+std::uint64_t LensOutput::work_at(std::size_t word, RenderStatistics& statistics) const {
+  const std::uint64_t shown = rounded_.surface[word];
+  const auto count = [](std::uint64_t bits) {
+    return static_cast<std::uint64_t>(std::popcount(bits));
+  };
+  statistics.pixels_with_surface += count(shown);
+  if (needs_exact_rays_ || along_rays_.any() || others_) return shown;
+  const std::uint64_t open = writer_.values().depth.binary32 ? rounded_.open[word] : 0;
+  statistics.rounding.interval += count(shown & ~open);
+  return open;
 }
 
 }  // namespace fathom::fast

@@ -6,6 +6,7 @@
 #include "fathom/fast/lenses/lens_depths.h"
 #include "fathom/fast/lenses/lens_tile.h"
 #include "fathom/triangle/channels.h"
+#include "fathom/triangle/ray_surface.h"
 
 namespace fathom::fast {
 
@@ -25,6 +26,11 @@ class LensOutput {
   std::optional<triangle::EncodingFault> write_along_ray(const LensTile& tile, std::size_t i,
                                                          std::size_t pixel,
                                                          const LensContext& context) const;
+  /// The samples of a word of bits for which there is more to do than to write depths.
+  std::uint64_t work_at(std::size_t word, RenderStatistics& statistics) const;
+  /// The other channels along rays; false if one of them is not settled.
+  bool write_in_binary64(const LensTile& tile, std::size_t i, std::size_t pixel,
+                         const LensContext& context);
   /// The channels that are the same wherever a surface is seen.
   void write_others(const LensTile& tile, std::size_t i, std::size_t pixel,
                     const LensContext& context);
@@ -35,13 +41,15 @@ class LensOutput {
 
   triangle::ChannelWriter& writer_;
   std::uint32_t width_;
-  /// Whether Z in binary32 is all that depends on the place of a sample.
-  bool depths_only_;
+  bool needs_exact_rays_;
+  triangle::RaySurface::Wanted along_rays_;
   /// Whether a channel is asked for that is the same wherever a surface is seen.
   bool others_;
   LensDepths rounded_;
   /// By the places of surfaces in the tile: the first pixel at which one was written.
   std::vector<std::size_t> first_pixel_;
+  /// By the same places; made where they are needed.
+  std::vector<std::optional<triangle::RaySurface>> surfaces_;
 };
 
 }  // namespace fathom::fast
