@@ -128,11 +128,15 @@ TEST_F(Memory, MaxMemoryIsASize) {
   }
 }
 
-/// What no check foresees: the meshes are read twice over, and their triangles set up.
+/// What no check foresees: the areas of many triangles apart from each other.
 TEST_F(Memory, WhatNobodyForesawIsOutOfMemory) {
-  std::string mesh = square_obj;
-  for (int i = 0; i < 400000; ++i) mesh += "f 1 2 3\n";
-  folder_.write("many.obj", mesh);
+  std::ostringstream mesh;
+  for (int i = 0; i < 100000; ++i) {
+    const int x = i % 400, y = i / 400;
+    mesh << "v " << x << ' ' << y << " 0\nv " << x + 0.5 << ' ' << y << " 0\nv " << x << ' '
+         << y + 0.5 << " 0\nf -3 -2 -1\n";
+  }
+  folder_.write("many.obj", mesh.str());
 #ifndef FATHOM_SANITIZED
   const auto before = folder_.names();
   const Outcome outcome = fathom({"visible", "many.obj", "--max-memory", "20M", "--threads", "1"});
