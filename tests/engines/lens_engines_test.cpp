@@ -1,6 +1,9 @@
 // The fast engine against the reference engine under lenses, bit for bit.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "fathom/failures/errors.h"
 #include "fathom/render.h"
 #include "tests/adversaries.h"
@@ -189,6 +192,108 @@ TEST(FastLenses, AnImageFarFromTheAxis) {
   options.channels = lens_channels(testing::quick_channels);
   const RenderStatistics statistics = expect_same(scene, camera, options);
   EXPECT_GT(statistics.pixels_with_surface, 0U);
+}
+
+/// A scene that covers the plane z = 1 around a point, and one triangle nearer.
+Scene around(double x, double y, double size) {
+  return testing::scene_of({{x - size, y - size, 1},
+                            {x + 3 * size, y - size, 1},
+                            {x - size, y + 3 * size, 1},
+                            {x / 2 - size / 8, y / 2, 0.5},
+                            {x / 2 + size / 4, y / 2, 0.5},
+                            {x / 2, y / 2 + size / 4, 0.5}},
+                           {{0, 1, 2}, {3, 4, 5}});
+}
+
+struct HardLens {
+  const char* name;
+  LensModel model;
+  std::array<double, 14> distortion;
+  double fx, fy, cx, cy, skew, max_radius;
+  std::uint32_t width, height;
+};
+
+// Numbers with which residuals, squares, widths or places underflow or overflow, or with which
+// places err by more along one axis than along the other.
+TEST(FastLenses, HardNumbers) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const HardLens hard[] = {
+      {"residuals underflow",
+       LensModel::opencv,
+       {0, 0, 0x1.4cp524},
+       0x1p535,
+       0x1p535,
+       32,
+       32,
+       0,
+       infinity,
+       32,
+       32},
+      {"max_radius squared underflows",
+       LensModel::pinhole,
+       {},
+       1e165,
+       1e165,
+       4,
+       4,
+       0,
+       1e-170,
+       16,
+       16},
+      {"one axis is longer",
+       LensModel::pinhole,
+       {},
+       0x1p43,
+       0x1p-10,
+       -0x1p57,
+       -0.5,
+       0x1p47,
+       8e4,
+       200,
+       1},
+      {"width overflows", LensModel::pinhole, {}, 1e-306, 1, 20, 0.5, 0, 1.7e308, 40, 1},
+      {"places overflow",
+       LensModel::full_opencv,
+       {0.1, 0, 0, 0, 0, 0.1},
+       1e-320,
+       1,
+       20,
+       0.5,
+       0,
+       infinity,
+       40,
+       1},
+      {"focal length near overflow",
+       LensModel::simple_radial,
+       {1},
+       1.5e308,
+       1.5e308,
+       0.5,
+       0.5,
+       0,
+       infinity,
+       1,
+       1},
+      {"z underflows", LensModel::pinhole, {}, 0x1p540, 0x1p540, -0.5, -0.5, 0, 1, 1, 1},
+  };
+  for (const HardLens& h : hard) {
+    SCOPED_TRACE(h.name);
+    Camera camera;
+    camera.width = h.width;
+    camera.height = h.height;
+    Lens lens{h.model, h.distortion};
+    lens.max_radius = h.max_radius;
+    camera.projection = {.fx = h.fx, .fy = h.fy, .cx = h.cx, .cy = h.cy, .skew = h.skew};
+    camera.projection.lens = lens;
+    RenderOptions options;
+    options.channels = lens_channels(testing::every_channel);
+    std::erase(options.channels, Channel::Ns);
+    for (const double size : {1.0, 4 / std::abs(h.fx), 100.0}) {
+      const double x = (h.width / 2.0 - h.cx) / h.fx;
+      if (!std::isfinite(size) || !std::isfinite(x * 4 + size * 8)) continue;
+      expect_same(around(x, 0, size), camera, options);
+    }
+  }
 }
 
 // Of samples beyond the disc, and of all samples.

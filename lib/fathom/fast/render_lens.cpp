@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <utility>
 
+#include "fathom/failures/errors.h"
 #include "fathom/fast/channels/fast_output.h"
 #include "fathom/fast/lenses/lens_output.h"
 #include "fathom/fast/lenses/lens_tile.h"
 #include "fathom/fast/lenses/places.h"
+#include "fathom/fast/lenses/ray_by_ray.h"
 #include "fathom/fast/lenses/window.h"
 #include "fathom/fast/render_memory_parts.h"
 #include "fathom/fast/tiles/frame.h"
@@ -25,7 +28,7 @@ using namespace triangle;
 
 namespace {
 
-/// What a thread works with beside its FastWorker.
+/// A thread's tools for lenses; those for the window are its FastWorker.
 struct LensWorker {
   LensWorker(const TriangleSource& triangles, const Camera& camera, ChannelWriter& writer)
       : referee(triangles, camera),
@@ -79,7 +82,7 @@ class Gathered {
   std::vector<std::uint64_t>& taken_;
 };
 
-/// What all threads draw from.
+/// The scene in the window, for all threads.
 struct WindowScene {
   const ImageObjects& objects;
   const std::vector<Bins>& bins;
@@ -116,10 +119,22 @@ const Places& places_of(const Camera& camera, RenderMemory::Parts& memory) {
   return *memory.places;
 }
 
+Rendered render_ray_by_ray(const Scene& scene, const Camera& camera, const RenderOptions& options,
+                           const RenderContext& context, const Places& places, DepthMap before) {
+  const TriangleSource triangles(scene);
+  DepthMap map = make_background(camera, options, context, std::move(before));
+  ChannelWriter writer(map, triangles, camera, options);
+  RenderStatistics statistics;
+  statistics.triangles = triangles.count();
+  FirstFault fault;
+  RayByRay{triangles, camera, options.cull, places.preimages()}.write(writer, statistics, fault);
+  if (fault.get()) fail(*fault.get(), map);
+  return {std::move(map), statistics, {}};
+}
+
 Rendered render_in_window(const Scene& scene, const Camera& camera, const RenderOptions& options,
-                          const RenderContext& context, RenderMemory::Parts& memory,
-                          DepthMap before) {
-  const Places& places = places_of(camera, memory);
+                          const RenderContext& context, const Places& places,
+                          RenderMemory::Parts& memory, DepthMap before) {
   const Window window(camera, places);
   FastFrame frame(window.camera, options, context.kept != nullptr);
   frame.by_area = true;  // samples lie anywhere in a window's pixels
@@ -165,10 +180,17 @@ Rendered render_in_window(const Scene& scene, const Camera& camera, const Render
 
 Rendered render_lens(const Scene& scene, const Camera& camera, const RenderOptions& options,
                      const RenderContext& context, RenderMemory::Parts& memory, DepthMap before) {
+  if (counts_distance(camera.projection)) {
+    throw UsageError("the lens " + std::string(name_of(camera.projection.lens->model)) +
+                     ": is drawn by the reference engine only");
+  }
   require_renderable_by_rays(scene, camera, LookAtElements::later);
   require_channels_of(camera, options);
   return scene::explaining_faults(scene, [&] {
-    return render_in_window(scene, camera, options, context, memory, std::move(before));
+    const Places& places = places_of(camera, memory);
+    if (!places.are_usable())
+      return render_ray_by_ray(scene, camera, options, context, places, std::move(before));
+    return render_in_window(scene, camera, options, context, places, memory, std::move(before));
   });
 }
 

@@ -20,10 +20,12 @@ inline Certified<double> operator-(const Certified<double>& a, const Certified<d
 /// A number in the interval; the bound is +∞ where an end is infinite or not known.
 inline Certified<double> to_certified(const Interval& x) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
+  // Half of a subnormal number may be rounded.
+  if (x.lower == x.upper && std::isfinite(x.lower)) return {x.lower, 0};
   const double middle = x.lower / 2 + x.upper / 2;
   const double error = std::max(x.upper - middle, middle - x.lower);
   if (!(error < infinity)) return {0, infinity};
-  return {middle, x.lower == x.upper ? 0 : std::nextafter(error, infinity)};
+  return {middle, std::nextafter(error, infinity)};
 }
 
 /// The sign, if the bound settles it; otherwise Sign::zero.

@@ -7,7 +7,7 @@ namespace fathom::fast::lens_bounds {
 /// The extent of a tile is taken to be so much greater in setup_bounds::lane_error, because places
 /// are rounded to binary32, too (lens_value).
 inline constexpr double lane_extent = 1.25;
-/// Of the errors of places, for roundings of what is made of them.
+/// Errors of places are multiplied by that, which covers the roundings of later bounds.
 inline constexpr double place_room = 1 + 0x1p-10;
 /// Errors of places beyond it are too great for the bounds of triangles, for the margin of a tile's
 /// area and for that of rectangles.

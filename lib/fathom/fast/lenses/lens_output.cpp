@@ -16,13 +16,13 @@ namespace {
 
 constexpr std::size_t not_written = std::numeric_limits<std::size_t>::max();
 
-/// Whether a channel is asked for of which only the exact ray says the value.
+/// Whether a channel is asked for that is computed along exact rays only.
 bool need_exact_rays(const rendering::ChannelValues& values) {
   return values.low || values.shading_normal[0] || values.depth.binary64 || values.depth.codes ||
          values.distance.binary64 || values.distance.codes;
 }
 
-bool has_others(const rendering::ChannelValues& values) {
+bool has_triangle_channels(const rendering::ChannelValues& values) {
   return values.id || values.wants_origins() || values.normal[0] || values.camera_normal[0];
 }
 
@@ -33,7 +33,7 @@ LensOutput::LensOutput(ChannelWriter& writer, std::uint32_t width)
       width_(width),
       needs_exact_rays_(need_exact_rays(writer.values())),
       along_rays_(writer.values()),
-      others_(has_others(writer.values())) {}
+      others_(has_triangle_channels(writer.values())) {}
 
 void LensOutput::write_valid(const PixelBox& area, const Places::OfTile& places) const {
   std::uint32_t* const valid = writer_.values().valid;
@@ -46,7 +46,7 @@ void LensOutput::write_valid(const PixelBox& area, const Places::OfTile& places)
   }
 }
 
-void LensOutput::copy_what_is_the_same(std::size_t from, std::size_t to) const {
+void LensOutput::copy_triangle_channels(std::size_t from, std::size_t to) const {
   const rendering::ChannelValues& values = writer_.values();
   const auto copy = [&](auto* channel) {
     if (channel) channel[to] = channel[from];
@@ -57,8 +57,8 @@ void LensOutput::copy_what_is_the_same(std::size_t from, std::size_t to) const {
   for (auto* const channel : values.camera_normal) copy(channel);
 }
 
-void LensOutput::write_what_is_the_same(std::size_t pixel, std::uint32_t number,
-                                        const LensContext& context) const {
+void LensOutput::write_triangle_channels(std::size_t pixel, std::uint32_t number,
+                                         const LensContext& context) const {
   writer_.write_origin(pixel, number);
   const rendering::ChannelValues& values = writer_.values();
   if (!values.normal[0] && !values.camera_normal[0]) return;
@@ -108,9 +108,9 @@ void LensOutput::write_others(const LensTile& tile, std::size_t i, std::size_t p
                               const LensContext& context) {
   std::size_t& first = first_pixel_[Tile::place_of(tile.tile().tags()[i])];
   if (first != not_written) {
-    copy_what_is_the_same(first, pixel);
+    copy_triangle_channels(first, pixel);
   } else {
-    write_what_is_the_same(pixel, tile.tile().surface_at(i).number(), context);
+    write_triangle_channels(pixel, tile.tile().surface_at(i).number(), context);
     first = pixel;
   }
 }
@@ -137,6 +137,8 @@ std::optional<EncodingFault> LensOutput::write(const LensTile& tile, const LensC
       const bool is_open = needs_exact_rays_ || (has_depths && rounded_.is_open(i));
       if (is_open || (along_rays_.any() && !write_in_binary64(tile, i, pixel, context))) {
         ++statistics.rounding.exact;
+        context.window.note_doubt(area.first_column + Tile::column_of(i),
+                                  area.first_row + Tile::row_of(i));
         auto found = write_along_ray(tile, i, pixel, context);
         if (found && (!fault || found->pixel < fault->pixel)) fault = std::move(found);
       } else {

@@ -35,9 +35,9 @@ class LensOutput {
   void write_others(const LensTile& tile, std::size_t i, std::size_t pixel,
                     const LensContext& context);
   /// The channels that do not depend on where a surface is seen.
-  void write_what_is_the_same(std::size_t pixel, std::uint32_t number,
-                              const LensContext& context) const;
-  void copy_what_is_the_same(std::size_t from, std::size_t to) const;
+  void write_triangle_channels(std::size_t pixel, std::uint32_t number,
+                               const LensContext& context) const;
+  void copy_triangle_channels(std::size_t from, std::size_t to) const;
 
   triangle::ChannelWriter& writer_;
   std::uint32_t width_;

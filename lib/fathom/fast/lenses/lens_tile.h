@@ -42,7 +42,7 @@ class LensTile {
   /// Draws triangles of one object, by their numbers.
   void draw(const ImageObject& object, std::span<const std::uint32_t> numbers,
             const LensContext& context);
-  /// Says that what is drawn from now on are back faces.
+  /// From now on, back faces are drawn.
   void begin_back_faces();
   /// A number that is not greater than the exact q at any sample that has a ray; −∞: none is known.
   [[nodiscard]] float farthest();

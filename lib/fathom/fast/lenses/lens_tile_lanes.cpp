@@ -140,9 +140,8 @@ HWY_INLINE V extent_of(const PixelBox& area) {
 
 // As set_up_lanes(), for samples that lie anywhere in the area and err by `error`. Moving a sample
 // and moving all corners the other way is the same: edge functions have the bounds of corners that
-// err by that much more. q moves by its gradients; those that are computed err by less than
-// 16uL²·dq/T, which q_rounding has room for (230 of which 187 are used). Where the error is not far
-// below 1, all are refused.
+// err by that much more. q moves by its gradients; the bound is of the computed function, so these
+// are the computed gradients. Where the error is not far below 1, all are refused.
 HWY_INLINE void set_up_lens_lanes(const ImageVertex* vertices, const CornerIndices* triangles,
                                   const TileInWindow& where, const DepthRange& range,
                                   SetupBatch& batch, LaneRectangles& rectangles) {
@@ -347,7 +346,8 @@ HWY_NOINLINE void add_lens_exactly(LensTile& tile, std::uint32_t number, const L
                                    ExactLanes& exact) {
   const TileInWindow& where = tile.where();
   const TriangleSetup setup = context.window.set_up_exactly(number, where.area);
-  exact.setups.set(exact.count, for_places(setup, where.error), where.area);
+  exact.setups.set(exact.count, for_places(setup, where.error * context.window.switches.widening),
+                   where.area);
   exact.rectangles.set_unknown(exact.count);
   if (++exact.count == hn::Lanes(D())) draw_lens_exactly(tile, exact, context);
 }

@@ -34,7 +34,7 @@ double size_of(const PlaneBox& box) {
   return std::max(greatest_size(box.left, box.right), greatest_size(box.top, box.bottom));
 }
 
-/// More than a search leaves that has found a place, relative to 1 + |m|.
+/// A greater residual, relative to 1 + |m|, means that the search has failed.
 constexpr double loose_residual = 0x1p-36;
 
 /// A bound on |S(m)| in the disc; +∞ if there is none. S is one to one there, so the points of its
@@ -72,6 +72,7 @@ class CertifiedPlane {
 CertifiedPlane::CertifiedPlane(const lens::Preimages& preimages, const Projection& projection,
                                std::uint32_t width, std::uint32_t height) {
   const auto [cx, cy] = principal_point(projection);
+  if (!std::isfinite(cx) || !std::isfinite(cy)) return;
   const std::array<ExactVector3, 3> rows = preimages.plane_map();
   const auto moved = [cx = cx, cy = cy](const ExactVector3& row) {
     return row[0] * Dyadic(cx) + row[1] * Dyadic(cy) + row[2];
@@ -126,7 +127,7 @@ class TileSearch {
   }
   /// The bound on the errors.
   [[nodiscard]] double error() const { return error_; }
-  /// Around the samples that have a ray, and perhaps some beyond the image.
+  /// Around the samples that have a ray.
   [[nodiscard]] const PlaneBox& box() const { return box_; }
 
  private:
@@ -212,7 +213,7 @@ bool TileSearch::is_beyond_disc(double first_column, double first_row) const {
   return is_beyond_disc(std::hypot(x, y) / up - radius * up);
 }
 
-// The middles of blocks, each from the one before; what they lead to is looked at afterwards.
+// Finds the middles of blocks, each from the one before. Certificates come afterwards.
 void TileSearch::search_blocks(const PolynomialStage& stage) {
   const StageForLanes lanes(stage.numbers);
   constexpr double half = TileShape::block / 2;
@@ -266,7 +267,10 @@ void TileSearch::store(const BlockSamples& samples, std::uint32_t column, std::u
 // r̄ is the residual as it is computed, and what its rounding and that of y may hide.
 TileSearch::Certificate TileSearch::certificate_in(const PolynomialStage& stage,
                                                    const PlaneBox& box) const {
-  const double radius = 0x1p-28 * size_of(box);
+  // Between these sizes neither residuals nor products of places underflow or overflow.
+  const double size = size_of(box);
+  if (!(size > 0x1p-400 && size < 0x1p400)) return {};
+  const double radius = 0x1p-28 * size;
   const StageBounds bounds =
       bounds_on_box(stage.numbers, {Interval{box.left - radius * up, box.right + radius * up},
                                     Interval{box.top - radius * up, box.bottom + radius * up}});
@@ -286,13 +290,15 @@ void TileSearch::certify_samples(const PolynomialStage& stage, double limit, std
         if (is_in_image(x, y)) visit(x, y, TileShape::index(x, y));
   };
   const auto is_good = [&](std::size_t i, double residual) {
+    if (!(residuals_[i] <= residual)) return false;
     const double x = places_.x[i], y = places_.y[i];
-    return residuals_[i] <= residual && x * x + y * y <= limit;
+    return residuals_[i] <= loose_residual * (1 + std::abs(x) + std::abs(y)) &&
+           x * x + y * y <= limit;
   };
   PlaneBox box;
   for_each([&](std::uint32_t, std::uint32_t, std::size_t i) {
-    const double x = places_.x[i], y = places_.y[i];
-    if (is_good(i, loose_residual * (1 + std::abs(x) + std::abs(y)))) box.add({x, x, y, y});
+    if (is_good(i, std::numeric_limits<double>::max()))
+      box.add({places_.x[i], places_.x[i], places_.y[i], places_.y[i]});
   });
   const Certificate certificate = box.is_empty() ? Certificate() : certificate_in(stage, box);
   for_each([&](std::uint32_t x, std::uint32_t y, std::size_t i) {
@@ -316,13 +322,17 @@ void TileSearch::search(const PolynomialStage& stage) {
   const double limit = stage.limit ? enclose(*stage.limit).lower * (1 - 0x1p-20)
                                    : std::numeric_limits<double>::infinity();
   PlaneBox box;
-  for (Block& block : blocks_) {
+  for (std::uint32_t number = 0; number < TileShape::blocks; ++number) {
+    Block& block = blocks_[number];
     const double x = greatest_size(block.box.left, block.box.right);
     const double y = greatest_size(block.box.top, block.box.bottom);
-    if (!(block.residual <= loose_residual * (1 + x + y) && x * x + y * y <= limit)) {
-      block.residual = std::numeric_limits<double>::infinity();
-    } else {
+    const bool is_whole =
+        is_in_image(number % TileShape::blocks_of_row * TileShape::block + TileShape::block - 1,
+                    number / TileShape::blocks_of_row * TileShape::block + TileShape::block - 1);
+    if (is_whole && block.residual <= loose_residual * (1 + x + y) && x * x + y * y <= limit) {
       box.add(block.box);
+    } else {
+      block.residual = std::numeric_limits<double>::infinity();  // by samples, or exactly
     }
   }
   const Certificate certificate = box.is_empty() ? Certificate() : certificate_in(stage, box);
@@ -383,6 +393,8 @@ Places::Places(const Projection& projection, std::uint32_t width, std::uint32_t 
     boxes_[tile] = search.box();
   });
   for (const PlaneBox& box : boxes_) box_.add(box);
+  are_usable_ = std::ranges::all_of(errors_, [](double error) { return error < 0x1p500; }) &&
+                (box_.is_empty() || size_of(box_) < 0x1p500);
   // Of an image without any ray.
   if (box_.is_empty()) box_ = {0, 0, 0, 0};
 }

@@ -36,7 +36,7 @@ class Places {
     std::span<const double> x, y;
     /// |x − exact x| and |y − exact y| are at most that.
     double error;
-    /// Around the samples that have a ray, and perhaps some beyond the image.
+    /// Around the samples that have a ray.
     PlaneBox box;
   };
   [[nodiscard]] OfTile of_tile(std::uint32_t tile) const {
@@ -46,7 +46,9 @@ class Places {
             errors_[tile],
             boxes_[tile]};
   }
-  /// Around all samples that have a ray.
+  /// Whether all of them are numbers below 2⁵⁰⁰; otherwise no image of the plane holds them.
+  [[nodiscard]] bool are_usable() const { return are_usable_; }
+  /// Around all samples that have a ray; the point 0 if there is none.
   [[nodiscard]] const PlaneBox& box() const { return box_; }
   [[nodiscard]] const lens::Preimages& preimages() const { return preimages_; }
   /// Whether they are those of this image.
@@ -67,6 +69,7 @@ class Places {
   std::vector<double> errors_;
   std::vector<PlaneBox> boxes_;
   PlaneBox box_;
+  bool are_usable_ = true;
 };
 
 }  // namespace fathom::fast

@@ -19,10 +19,9 @@ constexpr double margin = 2;
 constexpr double most_shift = 0x1p26;
 
 /// The power of two next to a focal length, in its sign; less where the window would be too large
-/// or too far from the camera's axis.
-double scale_for(double focal_length, double least, double greatest) {
-  const double size = std::max(std::abs(least), std::abs(greatest));
-  int exponent = std::ilogb(std::abs(focal_length) * 1.5);
+/// or, with places up to `size`, too far from the camera's axis.
+double scale_for(double focal_length, double least, double greatest, double size) {
+  int exponent = std::clamp(std::ilogb(focal_length), -1000, 500);
   const auto fits = [&] {
     return std::ldexp(greatest - least, exponent) <= most_pixels - 4 * margin &&
            std::ldexp(size, exponent) <= most_shift;
@@ -33,8 +32,8 @@ double scale_for(double focal_length, double least, double greatest) {
 
 /// One axis of the window: u = scale·x + shift, between `margin` and `pixels` less that.
 struct Axis {
-  Axis(double focal_length, double least, double greatest)
-      : scale(scale_for(focal_length, least, greatest)) {
+  Axis(double focal_length, double least, double greatest, double size)
+      : scale(scale_for(focal_length, least, greatest, size)) {
     const double a = scale * least, b = scale * greatest;
     shift = margin - std::floor(std::min(a, b));
     pixels = static_cast<std::uint32_t>(std::ceil(std::max(a, b) + shift + margin));
@@ -48,7 +47,10 @@ struct Axis {
 Window::Window(const Camera& the_camera, const Places& places) : camera(the_camera) {
   const PlaneBox& box = places.box();
   const Projection& lens = the_camera.projection;
-  const Axis u(lens.fx, box.left, box.right), v(lens.fy, box.top, box.bottom);
+  // Places err by a share of the greater coordinate.
+  const double size =
+      std::max({std::abs(box.left), std::abs(box.right), std::abs(box.top), std::abs(box.bottom)});
+  const Axis u(lens.fx, box.left, box.right, size), v(lens.fy, box.top, box.bottom, size);
   camera.width = u.pixels;
   camera.height = v.pixels;
   camera.projection = {.fx = u.scale, .fy = v.scale, .cx = u.shift, .cy = v.shift};

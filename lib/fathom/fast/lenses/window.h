@@ -11,7 +11,7 @@ namespace fathom::fast {
 /// rays: an image of the plane z = 1 by powers of two. What the fast engine knows of straight edges
 /// holds in it; the samples of the lens lie anywhere in it.
 struct Window {
-  /// Needs    places with a ray.
+  /// Needs    usable places.
   Window(const Camera& camera, const Places& places);
 
   Camera camera;
