@@ -106,6 +106,7 @@ TEST(CertifiedInterval, ContainsItsEnds) {
     EXPECT_TRUE(abs(middle - low) <= Dyadic(x.error) && abs(middle - high) <= Dyadic(x.error));
   }
   EXPECT_EQ(to_certified({3, 3}).error, 0);
+  EXPECT_EQ(to_certified({0x1p-1074, 0x1p-1074}).value, 0x1p-1074);
   EXPECT_EQ(certain_sign(to_certified({0, 1})), Sign::zero);
   EXPECT_EQ(certain_sign(to_certified({0.5, 1})), Sign::positive);
   EXPECT_EQ(certain_sign(to_certified({-1, -0.5})), Sign::negative);
