@@ -124,6 +124,7 @@ void PlaneAreas::divide_crowd(const CrowdedPart& crowded) {
   for (const std::uint32_t i : crowded.triangles) {
     surfaces.push_back(mesh_.scene().surface(mesh_.number(i)));
   }
+  pointers.reserve(surfaces.size());
   for (const SurfaceRegion& surface : surfaces) pointers.push_back(&surface);
   ImageCell cell = cell_of(crowded.part);
   CellVisibility pieces(cell);
