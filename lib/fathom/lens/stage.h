@@ -94,16 +94,21 @@ StageJacobian<T> stage_jacobian(const StageNumbers<T>& n, const T& x, const T& y
 }
 
 /// The terms of stage_value() with their magnitudes: the result of binary64 arithmetic errs by at
-/// most a small number of units of roundoff times these. T is a type with abs().
+/// most a small number of units of roundoff times these. |D| is at least `least_D` there. T is a
+/// type with abs().
+template <class T>
+StagePoint<T> stage_magnitudes(const StageNumbers<T>& n, const T& x, const T& y, const T& least_D) {
+  using std::abs;
+  const StageNumbers<T> sizes = n.in([](const T& number) -> T { return abs(number); });
+  const T growth = horner(sizes.denominator, x * x + y * y) / least_D;  // how much of D cancels
+  StageNumbers<T> without_denominator = sizes;
+  without_denominator.denominator = {least_D / growth};
+  return stage_value<T>(without_denominator, abs(x), abs(y));
+}
 template <class T>
 StagePoint<T> stage_magnitudes(const StageNumbers<T>& n, const T& x, const T& y) {
   using std::abs;
-  const StageNumbers<T> sizes = n.in([](const T& number) -> T { return abs(number); });
-  const T q = x * x + y * y, D = abs(horner(n.denominator, q));
-  const T growth = horner(sizes.denominator, q) / D;  // ≥ 1: how much of D cancels
-  StageNumbers<T> without_denominator = sizes;
-  without_denominator.denominator = {D / growth};
-  return stage_value<T>(without_denominator, abs(x), abs(y));
+  return stage_magnitudes<T>(n, x, y, abs(horner(n.denominator, x * x + y * y)));
 }
 
 }  // namespace fathom::lens

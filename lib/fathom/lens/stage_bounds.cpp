@@ -58,31 +58,17 @@ double least_growth(const StageJacobian<Range>& J) {
   return growth > (std::abs(trace) + size) * 0x1p-40 ? growth / up : 0;
 }
 
-double horner_of_sizes(const std::vector<double>& coefficients, double q) {
-  double value = 0;
-  for (std::size_t i = coefficients.size(); i-- > 0;) value = value * q + std::abs(coefficients[i]);
-  return value;
-}
-
-/// The terms of S where |x| ≤ X and |y| ≤ Y, the greater component. An error of D is one of
-/// N/D times D's own terms over D.
+/// The terms of S where |x| ≤ X, |y| ≤ Y and D ≥ least_D, the greater component.
 double greatest_terms(const StageNumbers<double>& n, double X, double Y, double least_D) {
-  const double q = X * X + Y * Y;
-  const double D = horner_of_sizes(n.denominator, q);
-  const double L = horner_of_sizes(n.numerator, q) * D / (least_D * least_D);
-  const auto component = [&](double x, double y, double along, double across, double s, double t) {
-    return x * L + 2 * across * x * y + along * (q + 2 * x * x) + q * (s + t * q);
-  };
-  const double p1 = std::abs(n.p1), p2 = std::abs(n.p2);
-  return up * std::max(component(X, Y, p2, p1, std::abs(n.s1), std::abs(n.s2)),
-                       component(Y, X, p1, p2, std::abs(n.s3), std::abs(n.s4)));
+  const StagePoint<double> terms = stage_magnitudes(n, X, Y, least_D);
+  return up * std::max(terms.x, terms.y);
 }
 
 }  // namespace
 
 // The error of stage_value(), in u of the terms: q errs by 2 of itself, so that the k-th term of N
 // errs by 2k and by the 2k + 1 roundings of Horner's scheme at most; with n the degree, N errs by
-// 4n + 1, D by the same of its own terms (which greatest_terms() has as a factor), the quotient by
+// 4n + 1, D by the same of its own terms (which stage_magnitudes() has as a factor), the quotient by
 // 8n + 3, its product with x by 8n + 4. The other terms have at most 8 roundings, and there are
 // four sums: 8n + 12 in all. Second order: 8n + 16.
 StageBounds bounds_on_box(const StageNumbers<double>& stage, const std::array<Interval, 2>& box) {
