@@ -44,6 +44,21 @@ HWY_INLINE void fetch(const ImageObject& object, std::span<const std::uint32_t> 
   }
 }
 
+/// Calls visit(triangles, first, count) for as many at once as there are lanes: `count` of them,
+/// which begin with numbers[first]. The next ones are read meanwhile.
+template <class Visit>
+HWY_INLINE void for_each_triangles(const ImageObject& object,
+                                   std::span<const std::uint32_t> numbers, const Visit& visit) {
+  const std::size_t lanes = hn::Lanes(D());
+  Triangles next{};
+  fetch(object, numbers, 0, next);
+  for (std::size_t first = 0; first < numbers.size(); first += lanes) {
+    const Triangles now = next;
+    fetch(object, numbers, first + lanes, next);
+    visit(now, first, std::min(lanes, numbers.size() - first));
+  }
+}
+
 }  // namespace
 }  // namespace fathom::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -352,37 +352,27 @@ HWY_NOINLINE void add_lens_exactly(LensTile& tile, std::uint32_t number, const L
   if (++exact.count == hn::Lanes(D())) draw_lens_exactly(tile, exact, context);
 }
 
-HWY_NOINLINE void widen_lens(SetupBatch& batch, double factor) {
-  for (std::size_t k = 0; k < hn::Lanes(D()); ++k) {
-    batch.edge_error[k] *= factor;
-    batch.q_error[k] *= factor;
-  }
-}
-
 void draw_lens_triangles(LensTile& tile, const ImageObject& object,
                          std::span<const std::uint32_t> numbers, const LensContext& context) {
-  const std::size_t lanes = hn::Lanes(D());
   const DrawContext& window = context.window;
-  Triangles next{};
   SetupBatch batch;
   LaneBatch lane_batch{};
   LaneRectangles rectangles;
   ExactLanes exact;
-  fetch(object, numbers, 0, next);
-  for (std::size_t first = 0; first < numbers.size(); first += lanes) {
-    const std::size_t count = std::min(lanes, numbers.size() - first);
-    const Triangles now = next;
-    fetch(object, numbers, first + lanes, next);
-    batch.number = now.number;
-    set_up_lens_lanes(object.vertices.get(), now.corners.data(), tile.where(), window.range, batch,
-                      rectangles);
-    if (HWY_UNLIKELY(window.switches.widening != 1)) widen_lens(batch, window.switches.widening);
-    const unsigned all = (1U << count) - 1;
-    const unsigned certain = all & ~batch.refused;
-    if (certain != 0) draw_lens_batch(tile, batch, certain, lane_batch, rectangles, context);
-    for (const std::size_t k : EachBit(all & batch.refused))
-      add_lens_exactly(tile, batch.number[k], context, exact);
-  }
+  for_each_triangles(object, numbers,
+                     [&](const Triangles& now, std::size_t, std::size_t count) HWY_ATTR {
+                       batch.number = now.number;
+                       set_up_lens_lanes(object.vertices.get(), now.corners.data(), tile.where(),
+                                         window.range, batch, rectangles);
+                       if (HWY_UNLIKELY(window.switches.widening != 1))
+                         widen(batch, window.switches.widening);
+                       const unsigned all = (1U << count) - 1;
+                       const unsigned certain = all & ~batch.refused;
+                       if (certain != 0)
+                         draw_lens_batch(tile, batch, certain, lane_batch, rectangles, context);
+                       for (const std::size_t k : EachBit(all & batch.refused))
+                         add_lens_exactly(tile, batch.number[k], context, exact);
+                     });
   if (exact.count != 0) draw_lens_exactly(tile, exact, context);
 }
 

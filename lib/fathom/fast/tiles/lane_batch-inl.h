@@ -112,6 +112,14 @@ HWY_INLINE V widened(V error, double widening) {
   return widening == 1 ? error : hn::Mul(error, constant(widening));
 }
 
+/// The bounds of a batch. Edge functions without any error have no bound to widen.
+[[maybe_unused]] HWY_NOINLINE void widen(SetupBatch& batch, double factor) {
+  for (std::size_t k = 0; k < hn::Lanes(D()); ++k) {
+    if (!(batch.snapped >> k & 1)) batch.edge_error[k] *= factor;
+    batch.q_error[k] *= factor;
+  }
+}
+
 // Edge functions are scaled by powers of two, each by its own, so that S < 2 and one bound does for
 // all three. On the grid of snap_step all terms are multiples of 2⁻¹⁷: where S < 2⁷, 24 bits hold
 // every sum exactly.

@@ -345,37 +345,25 @@ HWY_NOINLINE void add_exactly(Tile& tile, std::uint32_t number, const PixelBox& 
   if (++exact.count == hn::Lanes(D())) draw_exactly(tile, exact, context);
 }
 
-/// Edge functions without any error have no bound to widen.
-HWY_NOINLINE void widen(SetupBatch& batch, double factor) {
-  for (std::size_t k = 0; k < hn::Lanes(D()); ++k) {
-    if (!(batch.snapped >> k & 1)) batch.edge_error[k] *= factor;
-    batch.q_error[k] *= factor;
-  }
-}
-
 void draw_triangles(Tile& tile, const ImageObject& object, std::span<const std::uint32_t> numbers,
                     const DrawContext& context) {
-  const std::size_t lanes = hn::Lanes(D());
-  Triangles next{};
   SetupBatch batch;
   LaneBatch lane_batch{};
   ExactBatch exact;
-  fetch(object, numbers, 0, next);
-  for (std::size_t first = 0; first < numbers.size(); first += lanes) {
-    const std::size_t count = std::min(lanes, numbers.size() - first);
-    const Triangles now = next;
-    fetch(object, numbers, first + lanes, next);
-    batch.number = now.number;
-    set_up_lanes(object.vertices.get(), now.corners.data(), tile.area(), context.range, batch);
-    if (HWY_UNLIKELY(context.switches.widening != 1)) widen(batch, context.switches.widening);
-    const unsigned drawn_lanes = ((1U << count) - 1) & ~batch.empty;
-    const unsigned certain = drawn_lanes & ~batch.refused;
-    context.statistics.grid_setups += static_cast<unsigned>(std::popcount(certain & batch.snapped));
-    if (certain != 0) draw_batch<false>(tile, batch, certain, lane_batch, context);
-    for (const std::size_t k : EachBit(drawn_lanes & batch.refused)) {
-      add_exactly(tile, batch.number[k], batch.box(k), context, exact);
-    }
-  }
+  for_each_triangles(
+      object, numbers, [&](const Triangles& now, std::size_t, std::size_t count) HWY_ATTR {
+        batch.number = now.number;
+        set_up_lanes(object.vertices.get(), now.corners.data(), tile.area(), context.range, batch);
+        if (HWY_UNLIKELY(context.switches.widening != 1)) widen(batch, context.switches.widening);
+        const unsigned drawn_lanes = ((1U << count) - 1) & ~batch.empty;
+        const unsigned certain = drawn_lanes & ~batch.refused;
+        context.statistics.grid_setups +=
+            static_cast<unsigned>(std::popcount(certain & batch.snapped));
+        if (certain != 0) draw_batch<false>(tile, batch, certain, lane_batch, context);
+        for (const std::size_t k : EachBit(drawn_lanes & batch.refused)) {
+          add_exactly(tile, batch.number[k], batch.box(k), context, exact);
+        }
+      });
   if (exact.count != 0) draw_exactly(tile, exact, context);
 }
 
