@@ -76,7 +76,7 @@ void LensOutput::write_depths(const PixelBox& area) const {
       const std::size_t i = Tile::index(column, row - area.first_row);
       std::copy_n(rounded_.depths.data() + i, Tile::cell, values.data() + column);
     }
-    std::copy_n(values.data(), columns, depths + (std::size_t{row} * width_ + area.first_column));
+    MapRows().write(values, columns, depths + (std::size_t{row} * width_ + area.first_column));
   }
 }
 

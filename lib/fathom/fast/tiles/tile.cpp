@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "fathom/fast/setup/setup_bounds.h"
+#include "fathom/fast/tiles/settle.h"
 #include "fathom/triangle/sampling.h"
 
 namespace fathom::fast {
@@ -76,42 +76,41 @@ void Tile::set_surfaces(std::vector<TileSurface> surfaces, std::uint32_t end_of_
   draws_back_faces_ = draws_back_faces;
 }
 
-// The decisions of the vector code (tile_lanes.cpp) once more, each by its own tier. The functions
-// may be summed in another order, within the same bounds.
+namespace {
+
+/// Decides by the referee.
+struct ExactSample {
+  std::uint32_t number;
+  ImagePoint s;
+  const DrawContext& context;
+
+  [[nodiscard]] bool covers() const {
+    return context.referee.covers(number, s, context.statistics);
+  }
+  [[nodiscard]] bool is_in_range() const {
+    return context.referee.is_in_range(number, s, context.statistics);
+  }
+  [[nodiscard]] bool hides(std::uint32_t other) const {
+    return context.referee.hides(number, other, s, context.statistics);
+  }
+};
+
+}  // namespace
+
 void Tile::settle(const TriangleSetup& setup, LaneTag tag, bool test_range, std::uint32_t column,
                   std::uint32_t row, const DrawContext& context) {
-  RenderStatistics& statistics = context.statistics;
-  ++statistics.samples_in_binary64;
+  ++context.statistics.samples_in_binary64;
   context.note_doubt(column, row);
-  const std::size_t i = index(column - area_.first_column, row - area_.first_row);
-  const double x = local(column, setup.column), y = local(row, setup.row);
-  double least_edge = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < 3; ++k) {
-    least_edge = std::min(least_edge, setup.edge_c[k] + setup.edge_a[k] * x + setup.edge_b[k] * y);
-  }
-  const double q = setup.q_c + setup.q_a * x + setup.q_b * y;
-  const ImagePoint s = centre_of_pixel(column, row);
-  if (least_edge < -setup.edge_error) return;
-  if (!(least_edge > setup.edge_error)) {
-    if (!context.referee.covers(setup.number, s, statistics)) return;
-  }
-  if (test_range) {
-    const double error = setup_bounds::q_moves * setup.q_error;
-    if (context.range.certainly_misses(q - error, q + error)) return;
-    if (!context.range.certainly_contains(q - error, q + error)) {
-      if (!context.referee.is_in_range(setup.number, s, statistics)) return;
-    }
-  }
-  ++statistics.samples_covered;
-  const TileSurface& other = surface_at(i);
-  const double d = q - other.q(local(column, area_.first_column), local(row, area_.first_row));
-  const double sum = setup.q_error + other.error();
-  if (d < -sum) return;
-  if (!(d > sum) && other.number() != no_surface) {
-    if (!context.referee.hides(setup.number, other.number(), s, statistics)) return;
-  }
-  q_[i] = static_cast<float>(q);
-  tags_[i] = tag;
+  const std::uint32_t tile_column = column - area_.first_column, tile_row = row - area_.first_row;
+  const TriangleAtSample at{setup,
+                            tag,
+                            test_range,
+                            index(tile_column, tile_row),
+                            local(column, setup.column),
+                            local(row, setup.row),
+                            static_cast<double>(tile_column),
+                            static_cast<double>(tile_row)};
+  settle_by(ExactSample{setup.number, centre_of_pixel(column, row), context}, at, *this, context);
 }
 
 }  // namespace fathom::fast
