@@ -66,6 +66,14 @@ function(fathom_target_options target)
   endif()
 endfunction()
 
+# Compiles vector code for half of Highway's targets in a build with sanitizers: two, four and eight lanes. The others would
+# differ in instructions, not in what they touch, and take a minute to compile each.
+function(fathom_vector_targets target)
+  if(FATHOM_SANITIZERS)
+    target_compile_definitions(${target} PRIVATE "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3_DL)")
+  endif()
+endfunction()
+
 # Makes the source OUTPUT in the build folder of texts of this folder: a std::string_view for each, named after it.
 #   fathom_embed_texts(OUTPUT HEADER NAMESPACE file…)
 # HEADER declares them, in NAMESPACE.
