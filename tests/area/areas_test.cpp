@@ -255,6 +255,33 @@ TEST(Areas, FromACameraAreThoseOfPairs) {
   }
 }
 
+/// Also where the pose or the projection mirrors the image: the side is one of the surface.
+TEST(Areas, FromAMirroringCameraAreOnTheSameSide) {
+  const Scene scene =
+      testing::scene_of({{-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}}, {{0, 2, 1}, {0, 2, 3}});
+  for (const ProjectionModel model :
+       {ProjectionModel::perspective, ProjectionModel::orthographic}) {
+    for (const bool projection_mirrors : {false, true}) {
+      for (const bool pose_mirrors : {false, true}) {
+        SCOPED_TRACE(::testing::Message() << projection_mirrors << pose_mirrors);
+        Camera camera;
+        camera.width = camera.height = 8;
+        camera.projection.model = model;
+        camera.projection.fx = 2;
+        camera.projection.fy = projection_mirrors ? -2 : 2;
+        camera.projection.cx = camera.projection.cy = 4;
+        camera.world_to_camera = {
+            {{pose_mirrors ? -1.0 : 1.0, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+        const auto areas = areas_from_camera(scene, camera);
+        EXPECT_EQ(areas[0].side, LitSide::front);
+        EXPECT_EQ(areas[1].side, LitSide::back);
+        EXPECT_EQ(areas[0].fraction, 1);
+        EXPECT_EQ(areas[1].fraction, 1);
+      }
+    }
+  }
+}
+
 // A wall z = 2 with |x|, |y| ≤ 4 behind a square z = 1 with |x|, |y| ≤ ½, seen from the origin: the
 // square hides |x|, |y| ≤ 1 of it.
 TEST(Areas, FromAPointAreOnTheSurface) {

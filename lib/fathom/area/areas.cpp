@@ -8,6 +8,7 @@
 
 #include "fathom/area/plane/light_cameras.h"
 #include "fathom/area/plane/plane_areas.h"
+#include "fathom/camera/pose.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/root_sum.h"
 #include "fathom/numeric/rounding.h"
@@ -71,6 +72,14 @@ double rounded_across(const Real& x, const Dyadic& square) {
   }));
 }
 
+/// Whether a triangle that faces the camera has the orientation of one that does not. Both a pose
+/// and a projection may mirror the image.
+bool shows_mirror_image(const Camera& camera) {
+  const bool pose_mirrors =
+      determinant_of_rotation(camera.world_to_camera).sign() == Sign::negative;
+  return is_mirrored(camera.projection) != pose_mirrors;
+}
+
 enum class LightKind { direction, point, camera };
 
 /// What the cameras of a light see of all triangles.
@@ -82,7 +91,7 @@ class SeenScene {
     wanted_ = {.image = kind == LightKind::camera, .share = true, .moments = true};
     if (kind == LightKind::camera) {
       unoccluded_.resize(triangles.count());
-      orientations_.resize(triangles.count());
+      facings_.resize(triangles.count());
     }
     for (const Camera& camera : cameras) add({triangles, camera, cull});
   }
@@ -118,7 +127,7 @@ class SeenScene {
     const PlaneMesh mesh(scene, numbers);
     PlaneAreas areas(mesh, wanted_);
     for (std::uint32_t i = 0; i < mesh.size(); ++i) add(scene, mesh.number(i), areas, i);
-    if (kind_ == LightKind::camera) add_image(scene);
+    if (kind_ == LightKind::camera) add_image(scene, shows_mirror_image(frame.camera));
   }
 
   void add(const ProjectedScene& scene, std::uint32_t number, const PlaneAreas& areas,
@@ -154,9 +163,10 @@ class SeenScene {
     all.gamma.insert(all.gamma.end(), some.gamma.begin(), some.gamma.end());
   }
 
-  void add_image(const ProjectedScene& scene) {
+  void add_image(const ProjectedScene& scene, bool is_mirrored) {
     parallel_for(std::uint32_t{0}, scene.count(), [&](std::uint32_t number) {
-      orientations_[number] = scene.orientation(number);
+      const Sign turn = scene.orientation(number);
+      facings_[number] = is_mirrored ? turn : -turn;
       if (scene.extent(number) == TriangleExtent::none) return;
       unoccluded_[number] = scene.extent(number) == TriangleExtent::within_image
                                 ? scene.own_area(number)
@@ -168,7 +178,7 @@ class SeenScene {
                                 const std::array<double, 3>& light) const {
     Sign side = Sign::zero;
     if (kind_ == LightKind::camera) {
-      side = -orientations_[number];
+      side = facings_[number];
     } else {
       ExactVector3 towards{light[0], light[1], light[2]};
       if (kind_ == LightKind::point) towards = difference(towards, seen.corner);
@@ -187,7 +197,8 @@ class SeenScene {
   std::vector<SurfaceTerms> terms_;
   /// From a camera.
   std::vector<Ratio> unoccluded_;
-  std::vector<Sign> orientations_;
+  /// The sign of n·d.
+  std::vector<Sign> facings_;
 };
 
 /// The values of triangles and groups.
