@@ -1,15 +1,14 @@
 #include "apps/study/table.h"
 
 #include "apps/study/html.h"
+#include "fathom/text/csv_field.h"
 
 namespace fathom::studies {
 namespace {
 
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
+  return text::in_csv_quotes(text);
 }
 
 std::string page_text(const Column& column, const Cell& cell) {

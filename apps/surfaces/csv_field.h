@@ -2,16 +2,14 @@
 
 #include <string>
 
+#include "fathom/text/csv_field.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::app {
 
-/// A text as a field of CSV (RFC 4180), in quotes.
+/// A name that is not ours as a field of CSV, in quotes.
 inline std::string quoted(const std::string& text) {
-  std::string field = "\"";
-  for (const char c : text::printable(text))
-    field += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return field + "\"";
+  return text::in_csv_quotes(text::printable(text));
 }
 
 }  // namespace fathom::app
