@@ -31,12 +31,13 @@ Ratio third(const Ratio& x) {
   return {x.numerator, x.denominator * Dyadic(3.0)};
 }
 
-/// What a light sees of a triangle, exactly.
+/// The part of a triangle that a light sees, exactly.
 struct SeenTriangle {
   LitSide side = LitSide::edge;
-  /// The share of its area, and that times 3β and 3γ of the centre, as SurfaceTerms has them.
+  /// The visible share of the triangle's area, and this share times 3β and 3γ of its centre, as in
+  /// SurfaceTerms.
   Ratio share, beta, gamma;
-  /// From a camera, in pixels: what is visible, and what would be if there were nothing else.
+  /// From a camera, in pixels: the visible area, and the area with all other triangles removed.
   Ratio visible, unoccluded;
   ExactVector3 corner, to_second, to_third, normal;
   /// |n·d| of a direction.
@@ -72,8 +73,8 @@ double rounded_across(const Real& x, const Dyadic& square) {
   }));
 }
 
-/// Whether a triangle that faces the camera has the orientation of one that does not. Both a pose
-/// and a projection may mirror the image.
+/// Whether the image is mirrored, so that front sides look like back sides. A pose and a projection
+/// may each mirror it; both together do not.
 bool shows_mirror_image(const Camera& camera) {
   const bool pose_mirrors =
       determinant_of_rotation(camera.world_to_camera).sign() == Sign::negative;
@@ -82,7 +83,7 @@ bool shows_mirror_image(const Camera& camera) {
 
 enum class LightKind { direction, point, camera };
 
-/// What the cameras of a light see of all triangles.
+/// The visible parts of all triangles, from the cameras of a light.
 class SeenScene {
  public:
   SeenScene(const TriangleSource& triangles, LightKind kind, const std::vector<Camera>& cameras,
@@ -167,10 +168,7 @@ class SeenScene {
     parallel_for(std::uint32_t{0}, scene.count(), [&](std::uint32_t number) {
       const Sign turn = scene.orientation(number);
       facings_[number] = is_mirrored ? turn : -turn;
-      if (scene.extent(number) == TriangleExtent::none) return;
-      unoccluded_[number] = scene.extent(number) == TriangleExtent::within_image
-                                ? scene.own_area(number)
-                                : sum_of(terms_alone(scene, number, {.image = true}).image);
+      unoccluded_[number] = unoccluded_area(scene, number);
     });
   }
 
@@ -201,7 +199,7 @@ class SeenScene {
   std::vector<Sign> facings_;
 };
 
-/// The values of triangles and groups.
+/// Rounds the values of triangles and groups.
 class LightAreas {
  public:
   LightAreas(LightKind kind, const std::array<double, 3>& light, AreaCentroid centroid)

@@ -2,16 +2,14 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "fathom/camera/camera.h"
 #include "fathom/rendering/options.h"
 #include "fathom/scene/triangle_source.h"
 
-/// How much of its triangles a scene shows to the sun, to a lamp or to a camera, without pixels
+/// The areas of a scene's triangles that the sun, a lamp or a camera sees, without pixels
 /// (specification, section 8).
 namespace fathom {
 
@@ -23,21 +21,22 @@ using AreaPoint = std::array<double, 3>;
 /// The side of a triangle that faces the light.
 enum class LitSide : std::uint8_t { front, back, edge };
 
-/// The area of a triangle, or of a group of triangles. Each number is the exact one, rounded once.
+/// The area of a triangle, or of a group of triangles. Each number is exact and rounded once.
 struct LitArea {
-  /// Of a triangle: which side faces the light; edge if it is seen edge on.
+  /// Of a triangle: the side that faces the light; edge if the light sees it edge on. A camera
+  /// that mirrors the image sees the same side.
   std::optional<LitSide> side;
-  /// The area across the direction of what is visible; from a camera in pixels; nothing from a
-  /// point.
+  /// The visible area across the direction; from a camera in pixels; not defined from a point.
   std::optional<double> visible;
-  /// The area of a triangle across the direction, whatever hides it; from a camera the area within
-  /// the image.
+  /// The area of a triangle across the direction, with all other triangles removed; from a camera
+  /// the area within the image.
   std::optional<double> projected;
-  /// Of a triangle, visible / projected; from a point the share of the triangle itself.
+  /// Of a triangle, visible / projected; from a point the visible share of its surface.
   std::optional<double> fraction;
-  /// The area of what is visible, on the surface itself.
+  /// The visible area, measured on the surface.
   double lit = 0;
-  /// The centre of what is visible, on the surface, in the world; nothing if nothing is visible.
+  /// The centroid of the visible part of the surface, in the world; not defined if nothing is
+  /// visible.
   std::optional<std::array<double, 3>> centroid;
 };
 
@@ -48,19 +47,19 @@ struct AreaOptions {
   Cull cull = Cull::none;
   /// 0: all.
   int threads = 0;
-  /// Of a group under a direction. A camera and a point have `lit` alone.
+  /// For groups under a direction. From a camera and from a point, `lit` is used.
   AreaCentroid centroid = AreaCentroid::across;
-  /// The group that each triangle belongs to, below `group_count`, or no_group. Empty: every
-  /// triangle is measured for itself.
+  /// The group of each triangle, below `group_count`, or no_group. If empty, each triangle is
+  /// measured by itself.
   std::vector<std::uint32_t> groups;
   std::uint32_t group_count = 0;
   static constexpr std::uint32_t no_group = 0xFFFFFFFF;
 };
 
 /// Areas by the numbers of triangles or groups.
-/// Fails    InputError where the scene has a fault; UsageError for a direction that is 0 or not
-///          finite, or whose numbers are too far apart in magnitude for those of the scene, and
-///          where `groups` is not empty and not one number for each triangle.
+/// Fails    InputError if the scene has a fault; UsageError for a direction that is 0 or not
+///          finite, or whose magnitude range does not fit that of the scene, and if `groups` is
+///          neither empty nor as long as the list of triangles.
 std::vector<LitArea> areas_in_direction(const TriangleSource& triangles,
                                         const AreaDirection& direction,
                                         const AreaOptions& options = {});

@@ -134,26 +134,13 @@ class SceneAreas {
            1;
   }
 
-  /// The area of a triangle within the image, if nothing hides it.
-  [[nodiscard]] Ratio unoccluded(std::uint32_t number) const {
-    switch (scene_.extent(number)) {
-      case TriangleExtent::none:
-        return {};
-      case TriangleExtent::within_image:
-        return scene_.own_area(number);
-      case TriangleExtent::elsewhere:
-        break;
-    }
-    return sum_of(terms_alone(scene_, number, {.image = true}).image);
-  }
-
   void add_unoccluded(VisibleAreas& result) {
     in_parallel(scene_.count() / chunk + 1, [&](std::size_t k) {
       check_interruption();
       const auto first = static_cast<std::uint32_t>(k * chunk);
       for (std::uint32_t number = first; number < std::min(scene_.count(), first + chunk);
            ++number) {
-        result.triangles[number] = rounded(Ratio(), unoccluded(number));
+        result.triangles[number] = rounded(Ratio(), unoccluded_area(scene_, number));
       }
       done_.part_done();
     });
@@ -170,7 +157,7 @@ class SceneAreas {
                      area.visible = area.unoccluded;
                      area.ratio = 1;
                    } else {
-                     area = area_of(terms, unoccluded(number));
+                     area = area_of(terms, unoccluded_area(scene_, number));
                    }
                  });
     });

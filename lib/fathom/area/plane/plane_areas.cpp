@@ -148,9 +148,16 @@ void PlaneAreas::add_clip(const VisibleClip& clip) {
   add(clip.triangle, terms_of_clip(surface, clip.part, wanted_));
 }
 
-SurfaceTerms terms_alone(const ProjectedScene& scene, std::uint32_t number,
-                         const WantedTerms& wanted) {
-  return terms_of_clip(scene.surface(number), scene.image(), wanted);
+Ratio unoccluded_area(const ProjectedScene& scene, std::uint32_t number) {
+  switch (scene.extent(number)) {
+    case TriangleExtent::none:
+      return {};
+    case TriangleExtent::within_image:
+      return scene.own_area(number);
+    case TriangleExtent::elsewhere:
+      break;
+  }
+  return sum_of(terms_of_clip(scene.surface(number), scene.image(), {.image = true}).image);
 }
 
 }  // namespace fathom::area

@@ -52,8 +52,8 @@ class PlaneAreas {
   std::array<std::mutex, 64> mutexes_;
 };
 
-/// The terms of all that the image shows of a triangle that nothing hides.
-SurfaceTerms terms_alone(const ProjectedScene& scene, std::uint32_t number,
-                         const WantedTerms& wanted);
+/// The area of a triangle within the image with all other triangles removed; 0 if culling removes
+/// the triangle.
+Ratio unoccluded_area(const ProjectedScene& scene, std::uint32_t number);
 
 }  // namespace fathom::area
