@@ -10,7 +10,7 @@
 
 namespace fathom::app {
 
-/// What areas are measured of.
+/// The kinds of items that have areas.
 enum class AreaItemKind { object, face, triangle, material, group, part, label };
 /// "object", "face", …
 std::string name_of(AreaItemKind kind);

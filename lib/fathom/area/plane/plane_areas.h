@@ -11,11 +11,11 @@
 
 namespace fathom::area {
 
-/// How much of a triangle is visible.
+/// The visibility of a triangle as a whole.
 enum class Visibility : std::uint8_t { hidden, whole, partly };
 
-/// What is visible of the triangles of a mesh within the image, exactly: combinatorics by parts,
-/// and terms of the areas of those triangles that are visible in part.
+/// The visible parts of the triangles of a mesh within the image, exactly. Combinatorics by parts
+/// find the visibility of each triangle; triangles that are partly visible have terms of areas.
 class PlaneAreas {
  public:
   /// Calls `part_done` so many times.
@@ -27,8 +27,7 @@ class PlaneAreas {
   /// Of triangle i of the mesh. A triangle that reaches beyond the image is at most `partly`
   /// visible, and so is one that is known by its forms.
   [[nodiscard]] Visibility visibility(std::uint32_t i) const { return visibility_[i]; }
-  /// The terms of what is visible of triangle i; none of them if it is not partly visible, or if
-  /// nothing of it is.
+  /// The terms of the visible part of triangle i; empty if it is wholly visible or hidden.
   [[nodiscard]] const SurfaceTerms& terms(std::uint32_t i) const;
   [[nodiscard]] const ResolvedParts& resolved() const { return resolved_; }
 
