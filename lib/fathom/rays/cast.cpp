@@ -13,6 +13,7 @@
 #include "fathom/rays/rounded_t.h"
 #include "fathom/rays/walk_ray.h"
 #include "fathom/scene/scene_fault.h"
+#include "fathom/threads/interruption.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom {
@@ -45,12 +46,13 @@ template <class Answer>
 void for_each_ray(const RayScene& scene, std::span<const Ray> given, const CastOptions& options,
                   Question question, const Answer& answer) {
   require_segment(options.segment);
+  for (std::size_t i = 0; i < given.size(); ++i) require_ray(given[i], i);
   const std::size_t pieces = (given.size() + rays_together - 1) / rays_together;
   const auto cast_piece = [&](std::size_t piece) {
     Candidates candidates(scene.triangles(), options, question);
     const std::size_t first = piece * rays_together;
     for (std::size_t i = first; i < std::min(given.size(), first + rays_together); ++i) {
-      require_ray(given[i], i);
+      check_interruption();
       const auto ray = rays::prepare(given[i], options.segment, scene.tree());
       if (!ray) continue;
       candidates.begin(given[i], *ray);

@@ -32,9 +32,14 @@ constexpr long least_power = -1100;
 long power_of_unit(const TriangleSource& triangles) {
   long power = least_power;
   triangles.for_each_part(0, [&](const TriangleSource::Part& part) {
-    for (const MeshPoint& p : part.mesh.vertices)
-      power = part.object.placed_as_is ? greatest_top(p, power)
-                                       : greatest_top(part.object.world_from_mesh(p), power);
+    // A vertex without a triangle may be anywhere.
+    for (const auto& triangle : part.mesh.triangles) {
+      for (const std::uint32_t corner : triangle) {
+        const MeshPoint& p = part.mesh.vertices[corner];
+        power = part.object.placed_as_is ? greatest_top(p, power)
+                                         : greatest_top(part.object.world_from_mesh(p), power);
+      }
+    }
   });
   return power;
 }

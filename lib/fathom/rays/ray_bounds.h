@@ -30,11 +30,11 @@ inline constexpr double moved_origin_error = 0x1p-49;
 
 /// More than underflow takes from anything below.
 inline constexpr double floor = 0x1p-900;
-/// Covers terms of second order, and the roundings of the bounds themselves.
+/// Covers terms of second order in u, and the roundings of the bounds themselves.
 inline constexpr double slack = 1 + 0x1p-20;
 
-/// Triangles. With p = b − a, r = c − a, H = max(│p│∞, │r│∞), t = a − o, T = │t│∞,
-/// D = │d_x│ + │d_y│ + │d_z│, γ the error of a corner and ε that of the origin,
+/// Triangles. With p = b − a, r = c − a, t = a − o, T = │t│∞, D = │d_x│ + │d_y│ + │d_z│, γ the
+/// error of a corner and ε that of the origin, H = max(│p│∞, │r│∞) + 4γ,
 ///   w_B = d·(r × t), w_C = d·(t × p), w = d·(p × r), w_A = (w − w_B) − w_C
 /// in binary64. Rounding: components of r × t err by 8uHT (differences 2·2HT, products 2HT, their
 /// difference 2HT), the sum with d by 3·2HT more: 14uDHT for w_B and for w_C, 14uDH² for w. w_A has
@@ -42,13 +42,16 @@ inline constexpr double slack = 1 + 0x1p-20;
 /// Corners and origin: p and r err by 2γ, t by γ + ε: w_B and w_C by D(4γT + 2H(γ + ε)), w by 8γDH,
 /// w_A by the sum. So all four err by at most
 ///   E = D·(H·((T + H)·36u + 4(γ + ε)) + (T + H)·8γ)
+/// Terms of second order in γ and ε are at most D·(16γ(γ + ε) + 32γ²), which the 4γ of H cover.
 inline constexpr double of_products = 36 * unit_roundoff<double>;
 inline constexpr double of_origin = 4;
 inline constexpr double of_corners = 8;
+inline constexpr double size_room = 4;
 
 /// n·t, n = p × r: components of n err by 8uH² + 8γH, t by uT + γ + ε, products and sums by
 /// 3·6uH²T. Together
 ///   E_t = 48uH²T + 24γHT + 6H²(γ + ε)
+/// and of second order 24γ²T + 24γH(γ + ε), which the 4γ of H cover, too.
 inline constexpr double of_height = 48 * unit_roundoff<double>;
 inline constexpr double of_height_corners = 24;
 inline constexpr double of_height_origin = 6;

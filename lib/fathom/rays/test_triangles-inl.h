@@ -55,7 +55,7 @@ V dot(const V3& a, const V3& b) {
 
 /// The parts of the bounds that do not depend on the triangle.
 struct Errors {
-  double products, origin, corners, height, height_corners, height_origin;
+  double products, origin, corners, height, height_corners, height_origin, size_room;
 
   Errors(const WalkRay& ray, double corner_error) {
     const Vector& d = ray.direction;
@@ -64,6 +64,7 @@ struct Errors {
     products = size * bounds::of_products;
     origin = size * bounds::of_origin * near;
     corners = size * bounds::of_corners * corner_error;
+    size_room = bounds::size_room * corner_error;
     height = bounds::of_height * bounds::slack;
     height_corners = bounds::of_height_corners * corner_error * bounds::slack;
     height_origin = bounds::of_height_origin * near * bounds::slack;
@@ -94,7 +95,9 @@ HWY_INLINE void test_block(const TriangleBlock<Stored>& block, const WalkRay& ra
     const V w_b = dot(d, cross(r, t)), w_c = dot(d, cross(t, p)), w = dot(n, d);
     const V w_a = hn::Sub(hn::Sub(w, w_b), w_c);
 
-    const V H = hn::Max(greatest_magnitude(p), greatest_magnitude(r)), T = greatest_magnitude(t);
+    const V H = hn::Add(hn::Max(greatest_magnitude(p), greatest_magnitude(r)),
+                        hn::Set(tag, errors.size_room));
+    const V T = greatest_magnitude(t);
     const V sum = hn::Add(T, H);
     const V of_edge =
         hn::Add(hn::Mul(sum, hn::Set(tag, errors.products)), hn::Set(tag, errors.origin));

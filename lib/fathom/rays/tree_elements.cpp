@@ -10,7 +10,7 @@
 namespace fathom::rays {
 namespace {
 
-/// Whether n is 0 exactly, as only a triangle without area has it.
+/// Whether n is not 0, exactly: n is 0 only for a triangle without area.
 bool has_area(const PlacedTriangles::Corners& corners, double corner_error,
               const TriangleSource& source, std::uint32_t number) {
   Vector p, r;

@@ -74,8 +74,8 @@ class Scene:
 
     __slots__ = ("_handle", "_rays")
     _handle: _core.Scene
-    #: Prepared when rays are first cast, until something is added.
-    _rays: _core.Rays | None
+    #: The number of objects that rays were prepared for, and what was prepared.
+    _rays: tuple[int, _core.Rays] | None
 
     def __init__(self) -> None:
         self._handle = _core.Scene()
@@ -134,7 +134,6 @@ class Scene:
         corners = faces_of(faces, len(numbers))
         of_labels = None if labels is None else labels_of(labels, len(corners))
         of_materials = None if materials is None else names_of("materials", materials, len(corners))
-        self._rays = None
         mesh = self._handle.add_mesh(numbers, corners)
         if of_labels is not None:
             self._handle.set_segments(mesh, "label", of_labels, [])
@@ -149,7 +148,6 @@ class Scene:
         number = as_count("mesh", mesh, 0, self.mesh_count - 1) if self.mesh_count else _no_mesh()
         placed = None if pose is None else pose_of("pose", pose)
         objects = self._handle.object_count
-        self._rays = None
         self._handle.add_object(number, placed, as_text("name", name) or f"object {objects}")
         return objects
 
@@ -301,13 +299,18 @@ class Scene:
         return inside.reshape(given.shape[:-1])
 
     def _prepared_rays(self, threads: int) -> _core.Rays:
-        if self._rays is None:
-            try:
-                self._rays = _core.prepare_rays(self._handle, as_threads(threads))
-            except _core.InputError:
-                self._check()
-                raise
-        return self._rays
+        objects = self._handle.object_count
+        known = self._rays
+        if known is not None and known[0] == objects:
+            return known[1]
+        try:
+            # Another thread may add an object meanwhile.
+            prepared = _core.prepare_rays(self._handle, as_threads(threads))
+        except _core.InputError:
+            self._check()
+            raise
+        self._rays = objects, prepared
+        return prepared
 
     def _check(self) -> None:
         """Raises an exception that names the faulty argument, if one is faulty."""
