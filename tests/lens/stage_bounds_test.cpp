@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "fathom/fast/lenses/stage_lanes.h"
 #include "tests/lens/lens_oracle.h"
 
 namespace fathom::lens {
@@ -70,6 +71,38 @@ TEST_P(StageBoundsOf, OfABoxHoldForItsPoints) {
   // The bounds say something.
   EXPECT_LT(least_growth, 1.1);
   EXPECT_GT(greatest_error, 0.2);
+}
+
+// The vectors of the fast engine sum the same terms in another order.
+TEST_P(StageBoundsOf, ABoxHoldForResidualsOfVectors) {
+  constexpr double u = 0x1p-53, focal_length = 640;
+  double greatest_share = 0;
+  for (int i = 0; i < 30; ++i) {
+    const Lens lens = oracle::random_lens(random_, GetParam(), 0.2);
+    const auto numbers = stage_of(lens);
+    const double g = 1 / focal_length;
+    const fast::PlaneForLanes plane{0, 0, {{{g, 0, 0}, {0, g, 0}, {0, 0, 1}}}, true};
+    const double column = below(600) - 300, row = below(600) - 300;
+    fast::BlockSamples found;
+    fast::search_block(fast::StageForLanes(numbers), plane, column, row, column * g, row * g,
+                       found);
+    const StageBounds bounds =
+        bounds_on_box(numbers, {Interval{found.left, found.right}, {found.top, found.bottom}});
+    for (std::size_t k = 0; k < fast::BlockSamples::count; ++k) {
+      ASSERT_LE(found.residual[k], found.greatest_residual);
+      const auto S = oracle::distorted<ArbBall>(NamedParameters(lens), found.x[k], found.y[k]);
+      const auto cell = static_cast<double>(k / 16), in_cell = static_cast<double>(k % 16);
+      const double across = std::fmod(cell, 2) * 4 + std::fmod(in_cell, 4) + 0.5;
+      const double down = std::floor(cell / 2) * 4 + std::floor(in_cell / 4) + 0.5;
+      const double x = (S.x.v - ArbBall(column + across) * ArbBall(g)).approximate();
+      const double y = (S.y.v - ArbBall(row + down) * ArbBall(g)).approximate();
+      const double bound = std::sqrt(2) * u * (bounds.roundings * bounds.terms + 1);
+      const double error = std::abs(std::hypot(x, y) - found.residual[k]);
+      ASSERT_LE(error, bound + 4 * u * found.residual[k]) << i << ' ' << k;
+      greatest_share = std::max(greatest_share, error / bound);
+    }
+  }
+  EXPECT_GT(greatest_share, 0.002);
 }
 
 TEST_P(StageBoundsOf, OfACircleHoldForItsPoints) {
