@@ -68,7 +68,7 @@ double greatest_terms(const StageNumbers<double>& n, double X, double Y, double 
 
 // The error of stage_value(), in u of the terms: q errs by 2 of itself, so that the k-th term of N
 // errs by 2k and by the 2k + 1 roundings of Horner's scheme at most; with n the degree, N errs by
-// 4n + 1, D by the same of its own terms (which stage_magnitudes() has as a factor), the quotient by
+// 4n + 1, D by the same of its own terms (stage_magnitudes() has them as a factor), the quotient by
 // 8n + 3, its product with x by 8n + 4. The other terms have at most 8 roundings, and there are
 // four sums: 8n + 12 in all. Second order: 8n + 16.
 StageBounds bounds_on_box(const StageNumbers<double>& stage, const std::array<Interval, 2>& box) {
