@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "tests/adversaries.h"
@@ -99,6 +101,28 @@ TEST(PlaneAreas, OfSpheresThatPenetrateEachOtherAreThoseOfPairs) {
   inside.world_to_camera = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0.25}}};
   inside.near = 0.125;
   expect_as_pairwise(testing::two_spheres(12), inside);
+}
+
+/// A fan that winds twice around a point of the image is one sheet, which covers each part twice:
+/// half of it is hidden.
+TEST(PlaneAreas, OfASheetThatWindsTwiceAreThoseOfPairs) {
+  constexpr std::uint32_t triangles = 10;
+  std::vector<MeshPoint> vertices{{2.125, 2.25, 5}};
+  std::vector<CornerIndices> fan;
+  for (std::uint32_t k = 0; k < triangles; ++k) {
+    const double turn = 4 * std::numbers::pi * k / triangles;
+    vertices.push_back(
+        {2.125 + 9 * std::cos(turn), 2.25 + 9 * std::sin(turn), 5 + 2 * std::sin(turn / 2 + 0.3)});
+    fan.push_back({0, k + 1, (k + 1) % triangles + 1});
+  }
+  const Scene scene = testing::scene_of(vertices, fan);
+  const Camera camera = testing::plain_camera(4, 4);
+  expect_as_pairwise(scene, camera);
+  const VisibleAreas found = visible_areas(scene, camera, {});
+  EXPECT_EQ(found.objects[0].visible, 16);
+  double all = 0;
+  for (const VisibleArea& area : found.triangles) all += area.unoccluded;
+  EXPECT_NEAR(all, 32, 1e-12);
 }
 
 /// Of a closed surface without arithmetic: the far side is hidden by the near one, whose inner
