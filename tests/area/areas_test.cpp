@@ -331,6 +331,28 @@ TEST(Areas, FromInsideAllIsSeen) {
   }
 }
 
+/// Of triangles that reach behind the cameras of a point, seen from either side.
+TEST(Areas, FromAPointAreTheSameFromBothSides) {
+  const std::vector<MeshPoint> wall{{-4, -4, 2}, {4, -4, 2}, {4, 4, 2}, {-4, 4, 2}};
+  const Scene backs = testing::scene_of(wall, {{0, 1, 2}, {0, 2, 3}}),
+              fronts = testing::scene_of(wall, {{0, 2, 1}, {0, 3, 2}});
+  AreaOptions all;
+  all.groups = {0, 0};
+  all.group_count = 1;
+  for (const AreaPoint& point : {AreaPoint{0, 0, 0}, AreaPoint{3, -1, 1.75}}) {
+    EXPECT_EQ(areas_from_point(fronts, point, all)[0].lit, 64);
+    EXPECT_EQ(areas_from_point(backs, point, all)[0].lit, 64);
+    const auto seen = areas_from_point(fronts, point), turned = areas_from_point(backs, point);
+    for (const std::size_t t : {0, 1}) {
+      EXPECT_EQ(seen[t].side, LitSide::front);
+      EXPECT_EQ(turned[t].side, LitSide::back);
+      EXPECT_EQ(seen[t].fraction, 1);
+      EXPECT_EQ(turned[t].fraction, 1);
+      EXPECT_EQ(seen[t].centroid, turned[t].centroid);
+    }
+  }
+}
+
 TEST(Areas, RefuseWhatIsNoLight) {
   const Scene scene = satellite();
   EXPECT_THROW(areas_in_direction(scene, {0, 0, 0}), UsageError);
