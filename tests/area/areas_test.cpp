@@ -203,6 +203,34 @@ TEST(Areas, OfAConvexBodyAreItsFrontFaces) {
   }
 }
 
+/// A ring of many triangles around the axes: all coordinates of its centre are exactly 0, and many
+/// normals have different lengths. So no enclosure decides how they round.
+TEST(Areas, OfSymmetricGroupsHaveCentresOfZero) {
+  std::vector<MeshPoint> v;
+  std::vector<CornerIndices> t;
+  constexpr int count = 1000;
+  for (int k = 0; k < count; ++k) {
+    const double x = k + 1, height = 1 + k % 7;
+    for (const double sign : {1.0, -1.0}) {
+      const auto n = static_cast<std::uint32_t>(v.size());
+      v.insert(v.end(),
+               {{sign * x, sign, height}, {sign * (x + 0.5), 0, 0}, {sign * x, -sign, -height}});
+      t.push_back({n, n + 1, n + 2});
+    }
+  }
+  const Scene ring = testing::scene_of(v, t);
+  AreaOptions all;
+  all.groups.assign(t.size(), 0);
+  all.group_count = 1;
+  for (const AreaCentroid centroid : {AreaCentroid::across, AreaCentroid::lit}) {
+    all.centroid = centroid;
+    const LitArea area = areas_in_direction(ring, {0, 0, 1}, all)[0];
+    ASSERT_TRUE(area.centroid);
+    EXPECT_EQ((*area.centroid)[0], 0);
+    EXPECT_EQ((*area.centroid)[1], 0);
+  }
+}
+
 /// Whatever the length of the direction.
 TEST(Areas, DependOnTheDirectionOnly) {
   std::mt19937_64 random(3);

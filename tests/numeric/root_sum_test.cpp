@@ -67,6 +67,40 @@ TEST(RootSum, KnowsWhenItIsRational) {
   EXPECT_EQ(quotient(a, b).rational(), std::nullopt);
 }
 
+// Primes of the residues that lead to classes may divide radicands.
+TEST(RootSum, FindsClassesOfAnyRadicands) {
+  constexpr double prime = 2147483659.0;  // the first above 2³¹
+  for (const double radicand : {prime, 2 * prime, 3.0}) {
+    RootSum cancels;
+    cancels.add(over(3, 1), radicand);
+    cancels.add(over(1, 1), 5.0);
+    cancels.add(over(-1, 1), Dyadic(radicand) * Dyadic(9.0));
+    EXPECT_EQ(cancels.value().rational(), std::nullopt);
+    cancels.add(over(-1, 2), 20.0);
+    EXPECT_EQ(cancels.value().rational(), Ratio());
+    // A square of the prime within the radicand takes its residue away from one of the two.
+    const Dyadic square = Dyadic(prime) * Dyadic(prime);
+    cancels.add(over(prime, 1), radicand);
+    cancels.add(over(-1, 1), Dyadic(radicand) * square);
+    EXPECT_EQ(cancels.value().rational(), Ratio());
+    RootSum reversed;
+    reversed.add(over(-1, 1), Dyadic(radicand) * square);
+    reversed.add(over(prime, 1), radicand);
+    EXPECT_EQ(reversed.value().rational(), Ratio());
+  }
+}
+
+// Many classes: each is found without comparing it with all others.
+TEST(RootSum, DecidesManyClasses) {
+  RootSum cancels;
+  constexpr int count = 20000;
+  for (int k = 0; k < count; ++k) {
+    cancels.add(over(1, 3), Dyadic(4.0 * k + 3));
+    cancels.add(over(-1, 6), Dyadic(4.0) * Dyadic(4.0 * k + 3));
+  }
+  EXPECT_EQ(cancels.value().rational(), Ratio());
+}
+
 // Halfway between two numbers, and next to that.
 TEST(RootSum, RoundsMiddlesToEven) {
   RootSum middle;

@@ -10,6 +10,7 @@
 #include "fathom/area/plane/plane_areas.h"
 #include "fathom/camera/pose.h"
 #include "fathom/failures/errors.h"
+#include "fathom/numeric/ratio_sum.h"
 #include "fathom/numeric/root_sum.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -50,21 +51,6 @@ struct SeenTriangle {
   }
 };
 
-/// A sum of quotients that mostly rounds by an enclosure of it.
-Real real_sum(Terms terms) {
-  if (terms.size() <= 4) return sum_of(std::move(terms));
-  EnclosedSum sum;
-  for (const Ratio& term : terms) sum.add(term);
-  const Enclosure around = sum.get();
-  const auto exactly = [terms = std::move(terms)] { return sum_of(terms); };
-  return {[around, exactly](long bits) {
-            if (bits <= 96) return around;
-            const Ratio value = exactly();
-            return Enclosure{value, value};
-          },
-          [exactly]() -> std::optional<Ratio> { return exactly(); }};
-}
-
 /// √(x²/(4·square)), rounded once.
 double rounded_across(const Real& x, const Dyadic& square) {
   return std::bit_cast<double>(x.rounded([&](const Ratio& value) {
@@ -96,6 +82,9 @@ class SeenScene {
     }
     for (const Camera& camera : cameras) add({triangles, camera, cull});
   }
+
+  /// Whether nothing is visible of a triangle, for certain.
+  [[nodiscard]] bool is_hidden(std::uint32_t number) const { return terms_[number].share.empty(); }
 
   /// `light` is the direction, or the point.
   [[nodiscard]] SeenTriangle triangle(std::uint32_t number,
@@ -235,6 +224,7 @@ class LightAreas {
     return area;
   }
 
+  /// Of triangles of each of which something is visible.
   [[nodiscard]] LitArea of(const std::vector<SeenTriangle>& group) const {
     LitArea area;
     if (kind_ != LightKind::point) area.visible = visible(group);
@@ -262,7 +252,6 @@ class LightAreas {
     Terms terms;
     const bool in_pixels = kind_ == LightKind::camera;
     for (const SeenTriangle& seen : group) {
-      if (seen.share.sign() == Sign::zero) continue;
       terms.push_back(in_pixels ? seen.visible : seen.share * Ratio(seen.facing));
     }
     const Real sum = real_sum(std::move(terms));
@@ -274,22 +263,18 @@ class LightAreas {
   }
 
   static double across_centre(const std::vector<SeenTriangle>& group, std::size_t axis) {
-    // A quotient of rational sums: roots of squares.
-    RootSum over, under;
+    Terms over, under;
     for (const SeenTriangle& seen : group) {
-      if (seen.share.sign() == Sign::zero) continue;
-      over.add(seen.moment(axis) * Ratio(seen.facing), 1.0);
-      under.add(seen.share * Ratio(seen.facing), 1.0);
+      over.push_back(seen.moment(axis) * Ratio(seen.facing));
+      under.push_back(seen.share * Ratio(seen.facing));
     }
-    return round_to_binary64(quotient(over, under));
+    return round_to_binary64(real_quotient(std::move(over), std::move(under)));
   }
 
   static double lit_centre(const std::vector<SeenTriangle>& group, const RootSum& lit,
                            std::size_t axis) {
     RootSum over;
-    for (const SeenTriangle& seen : group) {
-      if (seen.share.sign() != Sign::zero) add(over, seen.moment(axis), seen);
-    }
+    for (const SeenTriangle& seen : group) add(over, seen.moment(axis), seen);
     return round_to_binary64(quotient(over, lit));
   }
 
@@ -321,7 +306,9 @@ std::vector<LitArea> measure(const TriangleSource& triangles, LightKind kind,
   parallel_for(std::uint32_t{0}, options.group_count, [&](std::uint32_t group) {
     std::vector<SeenTriangle> seen;
     for (const std::uint32_t number : members[group]) {
-      seen.push_back(scene.triangle(number, light));
+      if (scene.is_hidden(number)) continue;
+      SeenTriangle member = scene.triangle(number, light);
+      if (member.share.sign() != Sign::zero) seen.push_back(std::move(member));
     }
     result[group] = areas.of(seen);
   });

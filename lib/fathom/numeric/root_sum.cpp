@@ -1,10 +1,14 @@
 #include "fathom/numeric/root_sum.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <memory>
+#include <unordered_map>
 #include <utility>
 
 #include "fathom/numeric/integer.h"
+#include "fathom/numeric/ratio_sum.h"
 
 namespace fathom {
 namespace {
@@ -47,6 +51,95 @@ long size_of(const Ratio& factor, const Dyadic& radicand) {
   return factor.numerator.top() - factor.denominator.top() + 1 + radicand.top() / 2 + 1;
 }
 
+/// For each of some primes, whether a number is a square modulo this prime. Numbers whose product is
+/// a square have the same bits, if no prime divides one of them.
+struct ResidueBits {
+  std::uint32_t bits = 0;
+  bool is_complete = true;
+};
+
+/// Any odd primes are right. Large ones divide a number seldom.
+std::array<unsigned long, 32> residue_primes() {
+  std::array<unsigned long, 32> primes{};
+  Integer prime;
+  mpz_set_ui(prime, 1UL << 31);
+  for (unsigned long& each : primes) {
+    mpz_nextprime(prime, prime);
+    each = mpz_get_ui(prime);
+  }
+  return primes;
+}
+
+ResidueBits residues_of(const Dyadic& x) {
+  static const std::array<unsigned long, 32> primes = residue_primes();
+  Integer m;
+  long exponent = 0;
+  to_even_exponent(x, m, exponent);
+  ResidueBits residues;
+  for (const unsigned long prime : primes) {
+    const int symbol = mpz_kronecker_ui(m, prime);
+    residues.bits = residues.bits << 1 | (symbol > 0 ? 1U : 0U);
+    if (symbol == 0) residues.is_complete = false;
+  }
+  return residues;
+}
+
+/// Positive numbers by classes: the product of two numbers of one class is a square. The bits of a
+/// number lead to its class, so that n numbers take about n steps.
+class SquareClasses {
+ public:
+  /// A class, and the root of the product of a number and the representative of the class.
+  struct Found {
+    std::size_t index;
+    Dyadic common;
+  };
+
+  [[nodiscard]] std::optional<Found> find(const Dyadic& number) const {
+    const ResidueBits residues = residues_of(number);
+    if (!residues.is_complete) {
+      for (std::size_t k = 0; k < representatives_.size(); ++k) {
+        if (auto common = root_with(k, number)) return Found{k, *common};
+      }
+      return std::nullopt;
+    }
+    const auto same = by_residues_.find(residues.bits);
+    if (same != by_residues_.end()) {
+      if (auto found = find_among(same->second, number)) return found;
+    }
+    return find_among(incomplete_, number);
+  }
+
+  /// Makes a class.
+  /// Needs    a number that belongs to no class.
+  void add(const Dyadic& number) {
+    const ResidueBits residues = residues_of(number);
+    auto& others = residues.is_complete ? by_residues_[residues.bits] : incomplete_;
+    others.push_back(representatives_.size());
+    representatives_.push_back(number);
+  }
+
+  [[nodiscard]] const Dyadic& representative(std::size_t index) const {
+    return representatives_[index];
+  }
+
+ private:
+  [[nodiscard]] std::optional<Dyadic> root_with(std::size_t index, const Dyadic& number) const {
+    return exact_root(representatives_[index] * number);
+  }
+  [[nodiscard]] std::optional<Found> find_among(const std::vector<std::size_t>& some,
+                                                const Dyadic& number) const {
+    for (const std::size_t index : some) {
+      if (auto common = root_with(index, number)) return Found{index, *common};
+    }
+    return std::nullopt;
+  }
+
+  std::vector<Dyadic> representatives_;
+  std::unordered_map<std::uint32_t, std::vector<std::size_t>> by_residues_;
+  /// Classes of whose representative a prime is a divisor.
+  std::vector<std::size_t> incomplete_;
+};
+
 }  // namespace
 
 std::optional<Dyadic> exact_root(const Dyadic& x) {
@@ -65,20 +158,25 @@ void RootSum::add(Ratio q, Dyadic r) {
 
 // √r = √s · √(r·s) / s.
 std::vector<RootSum::Term> RootSum::by_classes() const {
-  std::vector<Term> classes;
+  SquareClasses classes;
+  std::vector<std::vector<Ratio>> factors;
   for (const Term& term : terms_) {
-    bool is_known = false;
-    for (Term& its : classes) {
-      const std::optional<Dyadic> common = exact_root(term.radicand * its.radicand);
-      if (!common) continue;
-      its.factor = its.factor + term.factor * Ratio(*common, its.radicand);
-      is_known = true;
-      break;
+    if (const auto same = classes.find(term.radicand)) {
+      factors[same->index].push_back(term.factor *
+                                     Ratio(same->common, classes.representative(same->index)));
+    } else {
+      classes.add(term.radicand);
+      factors.push_back({term.factor});
     }
-    if (!is_known) classes.push_back(term);
   }
-  std::erase_if(classes, [](const Term& term) { return term.factor.sign() == Sign::zero; });
-  return classes;
+  std::vector<Term> result;
+  for (std::size_t k = 0; k < factors.size(); ++k) {
+    Ratio factor = sum_of(std::move(factors[k]));
+    if (factor.sign() != Sign::zero) {
+      result.push_back({std::move(factor), classes.representative(k)});
+    }
+  }
+  return result;
 }
 
 Enclosure RootSum::enclose(long bits) const {
@@ -120,10 +218,7 @@ Real quotient(const RootSum& a, const RootSum& b) {
             for (long more = bits;; more *= 2) {
               const Enclosure over = sums->first.enclose(more), under = sums->second.enclose(more);
               if (under.low.sign() != Sign::positive) continue;
-              const bool falls = over.low.sign() == Sign::negative;
-              const bool rises = over.high.sign() == Sign::positive;
-              return Enclosure{quotient(over.low, falls ? under.low : under.high),
-                               quotient(over.high, rises ? under.low : under.high)};
+              return quotient(over, under);
             }
           },
           [sums]() -> std::optional<Ratio> {
@@ -132,15 +227,15 @@ Real quotient(const RootSum& a, const RootSum& b) {
                                              of_under = under.by_classes();
             if (of_over.empty()) return Ratio();
             if (of_over.size() != of_under.size()) return std::nullopt;
+            SquareClasses classes;
+            for (const RootSum::Term& term : of_over) classes.add(term.radicand);
             std::optional<Ratio> result;
             for (const RootSum::Term& term : of_under) {
-              std::optional<Ratio> its;
-              for (const RootSum::Term& other : of_over) {
-                const auto common = exact_root(term.radicand * other.radicand);
-                if (common)
-                  its = quotient(other.factor * Ratio(*common, term.radicand), term.factor);
-              }
-              if (!its || (result && !(*its == *result))) return std::nullopt;
+              const auto same = classes.find(term.radicand);
+              if (!same) return std::nullopt;
+              const Ratio& factor = of_over[same->index].factor;
+              const Ratio its = quotient(factor * Ratio(same->common, term.radicand), term.factor);
+              if (result && !(its == *result)) return std::nullopt;
               result = its;
             }
             return result;
