@@ -5,10 +5,10 @@
 
 #include "fathom/camera/camera_making_internal.h"
 #include "fathom/camera/focal_length.h"
+#include "fathom/camera/sine_cosine.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/numeric/trigonometry.h"
 
 namespace fathom {
 namespace camera {
@@ -19,41 +19,6 @@ constexpr std::uint32_t longest_path = 1'000'000;
 
 void expect(bool holds, const std::string& message) {
   if (!holds) throw UsageError(message);
-}
-
-/// A sine or cosine: its magnitude, and itself, rounded once.
-struct Signed {
-  Real magnitude;
-  double rounded;
-
-  Signed operator-() const { return {magnitude, -rounded}; }
-};
-
-struct SineCosine {
-  Signed sine, cosine;
-};
-
-SineCosine sine_and_cosine(double degrees) {
-  int quarter = 0;
-  const double rest = std::remquo(degrees, 90.0, &quarter);
-  const Real sine = sine_of_degrees(std::abs(rest)), cosine = cosine_of_degrees(std::abs(rest));
-  const Signed s{sine, std::copysign(round_to_binary64(sine), rest)};
-  const Signed c{cosine, round_to_binary64(cosine)};
-  switch (quarter & 3) {
-    case 0:
-      return {s, c};
-    case 1:
-      return {c, -s};
-    case 2:
-      return {-s, -c};
-    default:
-      return {-c, s};
-  }
-}
-
-/// a·b, rounded once. The product of the rounded ones has its sign, also where it is 0.
-double product(const Signed& a, const Signed& b) {
-  return std::copysign(round_product_to_binary64(a.magnitude, b.magnitude), a.rounded * b.rounded);
 }
 
 ExactVector3 exactly(const Vector3& v) {
@@ -131,8 +96,8 @@ Matrix3 rotation_of(const View& view) {
   const auto [se, ce] = sine_and_cosine(view.elevation);
   // In the frame of `up` the eye is at (ce·sa, se, ce·ca) from what it looks at.
   const Matrix3 turn{{{ca.rounded, 0, -sa.rounded},
-                      {product(se, sa), -ce.rounded, product(se, ca)},
-                      {product(-ce, sa), -se.rounded, product(-ce, ca)}}};
+                      {rounded_product(se, sa), -ce.rounded, rounded_product(se, ca)},
+                      {rounded_product(-ce, sa), -se.rounded, rounded_product(-ce, ca)}}};
   const Matrix3 frame = frame_of(view.up);
   Matrix3 R;
   for (int i = 0; i < 3; ++i)
