@@ -198,14 +198,18 @@ void add_range_options(Command& command, LensChoice& lens) {
                  "Farthest depth that is rendered (default inf)");
 }
 
-void CameraChanges::add_to(Command& command) {
-  command.option("--near", "D", into(near_, parse_number),
-                 "Nearest depth that is rendered (default: as in the camera file, or 0)");
-  command.option("--far", "D", into(far_, parse_number_or_infinity),
-                 "Farthest depth that is rendered (default: as in the camera file, or inf)");
-  command.option("--scale", "FACTOR", into(scale_, parse_scale),
-                 "Scale the image, e.g. 0.5 for half its width and height: the same view, with "
-                 "fx, fy, cx, cy and skew scaled exactly");
+std::vector<Option> CameraChanges::add_to(Command& command) {
+  const Option near =
+      command.option("--near", "D", into(near_, parse_number),
+                     "Nearest depth that is rendered (default: as in the camera file, or 0)");
+  const Option far =
+      command.option("--far", "D", into(far_, parse_number_or_infinity),
+                     "Farthest depth that is rendered (default: as in the camera file, or inf)");
+  const Option scale =
+      command.option("--scale", "FACTOR", into(scale_, parse_scale),
+                     "Scale the image, e.g. 0.5 for half its width and height: the same view, with "
+                     "fx, fy, cx, cy and skew scaled exactly");
+  return {near, far, scale};
 }
 
 std::vector<Camera> CameraChanges::applied(std::vector<Camera> cameras) const {
@@ -237,11 +241,21 @@ void CameraOptions::add_to(Command& command) {
   const Option camera = command.option("--camera", "FILE", take_file,
                                        "Camera file (JSON), or a map, which contains its camera "
                                        "(default: a camera that frames the scene)");
-  for (Option& framing : add_view_options(command, view_)) framing.excludes(camera);
+  options_ = {camera};
+  for (Option& framing : add_view_options(command, view_)) {
+    options_.push_back(framing.excludes(camera));
+  }
   std::vector<Option> parts = add_lens_options(command, lens_);
   size_ = parts.front();  // refused with another message
   for (std::size_t i = 1; i < parts.size(); ++i) parts[i].excludes(camera);
-  changes_.add_to(command);
+  options_.insert(options_.end(), parts.begin(), parts.end());
+  const std::vector<Option> changes = changes_.add_to(command);
+  options_.insert(options_.end(), changes.begin(), changes.end());
+}
+
+std::optional<std::string> CameraOptions::given() const {
+  const auto found = std::ranges::find_if(options_, [](const Option& o) { return o.is_given(); });
+  return found == options_.end() ? std::nullopt : std::optional(found->name());
 }
 
 std::vector<Camera> CameraOptions::get(const Scene& scene, const ReadLimits& limits,

@@ -42,7 +42,7 @@ void add_range_options(Command& command, LensChoice& lens);
 /// `--near --far --scale`: changes of cameras from a file.
 class CameraChanges {
  public:
-  void add_to(Command& command);
+  std::vector<Option> add_to(Command& command);
   /// Fails    UsageError where a camera would have no depth range; as scaled().
   [[nodiscard]] std::vector<Camera> applied(std::vector<Camera> cameras) const;
   /// The lens of a camera that is made, with this depth range.
@@ -59,6 +59,8 @@ class CameraOptions {
   void add_to(Command& command);
   /// Whether the cameras come from a file.
   [[nodiscard]] bool from_file() const { return !file_.empty(); }
+  /// The name of one of these options that is given, for a command that may take no camera.
+  [[nodiscard]] std::optional<std::string> given() const;
   /// `limits` bound the files that the camera file may name. Warnings of the file go to the
   /// console.
   /// Fails with InputError where the file holds no camera, or the scene no triangle to frame.
@@ -74,6 +76,7 @@ class CameraOptions {
   LensChoice lens_;
   CameraChanges changes_;
   std::optional<Option> size_;
+  std::vector<Option> options_;
 };
 
 /// The cameras of a camera file, or the camera that a map carries, each without fault; warnings go

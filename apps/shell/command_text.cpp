@@ -65,7 +65,8 @@ CommandText text_of(const CLI::App& command) {
   const std::vector<const CLI::Option*> options = command.get_options();
   for (const bool arguments : {true, false}) {
     for (const CLI::Option* option : options) {
-      if (option->get_positional() == arguments)
+      // Options without a heading are refused with a reason, and stand in no list.
+      if (option->get_positional() == arguments && !option->get_group().empty())
         text.options.push_back(option_text(*option, options));
     }
   }

@@ -1,7 +1,10 @@
 #include "apps/surfaces/light_list.h"
 
 #include <algorithm>
+#include <set>
+#include <string_view>
 
+#include "fathom/camera/compass.h"
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
 #include "fathom/text/counted.h"
@@ -16,6 +19,7 @@ namespace {
 /// The fields of a line of CSV (RFC 4180); quotes are taken off, and "" in quotes is one.
 std::vector<std::string> fields_of(std::string_view line, const text::TextCursor& cursor) {
   std::vector<std::string> fields;
+  line = text::trimmed(line);  // a carriage return may follow a quote
   while (true) {
     std::string& field = fields.emplace_back();
     const std::size_t start = line.find_first_not_of(" \t");
@@ -53,40 +57,88 @@ double number_of(const std::string& field, const text::TextCursor& cursor) {
 
 /// Where the columns are.
 struct Columns {
-  std::array<std::size_t, 3> numbers{};
+  /// Of x, y and z; or of azimuth and elevation.
+  std::vector<std::size_t> numbers;
   std::vector<std::size_t> others;
   std::size_t count = 0;
 };
 
-Columns columns_of(const std::vector<std::string>& headings, const text::TextCursor& cursor) {
-  Columns columns;
-  columns.count = headings.size();
-  std::array<int, 3> found{};
-  for (std::size_t k = 0; k < headings.size(); ++k) {
-    const std::size_t axis = headings[k] == "x" ? 0 : headings[k] == "y" ? 1 : 2;
-    if (axis < 2 || headings[k] == "z") {
-      columns.numbers[axis] = k;
-      ++found[axis];
-    } else {
-      columns.others.push_back(k);
-    }
+using Headings = std::vector<std::string>;
+
+void expect_distinct(const Headings& headings, const text::TextCursor& cursor) {
+  std::set<std::string> names;
+  for (const std::string& heading : headings) {
+    const std::string name = text::printable(heading);
+    if (!names.insert(name).second) cursor.fail("the column '" + name + "' is there twice");
   }
-  if (found != std::array{1, 1, 1}) {
-    cursor.fail("expected a heading with one column x, one y and one z");
+}
+
+/// The places of some columns; none if a column is missing.
+std::vector<std::size_t> places_of(const Headings& wanted, const Headings& headings) {
+  std::vector<std::size_t> places;
+  for (const std::string& name : wanted) {
+    const auto found = std::ranges::find(headings, name);
+    if (found == headings.end()) return {};
+    places.push_back(static_cast<std::size_t>(found - headings.begin()));
+  }
+  return places;
+}
+
+Columns columns_of(const Headings& headings, LightList::Kind kind, const text::TextCursor& cursor) {
+  expect_distinct(headings, cursor);
+  const bool takes_angles = kind == LightList::Kind::directions;
+  const std::vector<std::size_t> vector = places_of({"x", "y", "z"}, headings);
+  const std::vector<std::size_t> angles =
+      takes_angles ? places_of({"azimuth", "elevation"}, headings) : std::vector<std::size_t>();
+  if (!vector.empty() && !angles.empty()) {
+    cursor.fail("expected x, y and z or azimuth and elevation, found both");
+  }
+  if (vector.empty() && angles.empty()) {
+    cursor.fail(takes_angles
+                    ? "expected a heading with the columns x, y and z, or azimuth and elevation"
+                    : "expected a heading with the columns x, y and z");
+  }
+  Columns columns{vector.empty() ? angles : vector, {}, headings.size()};
+  for (std::size_t k = 0; k < headings.size(); ++k) {
+    const bool is_of_vector = std::ranges::find(vector, k) != vector.end();
+    if (!is_of_vector) columns.others.push_back(k);
   }
   return columns;
 }
 
+std::array<double, 3> direction_of(double azimuth, double elevation,
+                                   const text::TextCursor& cursor) {
+  try {
+    return compass_direction(azimuth, elevation);
+  } catch (const UsageError& error) {
+    cursor.fail(error.what());
+  }
+}
+
+LightList::Light light_of(const std::vector<std::string>& fields, const Columns& columns,
+                          LightList::Kind kind, const text::TextCursor& cursor) {
+  LightList::Light light;
+  light.line = cursor.line();
+  std::vector<double> numbers;
+  for (const std::size_t k : columns.numbers) numbers.push_back(number_of(fields[k], cursor));
+  light.numbers = numbers.size() == 2 ? direction_of(numbers[0], numbers[1], cursor)
+                                      : std::array{numbers[0], numbers[1], numbers[2]};
+  const bool is_zero = light.numbers == std::array{0.0, 0.0, 0.0};
+  if (is_zero && kind == LightList::Kind::directions) cursor.fail("the direction is 0");
+  for (const std::size_t k : columns.others) light.fields.push_back(fields[k]);
+  return light;
+}
+
 }  // namespace
 
-LightList read_lights(const std::string& file) {
+LightList read_lights(const std::string& file, LightList::Kind kind) {
   const files::InputFile input(file);
-  const std::string name = text::printable(file);
-  text::TextCursor cursor(input.text(), name, {});
   LightList list;
-  if (!cursor.next_line_with_words()) throw InputError(name + ": is empty");
-  const std::vector<std::string> headings = fields_of(cursor.rest_of_line(), cursor);
-  const Columns columns = columns_of(headings, cursor);
+  list.file = text::printable(file);
+  text::TextCursor cursor(input.text(), list.file, {});
+  if (!cursor.next_line_with_words()) throw InputError(list.file + ": is empty");
+  const Headings headings = fields_of(cursor.rest_of_line(), cursor);
+  const Columns columns = columns_of(headings, kind, cursor);
   for (const std::size_t k : columns.others) list.headings.push_back(headings[k]);
   for (cursor.skip_line(); cursor.next_line_with_words(); cursor.skip_line()) {
     const std::vector<std::string> fields = fields_of(cursor.rest_of_line(), cursor);
@@ -94,13 +146,9 @@ LightList read_lights(const std::string& file) {
       cursor.fail("expected " + text::counted(columns.count, "field") + ", found " +
                   std::to_string(fields.size()));
     }
-    LightList::Light& light = list.lights.emplace_back();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      light.numbers[axis] = number_of(fields[columns.numbers[axis]], cursor);
-    }
-    for (const std::size_t k : columns.others) light.fields.push_back(fields[k]);
+    list.lights.push_back(light_of(fields, columns, kind, cursor));
   }
-  if (list.lights.empty()) throw InputError(name + ": has a heading and no line");
+  if (list.lights.empty()) throw InputError(list.file + ": has a heading and no line");
   return list;
 }
 

@@ -1,27 +1,34 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace fathom::app {
 
-/// Directions or points from a CSV file, and what else it says of each.
+/// Directions or points from a CSV file, and the other columns of each.
 struct LightList {
-  /// Of the other columns, in their order.
+  enum class Kind { directions, points };
+
+  /// For messages.
+  std::string file;
+  /// Of the other columns, in their order; each is there once.
   std::vector<std::string> headings;
   struct Light {
     std::array<double, 3> numbers{};
     /// The text of the other columns, as it is in the file.
     std::vector<std::string> fields;
+    std::uint64_t line = 0;
   };
   std::vector<Light> lights;
 };
 
-/// Reads a CSV file with a heading that has the columns x, y and z, in any order. Each number is
-/// rounded once to binary64. No field contains a line break.
-/// Fails    InputError "FILE: line N: …": a missing column, a line of another length, a number that
-///          is not finite, no light.
-LightList read_lights(const std::string& file);
+/// Reads a CSV file with a heading that has the columns x, y and z, in any order, or, for
+/// directions, azimuth and elevation (fathom/camera/compass.h), which are other columns too. Each
+/// number is rounded once to binary64. No field contains a line break.
+/// Fails    InputError "FILE: line N: …": a missing column, a column that is there twice, a line of
+///          another length, a number that is not finite, a direction that is 0, no light.
+LightList read_lights(const std::string& file, LightList::Kind kind);
 
 }  // namespace fathom::app
