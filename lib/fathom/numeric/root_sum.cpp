@@ -51,8 +51,8 @@ long size_of(const Ratio& factor, const Dyadic& radicand) {
   return factor.numerator.top() - factor.denominator.top() + 1 + radicand.top() / 2 + 1;
 }
 
-/// For each of some primes, whether a number is a square modulo this prime. Numbers whose product is
-/// a square have the same bits, if no prime divides one of them.
+/// For each of some primes, whether a number is a square modulo this prime. Numbers whose product
+/// is a square have the same bits, if no prime divides one of them.
 struct ResidueBits {
   std::uint32_t bits = 0;
   bool is_complete = true;
