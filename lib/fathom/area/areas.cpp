@@ -1,8 +1,7 @@
 #include "fathom/area/areas.h"
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
+#include <bit>
+#include <functional>
 #include <numeric>
 #include <utility>
 
