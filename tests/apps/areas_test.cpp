@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "apps/surfaces/area_table.h"
 #include "apps/surfaces/light_list.h"
@@ -128,11 +129,17 @@ TEST(AreaTableFormat, IsThatOfTheSuffix) {
 
 /// Items of which one is hidden, one so small that its area is 0, and one too large.
 struct Example {
+  static LitArea of(double lit, const std::optional<Numbers>& centroid) {
+    LitArea area;
+    area.lit = lit;
+    area.centroid = centroid;
+    return area;
+  }
+
   AreaItems items{{{0, "hidden", {}, {}}, {1, "small", {}, {}}, {2, "large", {}, {}}}, {}};
   std::vector<LitArea> areas{
-      {.lit = 0},
-      {.lit = 0, .centroid = std::array{1.0, 2.0, 3.0}},
-      {.lit = std::numeric_limits<double>::infinity(), .centroid = std::array{0.0, 0.0, 0.0}}};
+      of(0, std::nullopt), of(0, std::array{1.0, 2.0, 3.0}),
+      of(std::numeric_limits<double>::infinity(), std::array{0.0, 0.0, 0.0})};
   LightList lights{"suns.csv", {"name", "light_name"}, {{{1, 0, 0}, {"noon", "other"}, 2}}};
 
   std::string whole(const AreaTable::Form& form) const {
