@@ -5,6 +5,7 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/rays/cast.h"
+#include "fathom/rays/ray_tree.h"
 #include "tests/inputs/scene_building.h"
 
 namespace fathom::rays {
@@ -74,6 +75,87 @@ TEST(Cast, PrefersTheLowerNumberOfEqualTriangles) {
   EXPECT_EQ(cast_one(scene, {{1, 3, 0}, {0, 0, 1}}), (RayHit{1, 4}));
   const auto all = all_hits(RayScene(scene), std::array{Ray{{1, 3, 0}, {0, 0, 1}}});
   EXPECT_EQ(all.hits, (std::vector<RayHit>{{1, 4}, {3, 4}}));
+}
+
+/// A triangle at z = 4 that faces down, `copies` times, and after each copy one at z = 5.
+Scene crowd(std::uint32_t copies) {
+  std::vector<CornerIndices> triangles;
+  for (std::uint32_t i = 0; i < copies; ++i) {
+    triangles.push_back({0, 2, 1});
+    triangles.push_back({3, 5, 4});
+  }
+  return testing::scene_of({{0, 0, 4}, {4, 0, 4}, {0, 4, 4}, {0, 0, 5}, {4, 0, 5}, {0, 4, 5}},
+                           std::move(triangles));
+}
+
+TEST(Cast, CountsEachTriangleOfACrowd) {
+  constexpr std::uint32_t copies = 3000;
+  const Scene scene = crowd(copies);
+  const RayScene prepared(scene);
+  EXPECT_EQ(prepared.tree().repetition_count(), 2 * (copies - 1));
+  // Through the inside, and through the corner that belongs to the triangles.
+  for (const Ray& ray : {Ray{{1, 1, 0}, {0, 0, 1}}, Ray{{0, 0, 0}, {0, 0, 1}}}) {
+    const std::array rays{ray};
+    EXPECT_EQ(cast(prepared, rays).front(), (RayHit{0, 4}));
+    EXPECT_EQ(cast(prepared, rays, {.segment = {4.5}}).front(), (RayHit{1, 5}));
+    EXPECT_TRUE(occluded(prepared, rays).front());
+    EXPECT_EQ(count_hits(prepared, rays).front(), 2 * copies);
+    const RayHitLists all = all_hits(prepared, rays);
+    ASSERT_EQ(all.hits.size(), 2 * copies);
+    for (std::uint32_t i = 0; i < copies; ++i) {
+      EXPECT_EQ(all.hits[i], (RayHit{2 * i, 4}));
+      EXPECT_EQ(all.hits[copies + i], (RayHit{2 * i + 1, 5}));
+    }
+  }
+}
+
+TEST(Cast, CountsCrowdsInWindingNumbers) {
+  // Around the origin, ten times.
+  std::vector<CornerIndices> triangles;
+  for (int i = 0; i < 10; ++i)
+    triangles.insert(triangles.end(), {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}});
+  const Scene scene =
+      testing::scene_of({{-1, -1, -1}, {3, -1, -1}, {-1, 3, -1}, {-1, -1, 3}}, triangles);
+  const std::vector<std::array<double, 3>> points{{0, 0, 0}, {9, 0, 0}, {-9, 0, 0}};
+  EXPECT_EQ(winding_numbers(RayScene(scene), points), (std::vector<std::int64_t>{10, 0, 0}));
+}
+
+/// The first object once more, moved by 2⁻⁶⁰ along z: too little for binary64.
+Scene nearly_equal_objects() {
+  Scene scene = testing::scene_of({{0, 0, 4}, {4, 0, 4}, {0, 4, 4}}, {{0, 1, 2}});
+  for (int i = 0; i < 6; ++i) {
+    Object& moved = scene.objects.emplace_back(scene.objects[0]);
+    moved.world_from_mesh.rows[2][3] = -std::ldexp(1.0, -60);
+    moved.placed_as_is = false;
+  }
+  return scene;
+}
+
+TEST(Cast, TellsTrianglesApartThatAreEqualInBinary64) {
+  const Scene scene = nearly_equal_objects();
+  const RayScene prepared(scene);
+  EXPECT_EQ(cast(prepared, std::array{Ray{{1, 1, 0}, {0, 0, 1}}}).front(), (RayHit{1, 4}));
+  const auto all = all_hits(prepared, std::array{Ray{{1, 1, 0}, {0, 0, 1}}}).hits;
+  EXPECT_EQ(all, (std::vector<RayHit>{{1, 4}, {2, 4}, {3, 4}, {4, 4}, {5, 4}, {6, 4}, {0, 4}}));
+}
+
+TEST(RayTree, KnowsWhichObjectsHaveExactCorners) {
+  const Scene scene = nearly_equal_objects();
+  const RayScene prepared(scene);
+  EXPECT_TRUE(prepared.tree().has_exact_corners(0));
+  EXPECT_FALSE(prepared.tree().has_exact_corners(1));
+}
+
+TEST(RayTree, IgnoresAVertexWithoutATriangle) {
+  Scene scene = square();
+  const long power = RayScene(scene).tree().power();
+  auto vertices =
+      std::vector<MeshPoint>(scene.meshes[0].vertices.begin(), scene.meshes[0].vertices.end());
+  vertices.push_back({1e300, 0, 0});
+  scene.meshes[0].vertices = std::move(vertices);
+  const RayScene prepared(scene);
+  EXPECT_EQ(prepared.tree().power(), power);
+  EXPECT_EQ(cast(prepared, std::array{Ray{{1, 3, 0}, {0, 0, 1}}}).front(), (RayHit{1, 4}));
 }
 
 TEST(Cast, MeetsNothingInAnEmptyScene) {

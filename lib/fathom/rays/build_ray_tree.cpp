@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "fathom/rays/ray_tree.h"
+#include "fathom/rays/repeated_triangles.h"
 #include "fathom/rays/split_elements.h"
 #include "fathom/rays/tree_elements.h"
 #include "fathom/threads/threads.h"
@@ -15,6 +16,7 @@ template <class Stored>
 struct Branch {
   std::vector<TreeNode> nodes;
   std::vector<TriangleBlock<Stored>> blocks;
+  std::vector<Repetition> repeated;
 
   /// Returns the number that its first node has here.
   std::uint32_t append(Branch branch) {
@@ -26,6 +28,7 @@ struct Branch {
     }
     nodes.insert(nodes.end(), branch.nodes.begin(), branch.nodes.end());
     blocks.insert(blocks.end(), branch.blocks.begin(), branch.blocks.end());
+    repeated.insert(repeated.end(), branch.repeated.begin(), branch.repeated.end());
     return first_node;
   }
 };
@@ -38,10 +41,13 @@ constexpr std::size_t levels_by_area = RayTree::most_levels - 34;
 template <class Stored>
 class Builder {
  public:
-  explicit Builder(const PlacedTriangles& triangles) : triangles_(triangles) {}
+  Builder(const PlacedTriangles& triangles, const TriangleSource& source)
+      : triangles_(triangles), source_(source) {}
 
   /// Adds the node of these elements and all below it; returns its number.
   std::uint32_t add_node(Elements elements, std::size_t level, Branch<Stored>& to) const {
+    if (is_crowd(elements))
+      elements = without_repetitions(elements, triangles_, source_, to.repeated);
     const std::vector<Part> parts = split_into_children(elements, level > levels_by_area);
     const auto number = static_cast<std::uint32_t>(to.nodes.size());
     to.nodes.emplace_back();
@@ -82,6 +88,7 @@ class Builder {
   }
 
   const PlacedTriangles& triangles_;
+  const TriangleSource& source_;
 };
 
 }  // namespace
@@ -102,6 +109,11 @@ std::array<Vector, 3> RayTree::corners(std::size_t place) const {
   return result;
 }
 
+std::span<const Repetition> RayTree::repetitions(std::uint32_t first) const {
+  if (repeated_.empty()) return {};
+  return std::ranges::equal_range(repeated_, first, {}, &Repetition::first);
+}
+
 TreeNode::TreeNode() {
   for (auto& side : lower) side.fill(beyond_all);
   for (auto& side : upper) side.fill(-beyond_all);
@@ -115,12 +127,14 @@ RayTree::RayTree(const TriangleSource& source)
   std::vector<Element> elements = elements_of(source, triangles, corner_error_);
   if (elements.empty()) return;
   is_in_binary32_ = are_in_binary32(triangles);
-  has_exact_corners_ = corner_error_ == 0 && is_scaled_exactly(source, power_);
+  has_exact_corners_ = objects_with_exact_corners(source, power_);
   const auto build = [&]<class Stored>(std::vector<TriangleBlock<Stored>>& blocks) {
     Branch<Stored> all;
-    Builder<Stored>(triangles).add_node(elements, 1, all);
+    Builder<Stored>(triangles, source).add_node(elements, 1, all);
     nodes_ = std::move(all.nodes);
     blocks = std::move(all.blocks);
+    repeated_ = std::move(all.repeated);
+    std::ranges::sort(repeated_);
     nodes_.shrink_to_fit();
     blocks.shrink_to_fit();
   };

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "fathom/numeric/round_outwards.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/rays/ray_bounds.h"
-#include "fathom/rays/round_outwards.h"
 
 namespace fathom::rays {
 namespace {
@@ -35,6 +36,7 @@ void Candidates::begin(const Ray& given, const WalkRay& ray) {
   ray_ = &ray;
   exact_ray_.reset();
   hits_.clear();
+  exact_ts_.clear();
   least_upper_ = infinity;
   last_ = ray.last;
 }
@@ -45,10 +47,12 @@ const ExactRay& Candidates::exact_ray() {
 }
 
 std::optional<Candidates::Hit> Candidates::settle(const TestedTriangle& triangle) {
-  const std::optional<ExactHit> hit = meet(exact_ray(), source_.world_corners(triangle.number));
+  std::optional<ExactHit> hit = meet(exact_ray(), source_.world_corners(triangle.number));
   if (!hit || !is_kept(hit->side, options_.cull) || !counts(hit->t, options_.segment))
     return std::nullopt;
-  return Hit{triangle.number, triangle.place, hit->side, s_of(*ray_, enclose(hit->t))};
+  const Interval s = s_of(*ray_, enclose(hit->t));
+  exact_ts_.insert_or_assign(triangle.number, std::move(hit->t));
+  return Hit{triangle.number, triangle.number, triangle.place, hit->side, s};
 }
 
 bool Candidates::offer(const TestedTriangle& triangle) {
@@ -59,12 +63,19 @@ bool Candidates::offer(const TestedTriangle& triangle) {
   if (triangle.is_met && s.lower > ray_->segment_first.upper &&
       s.upper < ray_->segment_last.lower) {
     const Sign side = triangle.w < 0 ? Sign::negative : Sign::positive;
-    if (is_kept(side, options_.cull)) hit = {triangle.number, triangle.place, side, s};
+    if (is_kept(side, options_.cull))
+      hit = {triangle.number, triangle.number, triangle.place, side, s};
   } else {
     hit = settle(triangle);
   }
   if (!hit) return false;
   hits_.push_back(*hit);
+  if (question_ == Question::all) {
+    for (const Repetition& repetition : tree_.repetitions(triangle.number)) {
+      hits_.push_back(*hit);
+      hits_.back().triangle = repetition.number;
+    }
+  }
   if (question_ == Question::nearest && hit->s.upper < least_upper_) {
     least_upper_ = hit->s.upper;
     last_ = std::min(last_, round_up(least_upper_) * (1 + bounds::far_room));
@@ -72,15 +83,18 @@ bool Candidates::offer(const TestedTriangle& triangle) {
   return question_ == Question::any;
 }
 
+const Ratio& Candidates::exact_t(const Hit& hit) {
+  const auto known = exact_ts_.find(hit.first);
+  if (known != exact_ts_.end()) return known->second;
+  Ratio t = require_hit(exact_ray(), source_.world_corners(hit.first)).t;
+  return exact_ts_.emplace(hit.first, std::move(t)).first->second;
+}
+
 /// Where the intervals do not decide, exact numbers do.
 bool Candidates::is_before(const Hit& a, const Hit& b) {
   if (a.s.upper < b.s.lower) return true;
   if (b.s.upper < a.s.lower) return false;
-  if (a.triangle == b.triangle) return false;
-  const auto t_of = [&](const Hit& hit) {
-    return require_hit(exact_ray(), source_.world_corners(hit.triangle)).t;
-  };
-  const int order = compare(t_of(a), t_of(b));
+  const int order = a.first == b.first ? 0 : compare(exact_t(a), exact_t(b));
   return order < 0 || (order == 0 && a.triangle < b.triangle);
 }
 

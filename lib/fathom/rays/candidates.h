@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "fathom/rays/exact_ray.h"
+#include "fathom/rays/ray_tree.h"
 #include "fathom/rays/walk_ray.h"
 
 namespace fathom::rays {
@@ -30,8 +32,9 @@ struct TestedTriangle {
 /// they are offered, the order of hits at the end.
 class Candidates {
  public:
-  Candidates(const TriangleSource& source, const CastOptions& options, Question question)
-      : source_(source), options_(options), question_(question) {}
+  Candidates(const TriangleSource& source, const RayTree& tree, const CastOptions& options,
+             Question question)
+      : source_(source), tree_(tree), options_(options), question_(question) {}
 
   /// Forgets all hits and begins with a ray; both must stay as they are meanwhile.
   void begin(const Ray& given, const WalkRay& ray);
@@ -43,20 +46,24 @@ class Candidates {
 
   struct Hit {
     std::uint32_t triangle = 0;
+    /// The triangle that it repeats, or itself, and where the tree has that.
+    std::uint32_t first = 0;
     std::size_t place = 0;
     /// The sign of n·d.
     Sign side = Sign::zero;
     /// Contains s.
     Interval s;
   };
-  /// Every hit that was found, in no order. Of a question for the nearest, further ones are
-  /// missing.
+  /// The hits that were found, in no order: all if the question is for all. Else further hits and
+  /// repeated triangles are missing.
   [[nodiscard]] const std::vector<Hit>& hits() const { return hits_; }
 
   /// The hit with the least t, among equals the lowest number; nullopt if there is none.
   [[nodiscard]] std::optional<Hit> nearest();
   /// Sorts hits() by t, then by number.
   void sort();
+  /// t of a hit, exactly.
+  [[nodiscard]] const Ratio& exact_t(const Hit& hit);
 
  private:
   [[nodiscard]] const ExactRay& exact_ray();
@@ -64,6 +71,7 @@ class Candidates {
   [[nodiscard]] bool is_before(const Hit& a, const Hit& b);
 
   const TriangleSource& source_;
+  const RayTree& tree_;
   const CastOptions& options_;
   Question question_;
 
@@ -71,6 +79,8 @@ class Candidates {
   const WalkRay* ray_ = nullptr;
   std::optional<ExactRay> exact_ray_;
   std::vector<Hit> hits_;
+  /// Each is computed once, however often it is compared; by Hit::first.
+  std::unordered_map<std::uint32_t, Ratio> exact_ts_;
   /// The least upper end of the s of a hit, and what follows from it.
   double least_upper_ = 0;
   float last_ = 0;

@@ -49,7 +49,7 @@ void for_each_ray(const RayScene& scene, std::span<const Ray> given, const CastO
   for (std::size_t i = 0; i < given.size(); ++i) require_ray(given[i], i);
   const std::size_t pieces = (given.size() + rays_together - 1) / rays_together;
   const auto cast_piece = [&](std::size_t piece) {
-    Candidates candidates(scene.triangles(), options, question);
+    Candidates candidates(scene.triangles(), scene.tree(), options, question);
     const std::size_t first = piece * rays_together;
     for (std::size_t i = first; i < std::min(given.size(), first + rays_together); ++i) {
       check_interruption();
@@ -81,7 +81,8 @@ RayScene::~RayScene() = default;
 std::uint64_t RayScene::bytes() const {
   return tree_->nodes().size() * sizeof(rays::TreeNode) +
          tree_->blocks<float>().size() * sizeof(rays::TriangleBlock<float>) +
-         tree_->blocks<double>().size() * sizeof(rays::TriangleBlock<double>);
+         tree_->blocks<double>().size() * sizeof(rays::TriangleBlock<double>) +
+         tree_->repetition_count() * sizeof(rays::Repetition);
 }
 
 std::vector<RayHit> cast(const RayScene& scene, std::span<const Ray> rays,
@@ -90,7 +91,7 @@ std::vector<RayHit> cast(const RayScene& scene, std::span<const Ray> rays,
   std::vector<RayHit> hits(rays.size());
   for_each_ray(scene, rays, options, Question::nearest, [&](std::size_t i, Candidates& found) {
     if (const auto hit = found.nearest())
-      hits[i] = {hit->triangle, rays::rounded_t(scene.triangles(), scene.tree(), rays[i], *hit)};
+      hits[i] = {hit->triangle, rays::rounded_t(scene, rays[i], found, *hit)};
   });
   return hits;
 }
@@ -124,7 +125,7 @@ RayHitLists all_hits(const RayScene& scene, std::span<const Ray> rays, const Cas
     counts[i] = found.hits().size();
     for (const Candidates::Hit& hit : found.hits())
       of_pieces[i / rays_together].push_back(
-          {hit.triangle, rays::rounded_t(scene.triangles(), scene.tree(), rays[i], hit)});
+          {hit.triangle, rays::rounded_t(scene, rays[i], found, hit)});
   });
   RayHitLists lists;
   lists.splits.resize(rays.size() + 1);

@@ -8,10 +8,6 @@
 namespace fathom::rays {
 namespace {
 
-ExactVector3 difference(const WorldPoint& a, const WorldPoint& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
 /// The sign of s(p→q) = (p − o)×(q − o)·d at the moved origin o + δ, δ = (ε, ε², ε³). It is
 /// s − δ·((q − p) × d), without terms of second order in δ: so where s = 0 the first component that
 /// is not 0 decides. Zero only where q − p is parallel to d.
@@ -27,6 +23,10 @@ ExactVector3 exactly(const std::array<double, 3>& v) {
 }
 
 }  // namespace
+
+ExactVector3 difference(const WorldPoint& a, const WorldPoint& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
 
 ExactRay::ExactRay(const Ray& ray)
     : origin(exactly(ray.origin)), direction(exactly(ray.direction)) {}

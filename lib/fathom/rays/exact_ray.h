@@ -11,6 +11,8 @@
 /// Section 11 of the specification in exact numbers: the referee of every doubtful decision.
 namespace fathom::rays {
 
+ExactVector3 difference(const WorldPoint& a, const WorldPoint& b);
+
 struct ExactRay {
   ExactVector3 origin, direction;
 

@@ -24,6 +24,14 @@ long greatest_top(const Point& p, long greatest) {
   return greatest;
 }
 
+/// By vertex: whether a triangle has it. A vertex without a triangle may be anywhere.
+std::vector<bool> corners_among_vertices(const Mesh& mesh) {
+  std::vector<bool> are_corners(mesh.vertices.size());
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle) are_corners[corner] = true;
+  return are_corners;
+}
+
 /// The least power of a double that is not 0.
 constexpr long least_power = -1100;
 
@@ -32,13 +40,12 @@ constexpr long least_power = -1100;
 long power_of_unit(const TriangleSource& triangles) {
   long power = least_power;
   triangles.for_each_part(0, [&](const TriangleSource::Part& part) {
-    // A vertex without a triangle may be anywhere.
-    for (const auto& triangle : part.mesh.triangles) {
-      for (const std::uint32_t corner : triangle) {
-        const MeshPoint& p = part.mesh.vertices[corner];
-        power = part.object.placed_as_is ? greatest_top(p, power)
-                                         : greatest_top(part.object.world_from_mesh(p), power);
-      }
+    const std::vector<bool> are_corners = corners_among_vertices(part.mesh);
+    for (std::size_t i = 0; i < are_corners.size(); ++i) {
+      if (!are_corners[i]) continue;
+      const MeshPoint& p = part.mesh.vertices[i];
+      power = part.object.placed_as_is ? greatest_top(p, power)
+                                       : greatest_top(part.object.world_from_mesh(p), power);
     }
   });
   return power;

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <array>
+#include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -37,6 +40,13 @@ struct alignas(32) TriangleBlock {
   std::array<std::uint32_t, triangles_together> numbers{};
 };
 
+/// A triangle with the same corners, in the same order, as one of a lower number: a ray meets both
+/// at the same t, from the same side.
+struct Repetition {
+  std::uint32_t first = 0, number = 0;
+  friend auto operator<=>(const Repetition&, const Repetition&) = default;
+};
+
 /// A tree of boxes around the triangles of a scene that have an area. No answer depends on its
 /// shape, which is the same whatever the number of threads.
 /// Source   binned surface-area heuristic [WBB08], with eight children at once
@@ -56,8 +66,14 @@ class RayTree {
   /// The corners of a triangle in the tree's unit, by its place: triangles_together times the
   /// number of its block, and where it is in that.
   [[nodiscard]] std::array<Vector, 3> corners(std::size_t place) const;
-  /// Whether they are exactly the scene's.
-  [[nodiscard]] bool has_exact_corners() const { return has_exact_corners_; }
+  /// Whether those of an object are exactly the scene's.
+  [[nodiscard]] bool has_exact_corners(std::size_t object) const {
+    return has_exact_corners_[object];
+  }
+  /// Triangles that the tree leaves out because they repeat this one, by number. Crowds of equal
+  /// triangles are there once, so that a ray does not test each of them.
+  [[nodiscard]] std::span<const Repetition> repetitions(std::uint32_t first) const;
+  [[nodiscard]] std::size_t repetition_count() const { return repeated_.size(); }
   /// Coordinates are counted in 2 to this power, and are below 1.
   [[nodiscard]] long power() const { return power_; }
   /// How far a coordinate of a corner in a block may be from the exact one, beside what is lost
@@ -73,7 +89,10 @@ class RayTree {
   std::vector<TreeNode> nodes_;
   std::tuple<std::vector<TriangleBlock<float>>, std::vector<TriangleBlock<double>>> blocks_;
   bool is_in_binary32_ = false;
-  bool has_exact_corners_ = false;
+  /// By object.
+  std::vector<bool> has_exact_corners_;
+  /// Sorted.
+  std::vector<Repetition> repeated_;
 };
 
 }  // namespace fathom::rays

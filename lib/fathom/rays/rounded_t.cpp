@@ -6,7 +6,7 @@
 #include "fathom/numeric/certified_value.h"
 #include "fathom/numeric/fused_multiply_add.h"
 #include "fathom/numeric/rounding.h"
-#include "fathom/rays/exact_ray.h"
+#include "fathom/rays/ray_tree.h"
 
 namespace fathom::rays {
 namespace {
@@ -65,14 +65,15 @@ FATHOM_WITH_FMA Certified<WordPair> t_with_fma(const std::array<Vector, 3>& corn
 }
 
 /// In the unit of the tree, with a direction of about 1. nullopt where that is not settled.
-std::optional<double> settled_t(const RayTree& tree, const Ray& ray, std::size_t place) {
-  if (!tree.has_exact_corners()) return std::nullopt;
+std::optional<double> settled_t(const RayScene& scene, const Ray& ray, const Candidates::Hit& hit) {
+  const RayTree& tree = scene.tree();
+  if (!tree.has_exact_corners(scene.triangles().origin(hit.first).object)) return std::nullopt;
   const long direction_power = power_of_direction(ray);
   Vector origin, direction;
   if (!scale_safely(ray.origin, -tree.power(), origin) ||
       !scale_safely(ray.direction, -direction_power, direction))
     return std::nullopt;
-  const std::array<Vector, 3> corners = tree.corners(place);
+  const std::array<Vector, 3> corners = tree.corners(hit.place);
   for (const Vector& corner : corners)
     if (!is_safe(corner)) return std::nullopt;
   static const bool has_fma = processor_has_fma();
@@ -89,10 +90,10 @@ std::optional<double> settled_t(const RayTree& tree, const Ray& ray, std::size_t
 
 }  // namespace
 
-double rounded_t(const TriangleSource& source, const RayTree& tree, const Ray& ray,
+double rounded_t(const RayScene& scene, const Ray& ray, Candidates& found,
                  const Candidates::Hit& hit) {
-  if (const auto settled = settled_t(tree, ray, hit.place)) return *settled;
-  return round_to_binary64(require_hit(ExactRay(ray), source.world_corners(hit.triangle)).t);
+  if (const auto settled = settled_t(scene, ray, hit)) return *settled;
+  return round_to_binary64(found.exact_t(hit));
 }
 
 }  // namespace fathom::rays

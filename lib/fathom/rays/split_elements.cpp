@@ -84,12 +84,24 @@ std::size_t split(const Part& part, bool by_number) {
 
 }  // namespace
 
+bool is_crowd(Elements elements) {
+  const auto has_centre_of_first = [&](const Element& e) {
+    const Element& first = elements.front();
+    return e.centre(0) == first.centre(0) && e.centre(1) == first.centre(1) &&
+           e.centre(2) == first.centre(2);
+  };
+  return std::ranges::all_of(elements, has_centre_of_first);
+}
+
 std::vector<Part> split_into_children(Elements elements, bool by_number) {
   std::vector<Part> parts{Part(elements)};
+  const bool splits_crowds = by_number || is_crowd(elements);
   while (parts.size() < TreeNode::most_children) {
     std::size_t largest = parts.size();
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      if (parts[i].elements.size() > triangles_together &&
+      const bool can_be_split = parts[i].elements.size() > triangles_together &&
+                                (splits_crowds || !is_crowd(parts[i].elements));
+      if (can_be_split &&
           (largest == parts.size() || parts[i].box.area() > parts[largest].box.area()))
         largest = i;
     }

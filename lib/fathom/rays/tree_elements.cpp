@@ -1,10 +1,12 @@
 #include "fathom/rays/tree_elements.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fathom/numeric/certified.h"
+#include "fathom/numeric/round_outwards.h"
+#include "fathom/rays/exact_ray.h"
 #include "fathom/rays/ray_bounds.h"
-#include "fathom/rays/round_outwards.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::rays {
@@ -28,8 +30,7 @@ bool has_area(const PlacedTriangles::Corners& corners, double corner_error,
     if (std::abs(p[i] * r[j] - p[j] * r[i]) > error) return true;
   }
   const auto [a, b, c] = source.world_corners(number);
-  const ExactVector3 n =
-      cross({b.x - a.x, b.y - a.y, b.z - a.z}, {c.x - a.x, c.y - a.y, c.z - a.z});
+  const ExactVector3 n = cross(difference(b, a), difference(c, a));
   return !std::ranges::all_of(n, &Dyadic::is_zero);
 }
 
@@ -64,16 +65,19 @@ std::vector<Element> elements_of(const TriangleSource& source, const PlacedTrian
   return elements;
 }
 
-bool is_scaled_exactly(const TriangleSource& source, long power) {
+std::vector<bool> objects_with_exact_corners(const TriangleSource& source, long power) {
   const double least = std::ldexp(1.0, static_cast<int>(power) - 960);
   const auto is_kept = [&](double x) { return x == 0 || std::abs(x) >= least; };
-  bool are_kept = true;
+  const std::vector<Object>& objects = source.objects();
+  std::vector<bool> are_exact(objects.size(), true);
   source.for_each_part(0, [&](const TriangleSource::Part& part) {
-    are_kept = are_kept && std::ranges::all_of(part.mesh.vertices, [&](const MeshPoint& p) {
-                 return is_kept(p.x) && is_kept(p.y) && is_kept(p.z);
-               });
+    const bool are_kept = part.object.placed_as_is &&
+                          std::ranges::all_of(part.mesh.vertices, [&](const MeshPoint& p) {
+                            return is_kept(p.x) && is_kept(p.y) && is_kept(p.z);
+                          });
+    if (!are_kept) are_exact[static_cast<std::size_t>(&part.object - objects.data())] = false;
   });
-  return are_kept;
+  return are_exact;
 }
 
 bool are_in_binary32(const PlacedTriangles& triangles) {

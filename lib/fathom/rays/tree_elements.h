@@ -45,8 +45,9 @@ struct Element {
 std::vector<Element> elements_of(const TriangleSource& source, const PlacedTriangles& triangles,
                                  double corner_error);
 
-/// Whether the unit of a tree loses nothing of a mesh's coordinates below 2⁻¹⁰⁷⁴.
-bool is_scaled_exactly(const TriangleSource& source, long power);
+/// By object: whether in_unit() is exact for its corners. They are placed as they are, and the unit
+/// loses nothing below 2⁻¹⁰⁷⁴.
+std::vector<bool> objects_with_exact_corners(const TriangleSource& source, long power);
 bool are_in_binary32(const PlacedTriangles& triangles);
 
 }  // namespace fathom::rays

@@ -5,8 +5,8 @@
 
 #include "fathom/numeric/double_word.h"
 #include "fathom/numeric/dyadic.h"
+#include "fathom/numeric/round_outwards.h"
 #include "fathom/rays/ray_bounds.h"
-#include "fathom/rays/round_outwards.h"
 
 namespace fathom::rays {
 namespace {
@@ -93,8 +93,9 @@ void set_slabs(WalkRay& ray) {
   for (std::size_t k = 0; k < 3; ++k) {
     const double slope = ray.direction[k];
     const double room = ray.origin_error + bounds::parallel_room;
-    const float low = round_down(ray.origin[k] - 2 * room);
-    const float high = round_up(ray.origin[k] + 2 * room);
+    // One step beyond the rounded sum, which may have lost the room.
+    const float low = round_down(std::nextafter(ray.origin[k] - room, -infinity));
+    const float high = round_up(std::nextafter(ray.origin[k] + room, infinity));
     ray.parallel[k] = std::abs(slope) < bounds::least_slope;
     ray.backward[k] = !ray.parallel[k] && slope < 0;
     ray.origin_near[k] = ray.backward[k] ? low : high;

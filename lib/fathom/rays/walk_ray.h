@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 
 #include "fathom/numeric/interval.h"
@@ -8,6 +9,8 @@
 #include "fathom/rays/ray_tree.h"
 
 namespace fathom::rays {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A ray as a tree is walked along it: in the tree's unit, its direction scaled by a power of two
 /// until the greatest component is in [1, 2), and its origin moved along it to near the scene.

@@ -16,6 +16,7 @@
 #include "fathom/fast/tiles/cell_spans-inl.h"
 #include "fathom/fast/tiles/lane_batch-inl.h"
 #include "fathom/fast/tiles/tile.h"
+#include "fathom/numeric/round_outwards.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
@@ -94,9 +95,9 @@ struct RangeEnds {
   VF outside_least, outside_greatest;
 };
 HWY_INLINE RangeEnds range_ends(const DepthRange& range) {
-  return {constant32(not_less(range.inside_least)), constant32(-not_less(-range.inside_greatest)),
-          constant32(-not_less(-range.outside_least)),
-          constant32(not_less(range.outside_greatest))};
+  return {constant32(round_up(range.inside_least)), constant32(round_down(range.inside_greatest)),
+          constant32(round_down(range.outside_least)),
+          constant32(round_up(range.outside_greatest))};
 }
 
 /// What draws a triangle's cells, the same in every lane.

@@ -50,12 +50,6 @@ HWY_INLINE VF lane_rows(int first) {
   return hn::LoadU(DF(), rows + first);
 }
 
-/// The least binary32 number that is not less.
-inline float not_less(double x) {
-  const auto rounded = static_cast<float>(x);
-  return rounded < x ? std::nextafter(rounded, std::numeric_limits<float>::infinity()) : rounded;
-}
-
 /// A SetupBatch in binary32, with boxes within the tile.
 struct LaneBatch {
   using Numbers = std::array<float, SetupBatch::most>;

@@ -3,9 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace fathom::rays {
-
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
+namespace fathom {
 
 /// The greatest binary32 number that is at most x.
 inline float round_down(double x) {
@@ -17,4 +15,4 @@ inline float round_up(double x) {
   return -round_down(-x);
 }
 
-}  // namespace fathom::rays
+}  // namespace fathom
