@@ -105,6 +105,24 @@ def test_results_have_the_shape_of_the_rays(grid):
     assert one["t"].shape == (5,) and scene.count(origins[0], directions[0]).shape == ()
 
 
+def test_rays_may_be_rows_of_six(grid):
+    scene, origins, directions, _ = grid
+    rays = np.concatenate([origins, directions], axis=1)
+    expected, found = scene.cast(origins, directions), scene.cast(rays.reshape(10, 20, 6))
+    assert (found["id"] == expected["id"].reshape(10, 20)).all()
+    assert (found["t"] == expected["t"].reshape(10, 20)).all()
+    assert (scene.count(rays) == scene.count(origins, directions)).all()
+    assert (scene.occluded(rays, tmax=0.5) == scene.occluded(origins, directions, 0, 0.5)).all()
+
+
+def test_the_ends_of_a_segment_may_have_no_names(grid):
+    scene, origins, directions, _ = grid
+    for ask in (scene.occluded, scene.count, lambda *all, **named: scene.cast(*all, **named)["id"]):
+        expected = ask(origins, directions, tmin=0.25, tmax=1.5)
+        assert (ask(origins, directions, 0.25, 1.5) == expected).all()
+        assert (ask(origins, directions) != expected).any()
+
+
 def test_float32_is_rounded_once():
     scene = fathom.Scene()
     scene.add_mesh(np.array([(-8, -8, 1), (8, -8, 1), (0, 8, 1)], float), np.array([(0, 1, 2)]))
@@ -137,7 +155,46 @@ def test_meshes_that_are_added_count():
     assert scene.cast((1, 1, 0), (0, 0, 1))["t"] == 1
 
 
+def test_a_mesh_that_is_added_while_rays_are_prepared_counts(monkeypatch):
+    scene = fathom.Scene()
+    sheet = scene.add_mesh(np.array([(0, 0, 4), (4, 0, 4), (0, 4, 4)], float), np.array([(0, 1, 2)]))
+    prepare = fathom._core.prepare_rays
+
+    def prepare_and_add(*arguments):
+        prepared = prepare(*arguments)
+        monkeypatch.undo()
+        scene.add_instance(sheet, [(1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, -2)])
+        return prepared
+
+    monkeypatch.setattr(fathom._core, "prepare_rays", prepare_and_add)
+    assert scene.cast((1, 1, 0), (0, 0, 1))["t"] == 4
+    assert scene.cast((1, 1, 0), (0, 0, 1))["t"] == 2
+
+
+def test_rays_are_prepared_once(monkeypatch):
+    scene = fathom.Scene()
+    scene.add_mesh(np.array([(0, 0, 4), (4, 0, 4), (0, 4, 4)], float), np.array([(0, 1, 2)]))
+    scene.cast((1, 1, 0), (0, 0, 1))
+    monkeypatch.delattr(fathom._core, "prepare_rays")
+    assert scene.cast((1, 1, 0), (0, 0, 1))["t"] == 4
+
+
+def test_a_vertex_without_a_triangle_may_be_anywhere():
+    scene = fathom.Scene()
+    scene.add_mesh(np.array([(0, 0, 4), (4, 0, 4), (0, 4, 4), (1e300, 0, 0)]), np.array([(0, 1, 2)]))
+    assert scene.cast((1, 1, 0), (0, 0, 1))["t"] == 4
+
+
+def test_each_triangle_of_a_crowd_counts():
+    scene = fathom.Scene()
+    scene.add_mesh(np.array([(0, 0, 4), (4, 0, 4), (0, 4, 4)], float), np.full((1000, 3), (0, 1, 2)))
+    assert scene.count((1, 1, 0), (0, 0, 1)) == 1000
+    assert scene.cast((1, 1, 0), (0, 0, 1))["id"] == 0
+    assert scene.cast((1, 1, 0), (0, 0, 1), mode="all")["id"].tolist() == list(range(1000))
+
+
 @pytest.mark.parametrize("arguments, options, message", [
+    (((0, 0, 0),), {}, "origins: expected shape N×6 without directions, found 3"),
     (((0, 0), (0, 0, 1)), {}, "origins: expected shape N×3, found 2"),
     (((0, 0, 0), [(0, 0, 1), (0, 0, 0)]), {}, r"directions: the direction at \[1\] is 0"),
     (((0, 0, 0), (0, 0, np.nan)), {}, "directions: nan at"),

@@ -35,9 +35,13 @@ class Asked(NamedTuple):
 
 
 def asked(
-    origins: npt.ArrayLike, directions: npt.ArrayLike, tmin: float, tmax: float, open: bool, cull: Cull, threads: int
+    origins: npt.ArrayLike, directions: npt.ArrayLike | None, tmin: float, tmax: float, open: bool, cull: Cull, threads: int
 ) -> Asked:
-    o, d = rows_of_three("origins", origins), rows_of_three("directions", directions)
+    if directions is None:
+        rays = _rows_of_six(origins)
+        o, d = rays[..., :3], rays[..., 3:]
+    else:
+        o, d = rows_of_three("origins", origins), rows_of_three("directions", directions)
     try:
         shape = np.broadcast_shapes(o.shape, d.shape)
     except ValueError:
@@ -58,6 +62,13 @@ def rows_of_three(name: str, value: npt.ArrayLike) -> Numbers:
     numbers = as_finite(name, value)
     if numbers.ndim == 0 or numbers.shape[-1] != 3:
         raise ValueError(f"{name}: expected shape N×3, found {in_words(numbers.shape)}")
+    return numbers
+
+
+def _rows_of_six(value: npt.ArrayLike) -> Numbers:
+    numbers = as_finite("origins", value)
+    if numbers.ndim == 0 or numbers.shape[-1] != 6:
+        raise ValueError(f"origins: expected shape N×6 without directions, found {in_words(numbers.shape)}")
     return numbers
 
 

@@ -225,10 +225,10 @@ class Scene:
     def cast(
         self,
         origins: npt.ArrayLike,
-        directions: npt.ArrayLike,
-        *,
+        directions: npt.ArrayLike | None = None,
         tmin: float = 0,
         tmax: float = float("inf"),
+        *,
         open: bool = False,
         cull: Cull = "none",
         mode: RayMode = "nearest",
@@ -240,7 +240,8 @@ class Scene:
         edge, and none meets both there.
 
         origins     N×3, or any shape that ends in 3; one origin fits many directions. Numbers are taken exactly
-        directions  likewise; they need no length of 1: t counts their lengths
+        directions  likewise; they need no length of 1: t counts their lengths. Without directions, `origins` has N×6 numbers,
+                    the origin and the direction of each ray
         tmin, tmax  which hits count: tmin ≤ t ≤ tmax, or tmin < t < tmax if `open`. tmin may be -inf
         cull        leaves out "back" or "front" faces. A face is a front face if its normal points against the ray
         mode        "nearest": the hit with the least t, among equals the lowest triangle number. "all": every hit, by t,
@@ -272,8 +273,8 @@ class Scene:
         return {name: array.reshape(question.shape + array.shape[1:]) for name, array in arrays.items()}
 
     def occluded(
-        self, origins: npt.ArrayLike, directions: npt.ArrayLike, *, tmin: float = 0, tmax: float = float("inf"),
-        open: bool = False, cull: Cull = "none", threads: int = 0,
+        self, origins: npt.ArrayLike, directions: npt.ArrayLike | None = None, tmin: float = 0,
+        tmax: float = float("inf"), *, open: bool = False, cull: Cull = "none", threads: int = 0,
     ) -> npt.NDArray[np.bool_]:
         """Whether each ray meets a triangle. The arguments are as in cast()."""
         question = _rays.asked(origins, directions, tmin, tmax, open, cull, threads)
@@ -281,8 +282,8 @@ class Scene:
         return found.reshape(question.shape).astype(bool)
 
     def count(
-        self, origins: npt.ArrayLike, directions: npt.ArrayLike, *, tmin: float = 0, tmax: float = float("inf"),
-        open: bool = False, cull: Cull = "none", threads: int = 0,
+        self, origins: npt.ArrayLike, directions: npt.ArrayLike | None = None, tmin: float = 0,
+        tmax: float = float("inf"), *, open: bool = False, cull: Cull = "none", threads: int = 0,
     ) -> npt.NDArray[np.uint32]:
         """How many triangles each ray meets. The arguments are as in cast()."""
         question = _rays.asked(origins, directions, tmin, tmax, open, cull, threads)
