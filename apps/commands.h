@@ -21,6 +21,9 @@ void add_visible(Command& program);
 void add_areas(Command& program);
 void add_coplanar(Command& program);
 
+/// `fathom cast`: which triangles rays meet.
+void add_cast(Command& program);
+
 /// `fathom depth encode | decode | resolution | codes`: depth formats as a calculator.
 void add_depth(Command& program);
 

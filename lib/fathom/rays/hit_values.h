@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "fathom/rays/ray.h"
 #include "fathom/scene/triangle_source.h"
@@ -21,6 +22,14 @@ struct HitValues {
   /// The unit normal, turned against the ray.
   std::array<Real, 3> normal{};
 };
+
+/// The values where a ray meets nothing (specification, section 11).
+template <class Real>
+constexpr HitValues<Real> values_without_hit() {
+  constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  constexpr Real nan = std::numeric_limits<Real>::quiet_NaN();
+  return {infinity, infinity, {nan, nan, nan}, {nan, nan}, {}};
+}
 
 /// The values where a ray meets a triangle that a cast has found; all by exact numbers.
 /// Fails    std::out_of_range if there is no such triangle; UsageError if the ray does not meet it.

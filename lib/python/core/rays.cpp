@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -119,9 +118,6 @@ py::tuple values_of(const SharedRays& prepared, const Numbers& origins, const Nu
                     const ContiguousArray<std::uint32_t>& triangles, int threads) {
   const std::vector<Ray> rays = rays_of(origins, directions);
   const std::uint32_t* const numbers = triangles.data();
-  constexpr auto infinity = std::numeric_limits<Real>::infinity();
-  constexpr auto nan = std::numeric_limits<Real>::quiet_NaN();
-  const HitValues<Real> nothing{infinity, infinity, {nan, nan, nan}, {nan, nan}, {}};
   const std::size_t count = rays.size();
   Samples<Real> t(count), distance(count), position(3 * count), weights(2 * count),
       normal(3 * count);
@@ -129,7 +125,7 @@ py::tuple values_of(const SharedRays& prepared, const Numbers& origins, const Nu
     run_with_threads(threads, [&] {
       parallel_for(std::size_t{0}, count, [&](std::size_t i) {
         const auto values = numbers[i] == no_triangle
-                                ? nothing
+                                ? values_without_hit<Real>()
                                 : hit_values<Real>(prepared->rays.triangles(), rays[i], numbers[i]);
         t[i] = values.t;
         distance[i] = values.distance;

@@ -5,26 +5,16 @@
 #include <utility>
 
 #include "fathom/failures/errors.h"
+#include "fathom/text/comma_fields.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/decimal.h"
 #include "fathom/text/printable.h"
 #include "fathom/text/text_cursor.h"
-#include "fathom/text/trimmed.h"
 
 namespace fathom::image {
 using namespace text;
 
 namespace {
-
-std::vector<std::string_view> fields_of(std::string_view line) {
-  std::vector<std::string_view> fields;
-  while (true) {
-    const std::size_t comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
-    if (comma == line.npos) return fields;
-    line.remove_prefix(comma + 1);
-  }
-}
 
 bool is_nan(std::string_view field) {
   return field == "nan" || field == "NaN" || field == "NAN";
@@ -61,7 +51,7 @@ std::vector<double> numbers_of_csv(std::string_view text, std::uint64_t pixels,
   numbers.reserve(3 * std::min<std::uint64_t>(pixels, text.size() / 5 + 1));
   bool may_be_heading = true;
   for (; cursor.next_line_with_words(); cursor.skip_line()) {
-    const std::vector<std::string_view> fields = fields_of(cursor.rest_of_line());
+    const std::vector<std::string_view> fields = comma_fields(cursor.rest_of_line());
     if (std::exchange(may_be_heading, false) && is_heading(fields)) continue;
     if (fields.size() != 3) cursor.fail("expected x,y,z, found " + counted(fields.size(), "field"));
     if (numbers.size() == 3 * pixels)

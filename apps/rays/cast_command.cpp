@@ -1,0 +1,179 @@
+// fathom cast SCENE… --rays FILE
+
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <optional>
+
+#include "apps/commands.h"
+#include "apps/options/scene_options.h"
+#include "apps/rays/hit_columns.h"
+#include "apps/rays/ray_file.h"
+#include "apps/shell/console.h"
+#include "apps/shell/failures.h"
+#include "apps/shell/output_file.h"
+#include "apps/shell/values.h"
+#include "fathom/failures/errors.h"
+#include "fathom/rays/cast.h"
+
+namespace fathom::app {
+namespace {
+
+enum class RayQuestion { nearest, all, count, any };
+
+struct CastArguments {
+  SceneOptions scene;
+  std::string rays;
+  RayQuestion mode = RayQuestion::nearest;
+  RaySegment segment;
+  Cull cull = Cull::none;
+  std::vector<HitChannel> channels{HitChannel::t, HitChannel::id};
+  std::string output = "-";
+
+  [[nodiscard]] bool is_about_hits() const {
+    return mode == RayQuestion::nearest || mode == RayQuestion::all;
+  }
+};
+
+RayQuestion parse_question(const std::string& text) {
+  return parse_word<RayQuestion>(text, {{"nearest", RayQuestion::nearest},
+                                        {"all", RayQuestion::all},
+                                        {"count", RayQuestion::count},
+                                        {"any", RayQuestion::any}});
+}
+
+std::vector<HitChannel> parse_hit_channels(const std::string& list) {
+  return parse_distinct(
+      list, [](const std::string& name) { return parse_enumerator(name, all_hit_channels); });
+}
+
+/// "TMIN:TMAX" into both.
+void take_segment(const std::string& text, RaySegment& segment) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const std::size_t colon = text.find(':');
+  if (colon == text.npos) throw UsageError("'" + text + "' is not TMIN:TMAX, such as 0:50");
+  const auto end_of = [&](const std::string& end) {
+    return parse_number_or(end, {{"inf", infinity}, {"-inf", -infinity}});
+  };
+  segment.t_min = end_of(text.substr(0, colon));
+  segment.t_max = end_of(text.substr(colon + 1));
+  if (segment.t_min > segment.t_max) throw UsageError("'" + text + "': TMIN is above TMAX");
+}
+
+/// The table of the answers, and how a file is to have it.
+class CastTable {
+ public:
+  /// Refuses a name that is neither CSV nor NPZ, before any work.
+  explicit CastTable(const std::string& name) : name_(name) {
+    if (name.ends_with(".npz")) {
+      archive_.emplace(name);
+    } else if (name == "-" || name.ends_with(".csv")) {
+      text_.emplace(name);
+    } else {
+      throw UsageError("-o: '" + name + "' does not end in .csv or .npz");
+    }
+  }
+
+  [[nodiscard]] bool is_archive() const { return archive_.has_value(); }
+  void finish(const std::vector<Column>& columns) {
+    if (text_) return text_->finish(csv_of(columns));
+    archive_->write(npz_of(columns, name_));
+    archive_->commit();
+  }
+
+ private:
+  std::string name_;
+  std::optional<OutputFile> archive_;
+  std::optional<TextOutput> text_;
+};
+
+std::vector<std::uint64_t> numbers_up_to(std::size_t count) {
+  std::vector<std::uint64_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), std::uint64_t{0});
+  return numbers;
+}
+
+std::vector<Column> columns_about_hits(const CastArguments& a, const RayScene& scene,
+                                       const std::vector<Ray>& rays, const CastOptions& options,
+                                       bool with_splits) {
+  RayHitLists lists;
+  std::vector<std::uint64_t> ray_of_hit;
+  if (a.mode == RayQuestion::all) {
+    lists = all_hits(scene, rays, options);
+    for (std::size_t ray = 0; ray < rays.size(); ++ray)
+      ray_of_hit.insert(ray_of_hit.end(), lists.splits[ray + 1] - lists.splits[ray], ray);
+  } else {
+    lists.hits = cast(scene, rays, options);
+    ray_of_hit = numbers_up_to(rays.size());
+  }
+  std::vector<Column> columns =
+      columns_of(scene.triangles(), rays, ray_of_hit, lists.hits, a.channels, options.threads);
+  columns.insert(columns.begin(), Column{"ray", {}, std::move(ray_of_hit)});
+  if (a.mode == RayQuestion::all && with_splits) {
+    std::vector<std::uint64_t> splits(lists.splits.begin(), lists.splits.end());
+    columns.push_back({"splits", {}, std::move(splits)});
+  }
+  return columns;
+}
+
+std::vector<Column> columns_about_rays(RayQuestion mode, const RayScene& scene,
+                                       const std::vector<Ray>& rays, const CastOptions& options) {
+  std::vector<Column> columns{{"ray", {}, numbers_up_to(rays.size())}};
+  if (mode == RayQuestion::count) {
+    columns.push_back({"count", {}, count_hits(scene, rays, options)});
+  } else {
+    const std::vector<bool> are_hit = occluded(scene, rays, options);
+    columns.push_back({"occluded", {}, std::vector<std::uint32_t>(are_hit.begin(), are_hit.end())});
+  }
+  return columns;
+}
+
+int run_cast(const CastArguments& a, const Console& console) {
+  CastTable table(a.output);
+  const std::vector<Ray> rays = read_rays(a.rays);
+  const Scene scene = a.scene.read(console);
+  const RayScene prepared(scene, a.scene.threads);
+  const CastOptions options{a.segment, a.cull, a.scene.threads};
+  table.finish(a.is_about_hits()
+                   ? columns_about_hits(a, prepared, rays, options, table.is_archive())
+                   : columns_about_rays(a.mode, prepared, rays, options));
+  return done;
+}
+
+}  // namespace
+
+void add_cast(Command& program) {
+  const auto arguments = std::make_shared<CastArguments>();
+  Command& command =
+      program.command("cast", "Find the triangles that rays meet, exactly",
+                      "  fathom cast room.json --rays rays.csv -o hits.csv\n"
+                      "  fathom cast room.json --rays rays.npy --channels t,id,P,N -o hits.npz\n"
+                      "  fathom cast room.json --rays rays.csv --mode any --segment 0:50");
+  arguments->scene.add_to(command);
+  command
+      .option("--rays", "FILE", arguments->rays,
+              "CSV file with the columns x, y, z, dx, dy and dz (origin and direction of each ray; "
+              "t counts lengths of the direction), or NPY file with an array of shape N×6")
+      .required();
+  command.option("--mode", "NAME", into(arguments->mode, parse_question),
+                 "Find the nearest hit (default) or all hits, count them, or report whether there "
+                 "is any: nearest, all, count or any");
+  command.option(
+      "--segment", "TMIN:TMAX",
+      [arguments](const std::string& text) { take_segment(text, arguments->segment); },
+      "Count hits with TMIN <= t <= TMAX (default 0:inf); TMIN may be -inf");
+  command.flag("--open", arguments->segment.open, "Leave out hits at the ends of the segment");
+  add_cull_option(command, arguments->cull);
+  const Option channels = command.option(
+      "--channels", "LIST", into(arguments->channels, parse_hit_channels),
+      "Values of each hit: t, id, distance, P (the point), bary, N, object, face (default t,id)");
+  add_output_option(command, "FILE", arguments->output,
+                    "Write the table to this file, .csv or .npz (default -, standard output)");
+  command.runs([arguments, channels](const Console& console) {
+    if (channels.is_given() && !arguments->is_about_hits())
+      throw UsageError("--channels is for --mode nearest and all");
+    return run_cast(*arguments, console);
+  });
+}
+
+}  // namespace fathom::app
