@@ -27,7 +27,8 @@ struct Column {
 /// Numbers are the shortest decimals that are read back as the same numbers; "inf" and "nan".
 std::string csv_of(const std::vector<Column>& columns);
 
-/// An NPZ with an array NAME.npy for each column, little-endian; `name` is the file's, for messages.
+/// An NPZ with an array NAME.npy for each column, little-endian; `name` is the file's, for
+/// messages.
 /// Fails    OutputError beyond 4 GiB.
 files::Bytes npz_of(const std::vector<Column>& columns, const std::string& name);
 

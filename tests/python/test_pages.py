@@ -8,7 +8,7 @@ import pytest
 from pages import as_shown, run_page
 
 source = pathlib.Path(os.environ["FATHOM_SOURCE"])
-pages = ["README.md", "lib/python/README.md", "docs/index.md", "docs/data-sets.md", "docs/farms.md", "docs/python.md",
+pages = ["README.md", "lib/python/README.md", "docs/index.md", "docs/data-sets.md", "docs/farms.md", "docs/python.md", "docs/rays.md",
          "docs/reference/exit-statuses.md",
          *(f"docs/guides/{page.name}" for page in sorted((source / "docs/guides").glob("*.md")))]
 
