@@ -11,6 +11,7 @@
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/certified_value.h"
 #include "fathom/numeric/double_word.h"
+#include "fathom/rays/ray_bounds.h"
 #include "fathom/triangle/surface_bounds.h"
 
 int main() {
@@ -71,6 +72,17 @@ int main() {
   print("greatest_residual", fast::resolve_bounds::greatest_residual);
   print("weight_rounding", fast::resolve_bounds::weight_rounding);
   print("greatest_relative_error_of_q", fast::resolve_bounds::greatest_relative_error);
+
+  print("ray_products", rays::bounds::of_products);
+  print("ray_origin", rays::bounds::of_origin);
+  print("ray_corners", rays::bounds::of_corners);
+  print("ray_size_room", rays::bounds::size_room);
+  print("ray_height", rays::bounds::of_height);
+  print("ray_height_corners", rays::bounds::of_height_corners);
+  print("ray_height_origin", rays::bounds::of_height_origin);
+  print("ray_normal", rays::bounds::of_normal);
+  print("ray_slack", rays::bounds::slack);
+  print("ray_far_room", double{rays::bounds::far_room});
 
   print("interval_widening", interval_widening);
   print("distance_room", distance_room);

@@ -3,7 +3,8 @@
 #include "fathom/numeric/unit_roundoff.h"
 
 /// Bounds of the walk along a ray and of the tests of triangles in binary64. Coordinates of the
-/// scene are below 1, of the origin below 8, of the direction below 2; u = 2⁻⁵³.
+/// scene are below 1, of the origin below 8, of the direction below 2; u = 2⁻⁵³. The proofs are in
+/// validation/proofs/rays.
 namespace fathom::rays::bounds {
 
 /// Boxes. Per axis, with the origin as an interval [o⁻, o⁺] of binary32 numbers around
@@ -17,7 +18,7 @@ namespace fathom::rays::bounds {
 /// and signs are right. So near ≤ s_near·(1 + v)³ and far ≥ s_far·(1 − v)³·(1 + 8v)(1 − v) for the
 /// exact 0 ≤ s_near ≤ s_far; (1 + v)³/(1 − v)³ < 1 + 6.1v and (1 + 8v)(1 − v) > 1 + 6.9v. A near
 /// below 0 is below every far ≥ 0, and far < 0 only if the exact one is. Underflow loses less than
-/// 2⁻¹⁴⁸. `last` is rounded up and gets the same factor. A component of d below least_slope moves
+/// 2⁻¹⁴⁸; adding underflow_room to a binary32 number never lowers it. `last` is rounded up and gets the same factor. A component of d below least_slope moves
 /// the ray by less than 8·2⁻⁶⁰ = parallel_room.
 /// Source   [Ize13]; [WBW13] for the moved origin
 inline constexpr double least_slope = 0x1p-60;
