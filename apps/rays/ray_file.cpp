@@ -85,7 +85,7 @@ std::vector<Ray> rays_of_npy(files::ByteView bytes, const std::string& name) {
     for (std::size_t row = 0; row < size.height; ++row) {
       Numbers numbers{};
       for (std::size_t k = 0; k < numbers.size(); ++k)
-        numbers[k] = static_cast<double>(values[row * numbers.size() + k]);
+        numbers[k] = values[row * numbers.size() + k];
       const auto fail = [&](const char* fault) {
         throw InputError(name + ": row " + std::to_string(row) + ": " + fault);
       };

@@ -18,8 +18,9 @@ namespace fathom::rays::bounds {
 /// and signs are right. So near ≤ s_near·(1 + v)³ and far ≥ s_far·(1 − v)³·(1 + 8v)(1 − v) for the
 /// exact 0 ≤ s_near ≤ s_far; (1 + v)³/(1 − v)³ < 1 + 6.1v and (1 + 8v)(1 − v) > 1 + 6.9v. A near
 /// below 0 is below every far ≥ 0, and far < 0 only if the exact one is. Underflow loses less than
-/// 2⁻¹⁴⁸; adding underflow_room to a binary32 number never lowers it. `last` is rounded up and gets the same factor. A component of d below least_slope moves
-/// the ray by less than 8·2⁻⁶⁰ = parallel_room.
+/// 2⁻¹⁴⁸; adding underflow_room to a binary32 number never lowers it. `last` is rounded up and gets
+/// the same factor. A component of d below least_slope moves the ray by less than 8·2⁻⁶⁰ =
+/// parallel_room.
 /// Source   [Ize13]; [WBW13] for the moved origin
 inline constexpr double least_slope = 0x1p-60;
 inline constexpr double parallel_room = 0x1p-57;
