@@ -36,7 +36,8 @@ void Candidates::begin(const Ray& given, const WalkRay& ray) {
   ray_ = &ray;
   exact_ray_.reset();
   hits_.clear();
-  exact_ts_.clear();
+  // clear() would zero all buckets that an earlier ray needed.
+  if (!exact_ts_.empty()) exact_ts_ = {};
   least_upper_ = infinity;
   last_ = ray.last;
 }
