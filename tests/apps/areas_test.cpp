@@ -232,7 +232,8 @@ TEST_F(AreasCommand, RefusesOptionsWithoutEffect) {
 }
 
 TEST_F(AreasCommand, RefusesDirectionsWithTheirLine) {
-  EXPECT_EQ(refusal({"--directions", "zero.csv"}, 3), "zero.csv: line 3: the direction is 0\n");
+  EXPECT_EQ(refusal({"--directions", "zero.csv"}, 3),
+            "fathom: error: zero.csv: line 3: the direction is 0\n");
   // Nothing of the first line's answer is left.
   folder_.write("far.csv", "x,y,z\n1,-1,0\n1,1e301,1e-301\n");
   folder_.write("large.obj", "v 0 0 0\nv 1e60 0 0\nv 0 1 1\nf 1 2 3\n");
