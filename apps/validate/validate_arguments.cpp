@@ -9,6 +9,7 @@
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/failures/unknown_name.h"
 #include "fathom/image/map_formats.h"
+#include "validation/rays/ray_engines.h"
 #include "validation/scenes/validation_scenes.h"
 #include "validation/variants/peer.h"
 
@@ -33,6 +34,10 @@ void expect_scene(const std::string& name) {
   throw UnknownName(fmt::format("there is no scene '{}'; there are {}", name,
                                 fmt::join(validation::scene_names(), ", ")),
                     name, validation::scene_names());
+}
+
+void expect_ray_engine(const std::string& name) {
+  validation::ray_engine_named(name);
 }
 
 std::string parse_model(const std::string& text) {
@@ -64,6 +69,11 @@ void ValidateArguments::add_to(Command& command) {
   command.flag(
       "--faults", faults,
       "Inject every fault of the catalogue into the renderers' maps and report which are found");
+  command.option("--rays", "NAME", names_into(rays, expect_ray_engine),
+                 "Trace rays through the scenes with these engines and check every hit: embree, "
+                 "embree-robust, cgal");
+  command.option("--count", "N", into(ray_count, parse_positive),
+                 "With --rays: rays of each kind in each scene (default 16384)");
   command.option("--scene", "NAME", names_into(scene_names, expect_scene),
                  "Use these built-in scenes instead of SCENE (default: all, see below)");
   command.option("--variants", "NAME", variants,
@@ -87,7 +97,7 @@ void ValidateArguments::add_to(Command& command) {
       "maps like maps from a file, in binary32; matching: each by the model of its variant");
   add_output_option(command, "PATH", output,
                     "Write report.json and report.html to this folder; with --colour, colours.json "
-                    "and pictures; with --render, the map to this file");
+                    "and pictures; with --rays, rays.json; with --render, the map to this file");
   command.option("--baseline", "REPORT", baseline,
                  "Compare with an earlier report.json; exit status 1 if a result became worse; "
                  "with --output also writes comparison.html");

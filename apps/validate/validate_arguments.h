@@ -20,13 +20,15 @@ inline constexpr const char* matching = "matching";
 struct ValidateArguments {
   std::vector<std::string> scenes;
   std::string map, camera, model, channel, baseline, junit;
-  std::string against, scene_names, variants, render, output;
+  std::string against, scene_names, variants, render, rays, output;
   bool colour = false, faults = false, for_ctest = false;
   /// Codes per scene unit of a map of integers that does not say it itself.
   std::optional<double> png_scale;
   ReadLimits limits;
   Size size{320, 240};
   std::uint32_t seconds = 300;
+  /// Of each kind and scene, with --rays.
+  std::optional<std::uint32_t> ray_count;
 
   void add_to(Command& command);
 

@@ -17,12 +17,14 @@ namespace fathom::app {
 namespace {
 
 int run_validate(const ValidateArguments& arguments, const Console& console) {
-  const int modes =
-      static_cast<int>(!arguments.map.empty()) + static_cast<int>(!arguments.against.empty()) +
-      static_cast<int>(!arguments.render.empty()) + static_cast<int>(arguments.colour);
+  const int modes = static_cast<int>(!arguments.map.empty()) +
+                    static_cast<int>(!arguments.against.empty()) +
+                    static_cast<int>(!arguments.render.empty()) +
+                    static_cast<int>(arguments.colour) + static_cast<int>(!arguments.rays.empty());
   if (modes != 1) {
     throw UsageError(
-        "one of --against RENDERERS, --map MAP, --colour and --render RENDERER is expected");
+        "one of --against RENDERERS, --map MAP, --colour, --rays ENGINES and --render RENDERER is "
+        "expected");
   }
   if (arguments.faults && arguments.against.empty()) {
     throw UsageError("--faults goes with --against RENDERERS");
@@ -35,6 +37,8 @@ int run_validate(const ValidateArguments& arguments, const Console& console) {
     throw UsageError("--junit goes with --map and --against");
   }
   if (arguments.png_scale && arguments.map.empty()) throw UsageError("--png-scale goes with --map");
+  if (arguments.ray_count && arguments.rays.empty()) throw UsageError("--count goes with --rays");
+  if (!arguments.rays.empty()) return validate_rays(arguments, console);
   if (arguments.faults) return validate_faults(arguments, console);
   if (!arguments.against.empty()) return validate_against(arguments, console);
   if (!arguments.render.empty()) return validate_render(arguments, console);
@@ -54,6 +58,7 @@ void add_validate(Command& program) {
       "  fathom validate --against opengl -o new --baseline old/report.json\n"
       "  fathom validate --faults --against vtk --scene spot -o faults\n"
       "  fathom validate --colour --scene spot\n"
+      "  fathom validate --rays embree,embree-robust,cgal -o rays\n"
       "  fathom validate --render vtk spot.obj --camera camera.json -o vtk.exr\n"
       "\nScenes: " +
           fmt::format("{}", fmt::join(validation::scene_names(), ", ")) +

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fathom/attribution/world_mesh.h"
+#include "fathom/rays/ray.h"
+
+/// Other programs' answers to rays.
+namespace fathom::validation {
+
+/// - embree: Embree as it is by default
+/// - embree-robust: with RTC_SCENE_FLAG_ROBUST
+/// - cgal: CGAL's AABB_tree over its kernel of exact numbers
+enum class RayEngine { embree, embree_robust, cgal };
+
+std::string name_of(RayEngine engine);
+std::vector<std::string> ray_engine_names();
+/// Fails    UnknownName
+RayEngine ray_engine_named(const std::string& name);
+/// "Embree 3.13.5".
+std::string version_of(RayEngine engine);
+
+/// For each ray, in their order.
+struct EngineAnswers {
+  /// The nearest hit. t counts lengths of the direction; +∞ where there is no hit.
+  std::vector<RayHit> nearest;
+  /// How many triangles the engine says that the ray meets.
+  std::vector<std::uint32_t> counts;
+};
+
+/// By one thread, ray by ray, without a hint that rays belong together.
+/// Needs    a mesh and rays of binary32 numbers.
+EngineAnswers trace(RayEngine engine, const attribution::WorldMesh& mesh,
+                    std::span<const Ray> rays);
+
+}  // namespace fathom::validation
