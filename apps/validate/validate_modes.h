@@ -29,9 +29,9 @@ int validate_colours(const ValidateArguments& arguments, const Console& console)
 /// rightly named; unusable_input if a renderer did not draw.
 int validate_faults(const ValidateArguments& arguments, const Console& console);
 
-/// `validate --rays`: has engines trace rays and compares every answer with the truth. Prints a line
-/// for each engine and kind of rays, writes rays.json, and returns the exit status: answer_is_no if
-/// an answer is wrong.
+/// `validate --rays`: has engines trace rays and compares every answer with the truth. Prints a
+/// line for each engine and kind of rays, writes rays.json, and returns the exit status:
+/// answer_is_no if an answer is wrong.
 int validate_rays(const ValidateArguments& arguments, const Console& console);
 
 }  // namespace fathom::app

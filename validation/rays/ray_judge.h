@@ -18,8 +18,8 @@ namespace fathom::validation {
 /// - lost: no hit where there is one
 /// - invented: a hit where there is none
 /// - behind: a triangle behind the nearest, which the ray has gone through
-/// - beside: a triangle that the ray does not touch, as the neighbour across an edge, where it meets
-///   another
+/// - beside: a triangle that the ray does not touch, as the neighbour across an edge, where it
+///   meets another
 enum class RayVerdict { right, tie, lost, invented, behind, beside };
 inline constexpr std::size_t verdict_count = 6;
 

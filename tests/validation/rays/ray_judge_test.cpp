@@ -113,8 +113,8 @@ TEST(RayCases, AreMadeOfBinary32Numbers) {
   EXPECT_THROW(ray_cases("far", mesh, 1), InputError);
 }
 
-/// Every ray that comes from outside a closed surface meets it an even number of times, also through
-/// edges and corners.
+/// Every ray that comes from outside a closed surface meets it an even number of times, also
+/// through edges and corners.
 TEST(RayCases, VoxelsAreClosed) {
   const RayCase voxels = made_ray_cases(500).at(1);
   Mesh mesh;
