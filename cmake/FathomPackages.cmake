@@ -44,9 +44,9 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS fonts-dejavu-core) # text in previews
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS gnuplot-nox)    # plots of `fathom study`
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "reference depth-map rasterizer
 fathom renders depth and coverage maps of triangle meshes in which every
-pixel is the exact value, rounded once. It is the reference with which to
-compare other renderers, sensors and depth formats, and it explains how
-each pixel came about.")
+pixel is the exact value, rounded once. Use it as ground truth for
+renderers, sensors and depth formats. It also explains the value of each
+pixel.")
 
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME "${FATHOM_PACKAGE_NAME_runtime}")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
