@@ -19,6 +19,7 @@ namespace fathom::app {
 namespace {
 
 constexpr std::size_t text_column = 26;
+constexpr std::ptrdiff_t screen_lines = 40;
 
 /// A name with its meaning next to it, or below a long name.
 std::string entry(const std::string& name, const std::string& meaning, std::size_t width) {
@@ -54,6 +55,26 @@ std::string lines_of(const std::string& paragraph, std::size_t width) {
   std::string text;
   for (const std::string& line : wrapped(paragraph, width)) text += line + "\n";
   return text;
+}
+
+/// "Scene: --mesh-format, --threads, …" for each heading with options.
+std::string names_by_heading(const CommandText& command, std::size_t width) {
+  std::string text;
+  for (const std::string& heading : command.headings()) {
+    std::string names;
+    for (const OptionText& option : command.options)
+      if (option.heading == heading) names += (names.empty() ? " " : ", ") + name_of(option);
+    text += "\n" + lines_of(heading + ":" + names, width);
+  }
+  return text;
+}
+
+/// The first of the examples, with the lines that continue it.
+std::string first_example(const std::string& examples) {
+  std::size_t end = examples.find('\n');
+  while (end != std::string::npos && (examples[end - 1] == '\\' || examples[end - 1] == '|'))
+    end = examples.find('\n', end + 1);
+  return examples.substr(0, end);
 }
 
 std::time_t date_of_pages() {
@@ -187,6 +208,14 @@ std::string help_page(const CommandText& command, std::size_t width) {
   for (const std::string& paragraph : paragraphs_of(command.notes))
     text += "\n" + lines_of(paragraph, width);
   return text;
+}
+
+std::string help_on_a_screen(const CommandText& command, std::size_t width) {
+  std::string page = help_page(command, width);
+  if (!command.commands.empty() || std::ranges::count(page, '\n') <= screen_lines) return page;
+  return lines_of(command.summary, width) + "Usage: " + command.synopsis() + "\n" +
+         names_by_heading(command, width) + "\nExample:\n" + first_example(command.examples) +
+         "\n\n'" + command.name() + " --help' explains all options and has more examples.\n";
 }
 
 std::size_t help_width() {

@@ -11,6 +11,10 @@ namespace fathom::app {
 /// The help of a command, as plain text of at most `width` columns; examples may be wider.
 std::string help_page(const CommandText& command, std::size_t width);
 
+/// The help of a command on one screen of 40 lines: the help_page() if it fits, else the names of
+/// all options and the first example. A command with other commands below it keeps its help_page().
+std::string help_on_a_screen(const CommandText& command, std::size_t width);
+
 /// Width of help on standard output: the terminal's width, limited to 60 to 100 columns, or 80
 /// without a terminal.
 std::size_t help_width();

@@ -28,7 +28,8 @@ constexpr const char* examples =
     "  fathom render spot.obj -o spot.exr\n"
     "  fathom preview spot.exr -o spot.png\n"
     "  fathom probe spot.obj --pixel 640,360\n"
-    "\n'fathom COMMAND --help' or 'fathom help COMMAND' explains a command.";
+    "\n'fathom COMMAND --help' or 'fathom help COMMAND' explains a command. "
+    "'fathom COMMAND -h' lists its options on one screen.";
 
 constexpr const char* companion_heading =
     "Companion programs; 'scripts/fathom COMMAND' in a clone of Fathom builds them";
@@ -195,7 +196,8 @@ int run_arguments(const std::vector<std::string>& given, const std::vector<AddCo
   try {
     app.parse(std::move(last_first));
   } catch (const CLI::CallForHelp&) {
-    print(help_page(text_of(chosen_command(app)), help_width()));
+    const bool on_a_screen = std::ranges::count(asked, "-h") > 0;
+    print((on_a_screen ? help_on_a_screen : help_page)(text_of(chosen_command(app)), help_width()));
     return done;
   } catch (const CLI::CallForVersion& version) {
     print(std::string(version.what()) + "\n");

@@ -54,6 +54,21 @@ def test_lines_fit_a_terminal(name):
     assert [line for line in by_name(name).text.split("\n") if len(line) > 80] == []
 
 
+@pytest.mark.parametrize("name", names)
+def test_short_option_shows_one_screen(name):
+    command = by_name(name)
+    shown = answer(*command.path, "-h")
+    if command.commands or command.text.count("\n") <= 40:
+        assert shown == command.text
+        return
+    assert shown.count("\n") <= 40 and all(len(line) <= 80 for line in shown.split("\n"))
+    listed = set(re.findall(r"[\w.-]+", shown))
+    assert {option[-1] for option in command.options} <= listed
+    example = shown.partition("\nExample:\n")[2].partition("\n\n")[0]
+    assert example and example in command.text and not example.endswith(("\\", "|"))
+    assert f"'{' '.join(('fathom', *command.path))} --help' explains all options" in shown
+
+
 # First words of the commands' descriptions. A new one is added here if it is a verb in the imperative.
 VERBS = {"Check", "Clip", "Compare", "Compute", "Convert", "Count", "Draw", "Encode", "Explain", "Find", "Follow", "Import",
          "Make", "Measure", "Print", "Rasterize", "Render", "Run", "Show", "Trace", "Write"}
