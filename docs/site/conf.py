@@ -55,7 +55,7 @@ nitpick_ignore_regex = [
 ]
 
 SHORT = 24  # characters of code that a line on a telephone holds easily
-INLINED = re.compile(r"^images/conventions-[\w-]+\.svg$")
+INLINED = re.compile(r"(?:^|/)images/conventions-[\w-]+\.svg$")
 ANCHOR = re.compile(r'^<a id="([^"]+)">$')
 
 
@@ -71,7 +71,7 @@ def drawings_in_the_page(app, document, name):
     """Drawings become part of the page, so that they follow its theme and not the system's."""
     for image in list(document.findall(nodes.image)):
         file = pathlib.Path(app.srcdir, image["uri"])
-        if INLINED.match(image["uri"]):
+        if INLINED.search(image["uri"]):
             drawing = re.sub(r"<\?xml.*?\?>\s*", "", file.read_text(encoding="utf-8"))
             image.replace_self(nodes.raw("", drawing, format="html"))
 
