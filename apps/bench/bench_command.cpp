@@ -155,7 +155,7 @@ void add_bench(Command& program) {
       "previous map and keeps its memory, as vtk and embree keep their buffers. Times of vtk\n"
       "exclude read-back, times of embree exclude embree-build. masked-occlusion-culling, if\n"
       "built in, is timed with one thread, from a cleared buffer; it draws bounds of depths.\n"
-      "\n--parts switches each idea that makes drawing fast on and off, in one process, in turn:\n"
+      "\n--parts switches each optimisation on and off, in one process, in turn:\n"
       "lanes of binary32 and binary64, blocks before pixels, early rejection by the order of\n"
       "drawing, tiles, threads, culling. It prints times, ratios of least times, counts, and the\n"
       "pixels of the textbooks' demo with closed and half-open edges. It fails if a variant\n"

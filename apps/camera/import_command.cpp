@@ -59,7 +59,7 @@ void add_import(Command& camera) {
                      "  fathom camera import nerf transforms.json --size 800x800 -o cameras.json\n"
                      "  fathom camera import tum groundtruth.txt --images depth.txt --K ros \\\n"
                      "    -o cameras.json\n"
-                     "\nLenses are imported with the cameras; those that have no model are left "
+                     "\nLenses are imported with the cameras; lenses without a model are left "
                      "out with a warning.\n"
                      "Models: lenses.md, formulas and layouts: conventions.md and data-sets.md in "
                      "the documentation.\n"

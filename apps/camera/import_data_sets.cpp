@@ -257,7 +257,8 @@ std::vector<ImportSource> data_set_sources() {
        "A file or folder of matrices: .txt, .npy, .npz or .npz:ARRAY",
        "  fathom camera import matrices poses.npy --K K.txt --size 640x480 \\\n"
        "    --poses camera-to-world --axes opencv --pixel-centre 0 -o cameras.json\n"
-       "\nA text has one 3x4 or 4x4 matrix, or one on each line; a folder, a text for each image.",
+       "\nA text file contains one 3x4 or 4x4 matrix, or one matrix per line. A folder contains "
+       "one text file per image.",
        declare_matrices, read_matrices},
       {"tum", "Import cameras of TUM RGB-D: groundtruth.txt",
        "groundtruth.txt, or the folder with it",

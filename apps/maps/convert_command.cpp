@@ -71,8 +71,8 @@ Camera camera_called_as(const std::string& map, const std::vector<Camera>& camer
     if (is_called_as(map, camera.name)) found.push_back(&camera);
   if (found.size() == 1) return *found.front();
   throw UsageError(fmt::format(
-      "--camera: {}, of which {} called as the map '{}'; expected a camera for each map, or file "
-      "names that are those of the images",
+      "--camera: {}, but {} named like the map '{}'; expected a camera for each map, or maps that "
+      "are named like the images",
       text::counted(cameras.size(), "camera"),
       found.empty() ? "none is" : std::to_string(found.size()) + " are", text::printable(map)));
 }
@@ -124,7 +124,7 @@ int write_points(const ConvertArguments& arguments, const Console& console) {
   }
   const std::size_t maps = arguments.maps.size();
   if (maps > 1 && arguments.frame == PointFrame::camera) {
-    throw UsageError("--frame camera is for the cloud of one map: each has a frame of its own");
+    throw UsageError("--frame camera needs a single map: each map has its own camera frame");
   }
   PointCloud cloud({.frame = arguments.frame,
                     .binary64 = arguments.storage.dtype != StoredType::binary32,
@@ -316,11 +316,11 @@ void add_convert(Command& program) {
   command.option("--to", "NAME", into(arguments->to, parse_quantity),
                  "Convert to Z (planar depth), distance (along the ray) or disparity");
   command.option("--from", "NAME", into(arguments->from, parse_quantity),
-                 "Quantity that the map holds: Z (default), distance or disparity");
+                 "Quantity that the map contains: Z (default), distance or disparity");
   command.option(
       "--camera", "FILE", arguments->camera,
-      "Camera file, if the map does not contain its camera: a camera for each map, or more, of "
-      "which each map takes the one with its name (a.npy that of a.jpg)");
+      "Camera file, if the map does not contain its camera: one camera for each map, in order, or "
+      "cameras that are named like the maps (a.jpg for a.npy)");
   command.option("--baseline", "B", into(arguments->baseline, parse_number),
                  "Baseline of the stereo pair, for disparity");
   command.option("--doffs", "D", into(arguments->doffs, parse_number),

@@ -32,7 +32,7 @@ Contents parse_contents(const std::string& list) {
   contents.channels = parse_distinct(list, [&](const std::string& name) {
     const Channel channel = channel_of(name);
     if (is_mask(name) && name != list) {
-      throw UsageError("'" + name + "' is a file of its own: -o " + name + "=FILE.png");
+      throw UsageError("'" + name + "' needs a separate file: -o " + name + "=FILE.png");
     }
     return channel;
   });

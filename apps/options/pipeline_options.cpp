@@ -64,7 +64,7 @@ void PipelineArguments::add_triangle_options(Command& command) {
                      "vertices coincide, so that no seam shows)"));
   declared_.push_back(
       command.option("--colours", "NAME", into(stages_.colours, parse_surface_colours),
-                     "Colours of triangles: file (default; those of the vertices, else white), "
+                     "Colours of triangles: file (default; colours of the vertices, else white), "
                      "object or triangle (a colour for each number)"));
   declared_.push_back(
       command.option("--light", "WHERE", into(stages_.light, parse_light),

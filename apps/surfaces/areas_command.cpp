@@ -191,7 +191,7 @@ void add_areas(Command& program) {
                  "With --directions: weigh centroids by the area across the direction (across, "
                  "default) or on the surface (lit)");
   add_cull_option(command, arguments->cull);
-  command.flag("--nonzero", arguments->nonzero, "Leave out items of which nothing is visible");
+  command.flag("--nonzero", arguments->nonzero, "Leave out items without a visible part");
   command.flag("--json", arguments->json, "Print JSON instead of CSV");
   command.flag("--stream", arguments->stream, "").below("");  // refused
   add_output_option(command, "FILE", arguments->output,

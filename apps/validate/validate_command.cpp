@@ -63,7 +63,7 @@ void add_validate(Command& program) {
       "\nScenes: " +
           fmt::format("{}", fmt::join(validation::scene_names(), ", ")) +
           ".\nModels: " + attribution::model_names() + "; auto; with --against, matching" +
-          ".\nExit status 1 where a pixel is unexplained or a fault was found; see "
+          ".\nExit status 1 if a pixel is unexplained or a fault was found; see "
           "validation.md in the documentation.");
   const auto arguments = std::make_shared<ValidateArguments>();
   arguments->add_to(command);

@@ -172,14 +172,13 @@ void add_view(Command& program) {
       add_output_option(command, "FILE", into(arguments->output, parse_page_name),
                         "Write the page here, an HTML file that needs no other file, and open no "
                         "browser (default: a temporary file, which a browser opens)");
-  command.flag("--open", arguments->open,
-               "Open the page in the browser also where -o or --serve is given");
+  command.flag("--open", arguments->open, "Open the page in the browser even with -o or --serve");
   command.option("--scene", "FILE", arguments->scene,
                  "Scene that the maps show, a mesh or a scene file; needs --serve");
   command
       .flag("--serve", arguments->serve,
             "Serve the page at a secret address of this machine, which is printed, until "
-            "interrupted: a click on a pixel shows what 'fathom probe' says of it")
+            "interrupted: a click on a pixel shows the output of 'fathom probe'")
       .excludes(output);
   arguments->reading.add_reading_to(command);
   command.runs([arguments](const Console& console) { return run_view(*arguments, console); });

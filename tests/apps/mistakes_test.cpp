@@ -161,7 +161,7 @@ TEST_F(Mistakes, MapsFindTheirCameraOfAPathByName) {
   expect_done({"convert", "b.npy", "--camera", "path.json", "-o", "b.ply"});
   std::filesystem::rename(folder_ / "b.npy", folder_ / "c.npy");
   EXPECT_THAT(refusal({"convert", "c.npy", "--camera", "path.json", "-o", "c.ply"}, 2),
-              StartsWith("--camera: 2 cameras, of which none is called as the map 'c.npy'"));
+              StartsWith("--camera: 2 cameras, but none is named like the map 'c.npy'"));
 }
 
 TEST_F(Mistakes, NamesOfChannels) {

@@ -254,7 +254,7 @@ for k in (0, 1):
 TEST_F(SeveralOutputs, NamesThatCannotBe) {
   expect_refused({"-o", "dpeth=z.png"}, "did you mean 'depth'?; a file of this name is");
   expect_refused({"-o", "mask=m.exr"}, "m.exr: a mask is an 8-bit PNG");
-  expect_refused({"-o", "mask,Z=m.png"}, "'mask' is a file of its own");
+  expect_refused({"-o", "mask,Z=m.png"}, "'mask' needs a separate file");
   expect_refused({"-o", "depth="}, "'depth=' has no file");
   expect_refused({"-o", "depth=a.png", "-o", "mask=a.png"}, "would both be written as a.png");
   expect_refused({"-o", "depth=a.png", "--channels", "Z"}, "--channels is for an -o without names");
@@ -331,9 +331,9 @@ for k, points in enumerate(views):
   };
   EXPECT_THAT(convert({"-o", "all.npy"}), HasSubstr("several maps make a point cloud"));
   EXPECT_THAT(convert({"-o", "all.ply", "--frame", "camera"}),
-              HasSubstr("--frame camera is for the cloud of one map"));
+              HasSubstr("--frame camera needs a single map"));
   EXPECT_THAT(convert({"-o", "all.ply", "--camera", "camera.json"}),
-              HasSubstr("--camera: 1 camera, of which none is called as the map '0.exr'"));
+              HasSubstr("--camera: 1 camera, but none is named like the map '0.exr'"));
   expect_done({"render", pair_, "--camera", "0.exr", "-o", "1.exr"});
   EXPECT_THAT(convert({"-o", "all.ply"}), HasSubstr("1.exr: the maps of a cloud need the same"));
 }

@@ -44,7 +44,7 @@ expect(baseline fails "no verdict on the map: ${build}/baseline.json: ")
 configure_file("${build}/depth-tests/right/report/report.json" "${build}/baseline.json" COPYONLY)
 expect(baseline passes "every pixel is explained")
 configure_file("${build}/depth-tests/scenes/report/report.json" "${build}/baseline.json" COPYONLY)
-expect(baseline fails "${build}/baseline.json: has none of the results of this run")
+expect(baseline fails "${build}/baseline.json: contains no result of this run")
 
 # What CDash gets, of a map that is right and of one that is not.
 execute_process(COMMAND "${CMAKE_CTEST_COMMAND}" --test-dir "${build}" -T Test -L depth -R "right|noise" OUTPUT_QUIET

@@ -194,7 +194,7 @@ void add_clip(Command& program) {
                  "Draw the steps: the segment after each split, the polygon after each edge or "
                  "plane, both lists and the walks");
   command.argument("FILE", arguments->file,
-                   "File with one case per line (default: standard input, as is -)");
+                   "File with one case per line (default and -: standard input)");
   command.answers_on_standard_output();
   command.runs([arguments](const Console& console) { return run_clip(*arguments, console); });
 }

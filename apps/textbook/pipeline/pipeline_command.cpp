@@ -169,7 +169,7 @@ void add_run(Command& family) {
                 "Name of the stage, in the order of the data: " + names_of_stages())
       .required();
   command.argument("FILE", arguments->file,
-                   "File with one record per line (default: standard input, as is -)");
+                   "File with one record per line (default and -: standard input)");
   command.option("--precision", "NAME", into(arguments->precision, parse_precision),
                  "Arithmetic of the stage: binary32 (default) or binary64");
   command.answers_on_standard_output();

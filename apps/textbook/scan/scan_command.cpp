@@ -144,7 +144,7 @@ void add_scan(Command& program) {
   command.option("--values", "FILE", into(arguments->values, parse_values_name),
                  "With edge-values: write the values of one case as .csv or .npy");
   command.argument("FILE", arguments->file,
-                   "File with one case per line (default: standard input, as is -)");
+                   "File with one case per line (default and -: standard input)");
   command.answers_on_standard_output();
   command.runs([arguments](const Console&) { return run_scan(*arguments); });
 }

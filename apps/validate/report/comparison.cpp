@@ -139,7 +139,7 @@ std::string Comparison::obstacle() const {
     if (!change.obstacle.empty()) return title_of(change.after) + ": " + change.obstacle;
   }
   const bool none = count(Verdict::appeared) + count(Verdict::gone) == changes.size();
-  return none && !changes.empty() ? "has none of the results of this run" : "";
+  return none && !changes.empty() ? "contains no result of this run" : "";
 }
 
 Comparison compare(const Report& before, const Report& after) {

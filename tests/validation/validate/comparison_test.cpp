@@ -130,7 +130,7 @@ TEST(Comparison, CountsOfOtherSizesOrScenesAreNotCompared) {
             "spot, vtk a: 10x10 pixels in the baseline, 20x10 now");
   EXPECT_THAT(change(before, another).obstacle, HasSubstr("12 triangles"));
   EXPECT_EQ(compare({"1", {before}}, {"1", {result("spot", "b")}}).obstacle(),
-            "has none of the results of this run");
+            "contains no result of this run");
 }
 
 TEST(Comparison, ManyThatAreNewAreCounted) {

@@ -187,7 +187,7 @@ TEST_F(ValidateProgram, SaysAndShowsWhatChangedSinceABaseline) {
                   "float32-ray", cube, "--baseline", "good/report.json"},
                  {.folder = folder.path()});
   EXPECT_EQ(other.status, 3);
-  EXPECT_THAT(other.out, HasSubstr("good/report.json: has none of the results of this run"));
+  EXPECT_THAT(other.out, HasSubstr("good/report.json: contains no result of this run"));
 }
 
 TEST_F(ValidateProgram, WritesJunitWithTheReportOrNeither) {
