@@ -8,8 +8,9 @@ import pytest
 from pages import as_shown, run_page
 
 source = pathlib.Path(os.environ["FATHOM_SOURCE"])
-pages = ["README.md", "lib/python/README.md", "docs/index.md", "docs/data-sets.md", "docs/farms.md", "docs/python.md", "docs/rays.md",
-         "docs/reference/exit-statuses.md",
+pages = ["README.md", "lib/python/README.md",
+         *(f"docs/{name}.md" for name in ("coverage", "data-sets", "depth-formats", "evaluation", "farms", "index", "lenses",
+                                          "python", "rays", "reference/exit-statuses")),
          *(f"docs/guides/{page.name}" for page in sorted((source / "docs/guides").glob("*.md")))]
 
 
