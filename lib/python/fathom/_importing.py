@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     class Imported(Protocol):
-        """A class that makes cameras from those of the extension module."""
+        """A class that makes cameras from the extension module's cameras."""
 
         @classmethod
         def _of(cls: type[Camera], core: _core.Camera) -> Camera: ...
@@ -306,7 +306,7 @@ def _fault_of_frame(camera: _core.Camera, size: tuple[int, int] | Literal[False]
 
 
 class Cameras(dict[str, Any]):
-    """Cameras by the names of their images: a dict whose KeyError says what names there are."""
+    """Cameras by the names of their images: a dict whose KeyError lists the names."""
 
     def __missing__(self, name: object) -> Any:
         import difflib  # slow to import, and not needed elsewhere

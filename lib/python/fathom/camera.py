@@ -585,8 +585,8 @@ class Camera:
         direction that is greatest in magnitude is 1 or −1. A pixel without a ray has (0, 0, 0). Works for pinholes, lenses
         and tables. Raises ValueError for an orthographic camera.
 
-        Exact    each number is exact, rounded once: from_directions() of the result sees the same, but for that
-                 rounding.
+        Exact    each number is exact, rounded once. A camera made by from_directions() of the result has these rounded
+                 directions.
 
         >>> camera = Camera(4, 2, 2, 2, 2, 1, pixel_centre=0.5)
         >>> camera.directions()[0, 0]
