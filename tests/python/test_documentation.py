@@ -46,6 +46,7 @@ def test_what_is_returned_has_its_attributes_in_the_reference(name):
     from fathom import _core
 
     page = (source / "docs/reference/python.md").read_text(encoding="utf-8")
+    assert getattr(_core, name).__doc__ or getattr(fathom, name).__doc__
     attributes = [each for each in dir(getattr(_core, name)) if not each.startswith("_")]
     assert attributes and (f"**{name}**" in page or f"an {name} each" in page)
     for each in attributes:

@@ -24,7 +24,7 @@ struct Estimate {
   std::string unit;
 };
 
-/// What was found out about the whole image, a triangle or some pixels: mostly that it is wrong.
+/// A result about the whole image, a triangle or some pixels; mostly a fault.
 struct Finding {
   /// See docs/validation.md, "Findings".
   std::string kind;

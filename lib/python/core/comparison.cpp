@@ -42,7 +42,8 @@ DifferenceMeasure measure_named(const std::string& name) {
 }
 
 void bind_metrics(Module& core) {
-  Class<DepthMetrics>(core, "DepthMetrics")
+  Class<DepthMetrics>(core, "DepthMetrics",
+                      "Metrics of depth benchmarks over the pixels where both maps show a surface.")
       .def_readonly("pixels", &DepthMetrics::pixels)
       .def_readonly("left_out", &DepthMetrics::left_out)
       .def_readonly("abs_rel", &DepthMetrics::abs_rel)
@@ -56,7 +57,10 @@ void bind_metrics(Module& core) {
       .def("__repr__",
            Attributes("DepthMetrics", {"pixels", "left_out", "abs_rel", "sq_rel", "rmse",
                                        "rmse_log", "mae", "delta_1", "delta_2", "delta_3"}));
-  Class<DisparityMetrics>(core, "DisparityMetrics")
+  Class<DisparityMetrics>(
+      core, "DisparityMetrics",
+      "Metrics of stereo benchmarks over the pixels with two disparities; bad_1 is the "
+      "share that is off by more than 1 pixel.")
       .def_readonly("pixels", &DisparityMetrics::pixels)
       .def_readonly("left_out", &DisparityMetrics::left_out)
       .def_readonly("epe", &DisparityMetrics::epe)
@@ -66,7 +70,10 @@ void bind_metrics(Module& core) {
       .def_readonly("bad_2", &DisparityMetrics::bad_2)
       .def("__repr__", Attributes("DisparityMetrics", {"pixels", "left_out", "epe", "rmse",
                                                        "bad_0_5", "bad_1", "bad_2"}));
-  Class<DifferenceSummary>(core, "DifferenceSummary")
+  Class<DifferenceSummary>(
+      core, "DifferenceSummary",
+      "Greatest, mean and percentiles of differences; `worst` is the pixel (x, y) of "
+      "the greatest.")
       .def_readonly("max", &DifferenceSummary::max)
       .def_readonly("mean", &DifferenceSummary::mean)
       .def_readonly("p50", &DifferenceSummary::p50)
@@ -82,7 +89,9 @@ void bind_metrics(Module& core) {
 }
 
 void bind_channel_comparison(Module& core) {
-  Class<ChannelComparison>(core, "ChannelComparison")
+  Class<ChannelComparison>(core, "ChannelComparison",
+                           "The differences between a channel of two maps: counts of pixels and "
+                           "DifferenceSummary objects.")
       .def_readonly("truth_channel", &ChannelComparison::truth_channel)
       .def_readonly("other_channel", &ChannelComparison::other_channel)
       .def_readonly("pixels", &ChannelComparison::pixels)

@@ -35,7 +35,8 @@ class Module {
 template <class T, class... Options>
 class Class {
  public:
-  Class(const Module& module, const char* name) : class_(module.handle(), name) {}
+  Class(const Module& module, const char* name, const char* doc = "")
+      : class_(module.handle(), name, doc) {}
 
   /// `constructor`: of pybind11::init().
   template <class Constructor>

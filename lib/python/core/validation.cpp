@@ -54,13 +54,20 @@ std::vector<std::string> class_names() {
 }  // namespace
 
 void bind_validation(Module& core) {
-  Class<Estimate>(core, "Estimate")
+  Class<Estimate>(
+      core, "Estimate",
+      "A quantity that was estimated from a map: value and standard deviation in `unit` "
+      "(pixels, scene units, rad or empty).")
       .def_readonly("name", &Estimate::name)
       .def_readonly("value", &Estimate::value)
       .def_readonly("deviation", &Estimate::deviation)
       .def_readonly("unit", &Estimate::unit)
       .def("__repr__", Attributes("Estimate", {"name", "value", "deviation", "unit"}));
-  Class<Finding>(core, "Finding")
+  Class<Finding>(
+      core, "Finding",
+      "A result about a map, mostly a fault: its `kind`, a clause (`text`), the number of "
+      "`pixels` that it explains, estimates, other kinds that fit equally well "
+      "(`alternatives`) and `evidence`.")
       .def_readonly("kind", &Finding::kind)
       .def_readonly("text", &Finding::text)
       .def_readonly("pixels", &Finding::pixels)

@@ -9,7 +9,7 @@
 
 namespace fathom::attribution {
 
-/// What may be wrong with a whole image: a model and a map with that one thing put right.
+/// A possible fault of a whole image: a model and a map in which this fault is corrected.
 struct Hypothesis {
   /// As of a Finding.
   std::string kind, text;
@@ -22,7 +22,7 @@ struct Hypothesis {
   std::vector<std::string> alternatives = {};
 };
 
-/// Makes it when it is to be tried; nothing where it does not apply.
+/// Makes a hypothesis when it is tried; nothing if it does not apply.
 using MakeHypothesis = std::function<std::optional<Hypothesis>()>;
 
 /// All hypotheses, in the order of trial. The arguments outlive them. `found` is the result of
