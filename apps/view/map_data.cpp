@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <type_traits>
 
 #include "apps/view/deep_data.h"
@@ -59,13 +61,14 @@ TilePlace tile_of(const ImageSize& size, unsigned level, std::size_t number) {
           std::min(tile_size, here.height - row), 1U << level};
 }
 
-template <class Word>
-void write_plane(std::span<const Word> plane, const ImageSize& size, const std::string& id,
-                 const Sink& sink, Progress* progress = nullptr) {
+/// `packed_tile` makes the text of a tile.
+void write_tiles(const std::function<std::string(const TilePlace&)>& packed_tile,
+                 const ImageSize& size, const std::string& id, const Sink& sink,
+                 Progress* progress = nullptr) {
   for (unsigned level = 0; level < size.levels(); ++level) {
     std::vector<std::string> tiles(tiles_at(size, level));
     parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t k) {
-      tiles[k] = packed(plane, size.width, tile_of(size, level, k));
+      tiles[k] = packed_tile(tile_of(size, level, k));
       if (progress != nullptr) progress->part_done();
     });
     for (std::size_t k = 0; k < tiles.size(); ++k) {
@@ -87,6 +90,25 @@ void write_samples(const DeepMap& deep, const ImageSize& size, const std::string
       sink(script_text(id + std::to_string(plane) + "-0-" + std::to_string(k), tiles[k][plane]));
     }
   }
+}
+
+/// The channels X and Y of the unit vectors whose Z a channel holds, as numbers.
+std::optional<std::array<std::size_t, 2>> parts_beside(const DepthMap& map,
+                                                       const ImageChannel& channel) {
+  if (kind_of(channel) != ChannelKind::direction || !channel.name.ends_with(".Z") ||
+      !std::holds_alternative<Samples<float>>(channel.values)) {
+    return std::nullopt;
+  }
+  const std::string stem = channel.name.substr(0, channel.name.size() - 1);
+  std::array<std::size_t, 2> numbers{};
+  for (std::size_t part = 0; part < numbers.size(); ++part) {
+    const ImageChannel* const found = map.find(stem + "XY"[part]);
+    if (found == nullptr || !std::holds_alternative<Samples<float>>(found->values)) {
+      return std::nullopt;
+    }
+    numbers[part] = static_cast<std::size_t>(found - map.channels.data());
+  }
+  return numbers;
 }
 
 /// The bits of values, as words.
@@ -166,6 +188,7 @@ Json describe_channel(const DepthMap& map, const ImageChannel& channel, Masks& m
             {"kind", word_of(kind_of(channel))},
             {"range", range_of(channel, mask)}};
   told["mask"] = masks.number_of(std::move(mask));
+  if (const auto parts = parts_beside(map, channel)) told["unit"] = *parts;
   if (shows_segments(channel.name)) told["none"] = no_segment;
   if (const auto* names = image::names_of_channel(map, channel.name)) told["names"] = *names;
   return told;
@@ -182,6 +205,29 @@ Json describe_camera(const Camera& camera) {
           {"skew", projection.skew},
           {"pixelCentre", projection.pixel_centre},
           {"worldFromCamera", camera_to_world(camera.world_to_camera)}};
+}
+
+void write_channel(const DepthMap& map, const ImageChannel& channel, const std::string& id,
+                   const Sink& sink, Progress& progress) {
+  const ImageSize size{map.width, map.height};
+  std::function<std::string(const TilePlace&)> packed_tile;
+  if (const auto numbers = parts_beside(map, channel)) {
+    const auto values = [&](std::size_t number) {
+      return std::span<const float>(std::get<Samples<float>>(map.channels[number].values));
+    };
+    const UnitParts parts{values((*numbers)[0]), values((*numbers)[1])};
+    packed_tile = [parts, plane = words_of(std::get<Samples<float>>(channel.values)),
+                   width = map.width](const TilePlace& tile) {
+      return packed_third(plane, parts, width, tile);
+    };
+  } else {
+    packed_tile = [&](const TilePlace& tile) {
+      return std::visit(
+          [&](const auto& values) { return packed(words_of(values), map.width, tile); },
+          channel.values);
+    };
+  }
+  write_tiles(packed_tile, size, id, sink, &progress);
 }
 
 }  // namespace
@@ -211,14 +257,12 @@ Json write_planes(const ViewedMap& viewed, const std::string& prefix, const Sink
   for (std::size_t k = 0; k < map.channels.size(); ++k) {
     const ImageChannel& channel = map.channels[k];
     told["channels"].push_back(describe_channel(map, channel, masks));
-    const std::string id = prefix + "-c" + std::to_string(k);
-    std::visit(
-        [&](const auto& values) { write_plane(words_of(values), size, id, sink, &progress); },
-        channel.values);
+    write_channel(map, channel, prefix + "-c" + std::to_string(k), sink, progress);
   }
   for (std::size_t k = 0; k < masks.all().size(); ++k) {
-    const Mask& mask = masks.all()[k];
-    write_plane(std::span(mask), size, prefix + "-k" + std::to_string(k), sink);
+    const std::span<const std::uint8_t> mask(masks.all()[k]);
+    const auto packed_tile = [&](const TilePlace& tile) { return packed(mask, size.width, tile); };
+    write_tiles(packed_tile, size, prefix + "-k" + std::to_string(k), sink);
   }
   if (viewed.deep) {
     told["deep"] = true;

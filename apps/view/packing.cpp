@@ -3,6 +3,7 @@
 #include <libdeflate.h>
 
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <new>
@@ -55,7 +56,7 @@ Word zigzag(Word difference) {
   return static_cast<Word>(static_cast<Word>(difference << 1) ^ negative);
 }
 
-enum class Prediction : std::uint8_t { left, gradient };
+enum class Prediction : std::uint8_t { left, gradient, unit };
 
 /// value − prediction of all values of a tile.
 template <class Word>
@@ -81,24 +82,64 @@ std::uint64_t bits_of(const std::vector<Word>& numbers) {
   return sum;
 }
 
+/// The residuals of a tile by the prediction that fits best so far.
 template <class Word>
-std::string packed_words(std::span<const Word> plane, std::uint32_t width, const TilePlace& tile) {
-  const std::vector<Word> words = words_of(plane, width, tile);
-  Prediction prediction = Prediction::left;
-  std::vector<Word> best = residuals(words, tile.columns, prediction);
-  if (tile.rows > 1) {
-    std::vector<Word> other = residuals(words, tile.columns, Prediction::gradient);
-    if (bits_of(other) < bits_of(best)) {
-      prediction = Prediction::gradient;
-      best = std::move(other);
-    }
+struct Residuals {
+  Prediction prediction;
+  std::vector<Word> words;
+
+  /// Takes another prediction if it leaves fewer bits.
+  void improve(Prediction other, std::vector<Word> its_words) {
+    if (bits_of(its_words) >= bits_of(words)) return;
+    prediction = other;
+    words = std::move(its_words);
   }
-  Bytes bytes{static_cast<std::uint8_t>(prediction)};
-  bytes.reserve(1 + sizeof(Word) * best.size());
+};
+
+template <class Word>
+Residuals<Word> by_neighbours(const std::vector<Word>& words, const TilePlace& tile) {
+  Residuals<Word> best{Prediction::left, residuals(words, tile.columns, Prediction::left)};
+  if (tile.rows > 1) {
+    best.improve(Prediction::gradient, residuals(words, tile.columns, Prediction::gradient));
+  }
+  return best;
+}
+
+template <class Word>
+std::string packed_residuals(const Residuals<Word>& best) {
+  Bytes bytes{static_cast<std::uint8_t>(best.prediction)};
+  bytes.reserve(1 + sizeof(Word) * best.words.size());
   for (std::size_t byte = 0; byte < sizeof(Word); ++byte) {
-    for (const Word word : best) bytes.push_back(static_cast<std::uint8_t>(word >> 8 * byte));
+    for (const Word word : best.words) bytes.push_back(static_cast<std::uint8_t>(word >> 8 * byte));
   }
   return app::base64(deflated(bytes));
+}
+
+template <class Word>
+std::string packed_words(std::span<const Word> plane, std::uint32_t width, const TilePlace& tile) {
+  return packed_residuals(by_neighbours(words_of(plane, width, tile), tile));
+}
+
+/// The bits of |z| of a unit vector with x and y; those of 0 where there is none, or a NaN.
+std::uint32_t third_of_unit(float x, float y) {
+  const double square = 1 - double{x} * x - double{y} * y;
+  return std::bit_cast<std::uint32_t>(square > 0 ? static_cast<float>(std::sqrt(square)) : 0.0F);
+}
+
+/// value − prediction of the Z of unit vectors.
+std::vector<std::uint32_t> unit_residuals(const std::vector<std::uint32_t>& z,
+                                          const std::vector<float>& x, const std::vector<float>& y,
+                                          std::size_t columns) {
+  constexpr std::uint32_t sign = 0x80000000U;
+  std::vector<std::uint32_t> result(z.size());
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    const bool has_left = k % columns != 0;
+    const std::uint32_t left = has_left ? z[k - 1] : 0;
+    const bool is_as_left = has_left && x[k] == x[k - 1] && y[k] == y[k - 1];
+    const std::uint32_t expected = is_as_left ? left : third_of_unit(x[k], y[k]) | (left & sign);
+    result[k] = zigzag(z[k] - expected);
+  }
+  return result;
 }
 
 }  // namespace
@@ -121,6 +162,15 @@ std::string packed(std::span<const std::uint32_t> plane, std::uint32_t width,
 std::string packed(std::span<const std::uint64_t> plane, std::uint32_t width,
                    const TilePlace& tile) {
   return packed_words(plane, width, tile);
+}
+
+std::string packed_third(std::span<const std::uint32_t> plane, const UnitParts& parts,
+                         std::uint32_t width, const TilePlace& tile) {
+  const std::vector<std::uint32_t> words = words_of(plane, width, tile);
+  Residuals<std::uint32_t> best = by_neighbours(words, tile);
+  best.improve(Prediction::unit, unit_residuals(words, words_of(parts.x, width, tile),
+                                                words_of(parts.y, width, tile), tile.columns));
+  return packed_residuals(best);
 }
 
 }  // namespace fathom::view

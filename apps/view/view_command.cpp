@@ -28,6 +28,7 @@
 #include "fathom/image/deep_files.h"
 #include "fathom/image/flat_deep_map.h"
 #include "fathom/image/map_formats.h"
+#include "fathom/image/matte_layers.h"
 #include "fathom/reference/probe.h"
 #include "fathom/threads/threads.h"
 
@@ -64,7 +65,7 @@ std::vector<ViewedMap> read_viewed(const std::string& file) {
       viewed.deep = read_deep_map_argument(input.bytes(), file);
       viewed.map = flat_map(*viewed.deep);
     } else {
-      viewed.map = read_map_argument(input.bytes(), file);
+      viewed.map = with_matte_names(read_map_argument(input.bytes(), file));
     }
     viewed.camera = camera_of(viewed.map, file);
   }

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <random>
 #include <string>
 
 #include "apps/view/page.h"
@@ -51,6 +54,40 @@ TEST(ViewerPage, ReportsHowMuchIsDone) {
       some_maps(), Questions::none, [](std::string_view) {},
       [&](double share) { shares.push_back(share); });
   EXPECT_THAT(shares, ::testing::ElementsAre(0.5, 1.0));  // of two tiles
+}
+
+/// Directions that no neighbour predicts: X, Y and Z of unit vectors, rounded to binary32.
+ViewedMap some_directions() {
+  ViewedMap viewed;
+  viewed.name = "directions.npz";
+  viewed.map.width = 512;
+  viewed.map.height = 64;
+  std::array<Samples<float>, 3> parts;
+  std::mt19937 random(51);
+  for (std::size_t k = 0; k < std::size_t{512} * 64; ++k) {
+    const double z = 2 * static_cast<double>(random()) / 4294967296.0 - 1;
+    const double angle = static_cast<double>(random()), radius = std::sqrt(1 - z * z);
+    const std::array vector{radius * std::cos(angle), radius * std::sin(angle), z};
+    for (std::size_t part = 0; part < 3; ++part) {
+      parts[part].push_back(static_cast<float>(vector[part]));
+    }
+  }
+  for (std::size_t part = 0; part < 3; ++part) {
+    viewed.map.channels.push_back({std::string("N.") + "XYZ"[part], std::move(parts[part])});
+  }
+  return viewed;
+}
+
+/// The bytes of a plane's text.
+std::size_t size_of_plane(const std::string& page, const std::string& id) {
+  const std::size_t begin = page.find("id=\"" + id + "\">");
+  return page.find("</script>", begin) - begin;
+}
+
+// Two numbers and the sign of the third determine it; its last bits remain.
+TEST(ViewerPage, TheThirdPartOfDirectionsTakesLittleRoom) {
+  const std::string page = page_of({some_directions()}, most_page_bytes);
+  EXPECT_LT(size_of_plane(page, "m0-c2-0-0"), size_of_plane(page, "m0-c0-0-0") * 3 / 5);
 }
 
 }  // namespace

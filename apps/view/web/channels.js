@@ -40,19 +40,21 @@ export class Source {
   }
 }
 
-/// A channel of a map as it is stored.
+/// A channel of a map as it is stored; `siblings` are all channels of the map.
 class Channel extends Source {
-  constructor(map, told, prefix, number) {
+  constructor(map, told, prefix, number, siblings) {
     super(map, `${prefix}-c${number}`);
-    Object.assign(this, told, { prefix, scale: told.type === "u16" ? map.scale : undefined });
+    Object.assign(this, told, { prefix, siblings, scale: told.type === "u16" ? map.scale : undefined });
     this.isSingle = this.type === "f32";
     this.isIdentifier = this.kind === "identifier";
     if (this.scale && this.range) this.range = this.range.map((code) => code / this.scale);
   }
   async made(level, number) {
     const size = this.sizeOf(level, number), end = `-${level}-${number}`;
+    // The Z of unit vectors is packed by their X and Y.
+    const parts = await Promise.all((this.unit ?? []).map((part) => this.siblings[part].tile(level, number)));
     const [stored, mask] = await Promise.all([
-      unpacked(this.key + end, this.type, size.columns),
+      unpacked(this.key + end, this.type, size.columns, parts.map(({ values }) => values)),
       this.mask < 0 ? null : remembered(`${this.prefix}-k${this.mask}${end}`, async () => {
         const values = await unpacked(`${this.prefix}-k${this.mask}${end}`, "u8", size.columns);
         return { values, bytes: values.byteLength };
@@ -89,7 +91,8 @@ function withDirections(map, channels) {
 }
 
 export const maps = page.maps.map((told, number) => {
-  const stored = told.channels.map((channel, k) => new Channel(told, channel, `m${number}`, k));
+  const stored = [];
+  told.channels.forEach((channel, k) => stored.push(new Channel(told, channel, `m${number}`, k, stored)));
   return { ...told, number, stored, channels: withDirections(told, stored) };
 });
 export const channelOf = (map, name) => map.channels.find((channel) => channel.name === name);

@@ -9,6 +9,24 @@ async function inflated(text) {
 
 const arrays = { 1: Uint8Array, 2: Uint16Array, 4: Uint32Array };
 
+/// Words of 32 bits, the Z of unit vectors that have these X and Y.
+function unpackedThird(bytes, columns, [x, y]) {
+  const count = (bytes.length - 1) / 4, words = new Uint32Array(count);
+  const third = new Float32Array(1), bits = new Uint32Array(third.buffer);
+  for (let k = 0; k < count; ++k) {
+    const hasLeft = k % columns !== 0, left = hasLeft ? words[k - 1] : 0;
+    let expected = left;
+    if (!hasLeft || x[k] !== x[k - 1] || y[k] !== y[k - 1]) {
+      const square = 1 - x[k] * x[k] - y[k] * y[k];
+      third[0] = square > 0 ? Math.sqrt(square) : 0;
+      expected = bits[0] | left & 0x80000000;
+    }
+    const zigzag = bytes[1 + k] | bytes[1 + count + k] << 8 | bytes[1 + 2 * count + k] << 16 | bytes[1 + 3 * count + k] << 24;
+    words[k] = (zigzag >>> 1 ^ -(zigzag & 1)) + expected;
+  }
+  return words;
+}
+
 /// Words of 8, 16 or 32 bits.
 function unpackedWords(bytes, size, columns) {
   const count = (bytes.length - 1) / size, isGradient = bytes[0] === 1, words = new arrays[size](count);
@@ -50,8 +68,10 @@ const types = {
   f32: { bytes: 4, values: (words) => new Float32Array(words.buffer) },
   f64: { bytes: 8, values: (words) => new Float64Array(words.buffer) } };
 
-export async function unpacked(id, type, columns) {
+/// `parts` are the X and Y of the unit vectors whose Z is unpacked.
+export async function unpacked(id, type, columns, parts) {
   const bytes = await inflated(document.getElementById(id).textContent), { bytes: size, values } = types[type];
+  if (bytes[0] === 2) return values(unpackedThird(bytes, columns, parts));
   return values(size === 8 ? unpackedPairs(bytes, columns) : unpackedWords(bytes, size, columns));
 }
 
