@@ -4,12 +4,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "apps/maps/info.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
+#include "fathom/image/matte_layers.h"
 #include "fathom/image/surface.h"
 #include "fathom/text/parse_json.h"
 #include "fathom/text/printable.h"
@@ -126,6 +128,19 @@ Json describe_values(const ChannelSummary& summary, const char* count) {
           {"nan", summary.nan}};
 }
 
+/// What the layers of Cryptomatte show, by their names.
+Json describe_mattes(const DepthMap& map) {
+  Json layers = Json::object();
+  for (const MatteLayer& layer : matte_layers(map)) {
+    Json names = Json::object();
+    for (const MatteExtent& extent : extents(layer)) {
+      text::append_member(names, extent.name, {{"pixels", extent.pixels}, {"area", extent.area}});
+    }
+    text::append_member(layers, layer.name, std::move(names));
+  }
+  return layers;
+}
+
 /// Scale, names and texts.
 void describe_rest(const DepthMap& map, Json& answer) {
   if (map.png_scale) answer["png_scale"] = *map.png_scale;
@@ -151,6 +166,7 @@ Json describe(const DepthMap& map, const std::string& file) {
               {"width", map.width},
               {"height", map.height},
               {"channels", std::move(channels)}};
+  if (Json mattes = describe_mattes(map); !mattes.empty()) answer["mattes"] = std::move(mattes);
   describe_rest(map, answer);
   return answer;
 }
@@ -184,13 +200,38 @@ std::string rest_as_text(const DepthMap& map) {
   return text;
 }
 
+/// Whether a channel holds hashes and coverages of a layer, which stand in mattes_as_text().
+bool is_of_mattes(const std::string& channel, const std::vector<MatteLayer>& layers) {
+  return std::ranges::any_of(layers, [&](const MatteLayer& layer) {
+    return std::ranges::find(layer.channels, channel) != layer.channels.end();
+  });
+}
+
+std::string mattes_as_text(const MatteLayer& layer) {
+  std::string text =
+      fmt::format("  {} (Cryptomatte, {} to {})\n", text::printable(layer.name),
+                  text::printable(layer.channels.front()), text::printable(layer.channels.back()));
+  const std::vector<MatteExtent> found = extents(layer);
+  constexpr std::size_t most = 20;
+  for (const MatteExtent& extent : std::span(found).first(std::min(most, found.size()))) {
+    text +=
+        fmt::format("    {:<27} {:>7} {} with an area of {:.2f}\n", text::printable(extent.name),
+                    extent.pixels, extent.pixels == 1 ? "pixel" : "pixels", extent.area);
+  }
+  if (found.size() > most) text += fmt::format("    … and {} more names\n", found.size() - most);
+  return text;
+}
+
 std::string describe_as_text(const DepthMap& map, const std::string& file) {
   std::string text =
       fmt::format("{}: a map of {}x{} pixels\n", text::printable(file), map.width, map.height);
   text += heading_of_table("surface pixels");
+  const std::vector<MatteLayer> layers = matte_layers(map);
   for (const ImageChannel& channel : map.channels) {
+    if (is_of_mattes(channel.name, layers)) continue;
     text += row_of_table(channel.name, summarise(map, channel));
   }
+  for (const MatteLayer& layer : layers) text += mattes_as_text(layer);
   return text + rest_as_text(map);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "apps/shell/known_files.h"
 #include "apps/shell/max_memory.h"
@@ -12,6 +13,7 @@
 #include "fathom/image/deep_files.h"
 #include "fathom/image/flat_deep_map.h"
 #include "fathom/image/map_files.h"
+#include "fathom/image/matte_layers.h"
 
 namespace fathom::app {
 namespace {
@@ -72,7 +74,7 @@ DepthMap read_map_or_flat_map(const std::string& file) {
   DepthMap map = is_deep_map(input.bytes()) ? flat_map(read_deep_map_argument(input.bytes(), file))
                                             : read_map_argument(input.bytes(), file);
   input.expect_unchanged();
-  return map;
+  return with_matte_names(std::move(map));
 }
 
 }  // namespace fathom::app

@@ -27,7 +27,8 @@ DepthMap read_map_argument(const std::string& file);
 DepthMap read_map_argument(std::span<const std::byte> bytes, const std::string& file);
 /// A deep map that has been read already, likewise.
 DeepMap read_deep_map_argument(std::span<const std::byte> bytes, const std::string& file);
-/// A map to be drawn: of a deep map, what flat_map() shows.
+/// A map to be drawn: flat_map() of a deep map; the layers of Cryptomatte as with_matte_names()
+/// shows them.
 DepthMap read_map_or_flat_map(const std::string& file);
 
 }  // namespace fathom::app

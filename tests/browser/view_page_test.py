@@ -382,6 +382,20 @@ class ViewPage(PageCase):
         self.assertEqual(len(lines), samples.max())
         self.assertEqual([[numpy.float32(cell) for cell in line[:4]] + [int(line[4])] for line in lines], read)
 
+    def test_cryptomatte_is_shown_by_names(self):
+        fathom("render", DATA / "scenes/pair.json", "--size", "160x120", "--cryptomatte", "-o", self.folder / "matte.exr")
+        self.open(page=self.viewed("matte.exr"))
+        options = [option.get_attribute("value") for option in Select(self.one("#channel")).options]
+        self.assertIn("CryptoObject", options)
+        self.assertNotIn("CryptoObject00.R", options)
+        shown, mask = self.values(0, "CryptoObject", "u4")
+        shares, _ = self.values(0, "CryptoObject.coverage", "f4")
+        numpy.testing.assert_array_equal(mask != 0, shares > 0)
+        rows, columns = numpy.nonzero(shares == 1)
+        self.open(f"#pixel={columns[0]},{rows[0]}", page=(self.folder / "matte.html").as_uri())
+        number = shown[rows[0], columns[0]]
+        self.assertEqual(self.reading()["CryptoObject"], f"{number}  {['spot', 'teapot'][number]}")
+
     def test_a_full_hd_map_is_small_and_needs_no_other_file(self):
         fathom("render", DATA / "meshes/spot.obj", "--size", "1920x1080", "--channels", "Z,A", "-o", self.folder / "hd.exr")
         self.open(page=self.viewed("hd.exr"))

@@ -1,26 +1,21 @@
 #include "fathom/image/cryptomatte.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cstdio>
 #include <numeric>
 #include <set>
 #include <string_view>
 #include <utility>
 
 #include "fathom/failures/errors.h"
+#include "fathom/image/matte_channels.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/json_text.h"
 
 namespace fathom {
 namespace {
 
-std::string in_hexadecimal(std::uint32_t bits) {
-  std::array<char, 9> text{};
-  std::snprintf(text.data(), text.size(), "%08x", bits);
-  return text.data();
-}
+using image::in_hexadecimal, image::matte_channel;
 
 std::uint32_t mixed(std::uint32_t k) {
   return std::rotl(k * 0xcc9e2d51U, 15) * 0x1b873593U;
@@ -35,11 +30,6 @@ std::string manifest_of(const std::vector<std::string>& names) {
                         '"');
   }
   return text::joined_in('{', members, '}');
-}
-
-/// LAYER00 holds the ranks 0 and 1, LAYER01 the ranks 2 and 3, ….
-std::string channel_name(const std::string& layer, std::size_t level, char component) {
-  return layer + (level < 10 ? "0" : "") + std::to_string(level) + "." + component;
 }
 
 }  // namespace
@@ -88,7 +78,7 @@ void add_mattes(DepthMap& map, const Mattes& mattes) {
   for (std::size_t level = 0; level < levels; ++level) {
     for (const char component : {'R', 'G', 'B', 'A'}) {
       map.channels.push_back(
-          {channel_name(mattes.layer, level, component), Samples<float>(mattes.counts.size())});
+          {matte_channel(mattes.layer, level, component), Samples<float>(mattes.counts.size())});
     }
   }
   std::size_t next = 0;

@@ -171,9 +171,11 @@ std::vector<std::uint8_t> surface_mask(const DepthMap& map, const ImageChannel& 
   const StandardArithmetic standard;
   require_valid(map);
   std::vector<std::uint8_t> everywhere(std::size_t{map.width} * map.height, 1);
-  // `A` itself says how much of a pixel is covered, and `valid` whether it has a ray: none of their
-  // pixels is background.
-  if (channel.name == "A" || channel.name == "valid") return everywhere;
+  // `A` and the coverages of Cryptomatte are shares of a pixel, and `valid` says whether it has a
+  // ray: none of their pixels is background.
+  if (channel.name == "A" || channel.name == "valid" || channel.name.ends_with(".coverage")) {
+    return everywhere;
+  }
   const Samples<std::uint32_t>* ids = by_identifiers ? identifiers_of(map) : nullptr;
   if (ids) return mask_of_identifiers(*ids);
   switch (kind_of(channel)) {

@@ -35,4 +35,20 @@ std::optional<std::vector<std::string>> strings_of_json(std::string_view text) {
   return strings;
 }
 
+std::optional<std::vector<std::pair<std::string, std::string>>> string_members_of_json(
+    std::string_view text) {
+  nlohmann::ordered_json object;
+  try {
+    parse_json(text, object);
+  } catch (const JsonFault&) {
+    return std::nullopt;
+  }
+  if (!object.is_object()) return std::nullopt;
+  std::vector<std::pair<std::string, std::string>> members;
+  for (const auto& [key, value] : object.items()) {
+    if (value.is_string()) members.emplace_back(key, value.get<std::string>());
+  }
+  return members;
+}
+
 }  // namespace fathom::text

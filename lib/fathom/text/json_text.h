@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 /// The little JSON that maps carry as texts, without nlohmann's header for those who need no more.
@@ -18,5 +19,10 @@ std::string joined_in(char open, const std::vector<std::string>& parts, char clo
 
 /// The strings of a list, or nothing where the text is not JSON of that kind.
 std::optional<std::vector<std::string>> strings_of_json(std::string_view text);
+
+/// The members of an object that are strings, as pairs of key and value in its order; nothing if
+/// the text is not a JSON object.
+std::optional<std::vector<std::pair<std::string, std::string>>> string_members_of_json(
+    std::string_view text);
 
 }  // namespace fathom::text
