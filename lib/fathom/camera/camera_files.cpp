@@ -116,6 +116,14 @@ bool directions_are_unread(const Camera& camera) {
   return lens && lens->directions && !lens->directions->is_read();
 }
 
+/// The fault of a camera whose table of directions may only be named.
+std::optional<std::string> fault_but_of_unread_directions(const Camera& camera) {
+  if (!directions_are_unread(camera)) return find_fault(camera);
+  Camera without_table = camera;
+  without_table.projection.lens.reset();
+  return find_fault(without_table);
+}
+
 Camera read_camera(const JsonValue& value, const DirectionReader& directions) {
   expect_known_keys(value);
   constexpr auto largest_size = std::numeric_limits<std::uint32_t>::max();
@@ -127,9 +135,7 @@ Camera read_camera(const JsonValue& value, const DirectionReader& directions) {
   read_number(value, "near", camera.near);
   if (const auto far = value.find("far"); far && !far->is_null()) camera.far = far->number();
   if (const auto name = value.find("name")) camera.name = name->string();
-  Camera checked = camera;
-  if (directions_are_unread(camera)) checked.projection.lens.reset();
-  if (const auto fault = find_fault(checked)) value.fail(*fault);
+  if (const auto fault = fault_but_of_unread_directions(camera)) value.fail(*fault);
   return camera;
 }
 
