@@ -56,27 +56,6 @@ std::optional<StereoRig> rig_of(const ConvertArguments& arguments) {
   return std::nullopt;
 }
 
-/// Whether a map is called as a camera: views/a.npy as images/a.jpg, a.jpg.geometric.bin as a.jpg.
-bool is_called_as(const std::string& map, const std::string& camera) {
-  const std::string file = std::filesystem::path(map).filename().string();
-  const std::filesystem::path image = std::filesystem::path(camera).filename();
-  return !image.empty() && (std::filesystem::path(file).stem() == image.stem() ||
-                            file.starts_with(image.string() + "."));
-}
-
-/// The camera of a path that has the name of the map.
-Camera camera_called_as(const std::string& map, const std::vector<Camera>& cameras) {
-  std::vector<const Camera*> found;
-  for (const Camera& camera : cameras)
-    if (is_called_as(map, camera.name)) found.push_back(&camera);
-  if (found.size() == 1) return *found.front();
-  throw UsageError(fmt::format(
-      "--camera: {}, but {} named like the map '{}'; expected a camera for each map, or maps that "
-      "are named like the images",
-      text::counted(cameras.size(), "camera"),
-      found.empty() ? "none is" : std::to_string(found.size()) + " are", text::printable(map)));
-}
-
 /// The cameras of the camera file, one for each map; none if no file is given. If there are more or
 /// fewer, maps find theirs by name.
 std::vector<Camera> cameras_in_file(const ConvertArguments& arguments, const Console& console) {
@@ -259,13 +238,15 @@ void write_outputs(const DepthMap& map, const ConvertArguments& arguments, MapFo
   OutputFile::commit_together(outputs);
 }
 
-int run_convert(const ConvertArguments& arguments, const Console& console) {
-  if (ends_with_ply(arguments.output)) return write_points(arguments, console);
-  if (arguments.maps.size() > 1) {
-    throw UsageError(arguments.output + ": several maps make a point cloud; expected .ply");
+int run_convert(const ConvertArguments& given, const Console& console) {
+  if (ends_with_ply(given.output)) return write_points(given, console);
+  if (given.maps.size() > 1) {
+    throw UsageError(given.output + ": several maps make a point cloud; expected .ply");
   }
-  const MapFormat format = arguments.storage.format_of(arguments.output);
-  DepthMap read = read_map_argument(arguments.maps.front());
+  const MapFormat format = given.storage.format_of(given.output);
+  DepthMap read = read_map_argument(given.maps.front());
+  ConvertArguments arguments = given;
+  arguments.channel = own_channel_name(read, given.channel);
   if (arguments.channel == "mask" && read.find("mask") == nullptr) {
     return write_mask(read, arguments, format);
   }

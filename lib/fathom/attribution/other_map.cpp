@@ -13,7 +13,7 @@ namespace {
 
 const ImageChannel& depth_channel(const DepthMap& map, const std::string& name) {
   if (!name.empty()) {
-    if (const ImageChannel* channel = map.find(name)) return *channel;
+    if (const ImageChannel* channel = map.find(own_channel_name(map, name))) return *channel;
     throw InputError(missing_channel(map, name).what());
   }
   if (const ImageChannel* channel = map.find("Z")) return *channel;

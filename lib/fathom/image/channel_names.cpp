@@ -127,6 +127,12 @@ const ContentsName* contents_named(std::string_view name) {
   return found == contents_table.end() ? nullptr : found;
 }
 
+std::string own_channel_name(const DepthMap& map, const std::string& name) {
+  const ContentsName* const contents = contents_named(name);
+  if (contents == nullptr || contents->is_mask || map.find(name) != nullptr) return name;
+  return std::string(description_of(contents->channel).name);
+}
+
 UnknownName unknown_contents(const std::string& name) {
   std::vector<std::string> names = names_of_channels();
   for (const ContentsName& each : contents_table) names.emplace_back(each.name);

@@ -54,6 +54,10 @@ inline constexpr auto contents_table = std::to_array<ContentsName>({
 /// nullptr if it is no name of the table.
 const ContentsName* contents_named(std::string_view name);
 
+/// The name that a channel has in a map: "Z" for "depth". A mask, a name that the map itself has
+/// and a name that is not in the table are returned unchanged.
+std::string own_channel_name(const DepthMap& map, const std::string& name);
+
 // Errors about names of channels. They contain the existing names and suggest the intended one,
 // also for words of other programs ("depth" for Z).
 

@@ -59,7 +59,7 @@ const ImageChannel* lone_depth(const DepthMap& map) {
 }
 
 const ImageChannel& named(const DepthMap& map, const std::string& name, const char* which) {
-  if (const ImageChannel* channel = map.find(name)) return *channel;
+  if (const ImageChannel* channel = map.find(own_channel_name(map, name))) return *channel;
   throw missing_channel(map, name, std::string("the ") + which + " map");
 }
 

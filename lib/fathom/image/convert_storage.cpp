@@ -14,7 +14,7 @@ namespace fathom {
 namespace {
 
 const ImageChannel& depth_channel(const DepthMap& map, const std::string& asked) {
-  const ImageChannel* channel = map.find(asked.empty() ? "Z" : asked);
+  const ImageChannel* channel = map.find(asked.empty() ? "Z" : own_channel_name(map, asked));
   if (!channel && asked.empty() && map.channels.size() == 1) channel = &map.channels.front();
   if (!channel && asked.empty())
     throw ambiguous_channel(names_of_channels(map), "the map has no Z, only", "convert");

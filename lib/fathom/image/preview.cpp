@@ -245,9 +245,7 @@ RgbImage draw_preview(const DepthMap& map, const PreviewOptions& given) {
   const StandardArithmetic standard;
   require_valid(map);
   PreviewOptions options = given;
-  const ContentsName* const contents = contents_named(options.channel);
-  if (contents && !contents->is_mask && !map.find(options.channel))
-    options.channel = description_of(contents->channel).name;
+  options.channel = own_channel_name(map, options.channel);
   const auto use_colours = [&options](ColourMap colours) {
     if (!options.colours) options.colours = colours;
   };

@@ -110,10 +110,14 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         """Under the names that channels= takes besides the channels' own."""
         if name == "mask":
             return self.mask()
-        own = _core.contents.get(name)
-        if own is None or own not in self:
+        own = self._own_name(name)
+        if own not in self:
             raise KeyError(name)
         return self[own]
+
+    def _own_name(self, name: str) -> str:
+        """The map's own name of a channel: "Z" for "depth"."""
+        return name if name in self or name == "mask" else str(_core.contents.get(name, name))
 
     def __reduce__(self) -> tuple[Any, ...]:
         views = None if self._views is None else [(camera, _state_of(each)) for camera, each in self._views]
@@ -164,7 +168,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         if names is not None and not isinstance(names, Mapping):
             raise TypeError(f"names: expected a dict of names by the names of channels, found {names!r}")
         others = [(as_text("names", own), as_text("names", other)) for own, other in (names or {}).items()]
-        asked = "" if channel is None else as_text("channel", channel)
+        asked = "" if channel is None else self._own_name(as_text("channel", channel))
         parts = [name for name, _ in _planes(self)] if asked else []
         if asked and asked not in self and asked not in parts:
             raise ValueError(f"channel: the map has no channel '{asked}', only {', '.join(self)}")
