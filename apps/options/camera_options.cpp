@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "apps/options/map_arguments.h"
 #include "apps/shell/failures.h"
@@ -17,6 +18,8 @@
 #include "fathom/image/directions.h"
 #include "fathom/image/map_files.h"
 #include "fathom/scene/framing.h"
+#include "fathom/text/counted.h"
+#include "fathom/text/printable.h"
 
 namespace fathom::app {
 namespace {
@@ -279,6 +282,30 @@ Camera CameraOptions::get_one(const Scene& scene, const ReadLimits& limits, cons
         cameras.size(), command));
   }
   return cameras.front();
+}
+
+namespace {
+
+/// Whether a map is called as a camera: views/a.npy as images/a.jpg, a.jpg.geometric.bin as a.jpg.
+bool is_called_as(const std::string& map, const std::string& camera) {
+  const std::string file = std::filesystem::path(map).filename().string();
+  const std::filesystem::path image = std::filesystem::path(camera).filename();
+  return !image.empty() && (std::filesystem::path(file).stem() == image.stem() ||
+                            file.starts_with(image.string() + "."));
+}
+
+}  // namespace
+
+Camera camera_called_as(const std::string& map, const std::vector<Camera>& cameras) {
+  std::vector<const Camera*> found;
+  for (const Camera& camera : cameras)
+    if (is_called_as(map, camera.name)) found.push_back(&camera);
+  if (found.size() == 1) return *found.front();
+  throw UsageError(fmt::format(
+      "--camera: {}, of which {} called as the map '{}'; expected a camera for each map, or file "
+      "names that are those of the images",
+      text::counted(cameras.size(), "camera"),
+      found.empty() ? "none is" : std::to_string(found.size()) + " are", text::printable(map)));
 }
 
 std::vector<Camera> read_camera_file(const std::string& file, const Console& console) {

@@ -87,4 +87,9 @@ std::vector<Camera> read_camera_file(const std::string& file, const Console& con
 std::vector<Camera> read_cameras_with_lenses(const std::string& file, const ReadLimits& limits,
                                              const Console& console);
 
+/// The camera of a path whose name is the file name of a map: images/a.jpg for views/a.npy and for
+/// a.jpg.geometric.bin.
+/// Fails    UsageError unless there is exactly one.
+Camera camera_called_as(const std::string& map, const std::vector<Camera>& cameras);
+
 }  // namespace fathom::app

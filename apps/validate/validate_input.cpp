@@ -26,7 +26,7 @@ ValidationScene named_by_files(const ValidateArguments& arguments, const Console
     const auto [width, height] = arguments.size;
     camera = frame_scene(scene, {}, {.width = width, .height = height});
   } else {
-    camera = read_camera(arguments.camera, console);
+    camera = read_camera(arguments.camera, "", console);
   }
   camera = validation::with_clip_planes(scene, camera);
   return {std::filesystem::path(arguments.scenes.front()).stem(), std::move(scene), camera};
@@ -34,9 +34,10 @@ ValidationScene named_by_files(const ValidateArguments& arguments, const Console
 
 }  // namespace
 
-Camera read_camera(const std::string& file, const Console& console) {
+Camera read_camera(const std::string& file, const std::string& map, const Console& console) {
   if (file.empty()) throw UsageError("--camera FILE is missing");
   const std::vector<Camera> cameras = read_camera_file(file, console);
+  if (cameras.size() > 1 && !map.empty()) return camera_called_as(map, cameras);
   if (cameras.size() != 1) {
     throw UsageError(fmt::format(
         "{}: is a path of {} cameras; expected a single one, as 'fathom camera import … --image "

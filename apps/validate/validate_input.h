@@ -14,9 +14,10 @@
 /// Input files of a comparison; no output may overwrite them.
 namespace fathom::app {
 
-/// The single camera of --camera; warnings go to the console.
-/// Fails    UsageError where the file is not given or holds a camera path; InputError.
-Camera read_camera(const std::string& file, const Console& console);
+/// The single camera of --camera, or the camera of a path that is called as `map`, the file of
+/// --map; empty: there is no such file. Warnings go to the console.
+/// Fails    UsageError if the file is not given or has no such camera; InputError.
+Camera read_camera(const std::string& file, const std::string& map, const Console& console);
 
 /// The scene of SCENE…; warnings go to the console.
 /// Fails    UsageError if SCENE is missing; InputError.

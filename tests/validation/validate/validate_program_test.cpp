@@ -60,6 +60,26 @@ TEST_F(ValidateProgram, FindsAnExactMapGood) {
   EXPECT_GT(json["results"][0]["bounds"]["median_relative_width"], 0);
 }
 
+TEST_F(ValidateProgram, FindsTheCameraOfAPathByTheNameOfTheMap) {
+  const auto named = [&](const std::string& file, const std::string& name) {
+    nlohmann::json camera = nlohmann::json::parse(folder.read(file));
+    camera["name"] = name;
+    return camera;
+  };
+  folder.write("path.json", nlohmann::json{named("aside.json", "images/other.jpg"),
+                                           named("camera.json", "images/map.jpg")}
+                                .dump());
+  const auto judged = [&](const std::string& map) {
+    return run_fathom({"validate", "--map", map, "--channel", "depth", "--camera", "path.json",
+                       "--model", "gl-unorm24", cube},
+                      {.folder = folder.path()});
+  };
+  const Outcome outcome = judged("map.exr");
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_THAT(judged("aside.exr").err,
+              HasSubstr("--camera: 2 cameras, of which none is called as the map 'aside.exr'"));
+}
+
 TEST_F(ValidateProgram, NamesAHalfPixelShiftAndListsItsWorstPixels) {
   const Outcome outcome = validate("aside.exr", {"--out", "report"});
   EXPECT_EQ(outcome.status, 1);
