@@ -204,9 +204,11 @@ void check_passes(const std::vector<Camera>& cameras, const std::vector<RenderPa
 }
 
 /// The hint for the first output that has one.
-std::string hint_of(const std::vector<RenderPass>& passes, const RenderOutputs& outputs) {
+std::string hint_of(const std::vector<RenderPass>& passes, const Camera& camera,
+                    const RenderOutputs& outputs) {
   for (const RenderPass& pass : passes) {
     for (const OutputPlan& output : pass.outputs) {
+      if (std::string hint = hint_for_lens(camera, output.plan); !hint.empty()) return hint;
       const std::string& name = outputs.map_name(0, output.number);
       if (std::string hint = hint_for_first_exr(name, output.plan); !hint.empty()) return hint;
     }
@@ -236,7 +238,8 @@ int render_maps(RenderArguments arguments, const Console& console) {
   check_passes(cameras, passes, arguments.patterns());
   RenderOutputs outputs(arguments, cameras);
   outputs.write_cameras(to_json(cameras) + "\n");
-  const std::string hint = console.shows_progress() ? hint_of(passes, outputs) : "";
+  const std::string hint =
+      console.shows_progress() ? hint_of(passes, cameras.front(), outputs) : "";
 
   RenderMemory memory;
   // Files are read to keep memory small.

@@ -121,6 +121,15 @@ std::string hint_for_first_exr(const std::string& map, const MapPlan& plan) {
          "Z=Y' writes it for them";
 }
 
+std::string hint_for_lens(const Camera& camera, const MapPlan& plan) {
+  const auto has = [&](Channel channel) {
+    return std::ranges::count(plan.rendering.channels, channel) > 0;
+  };
+  const bool gives_points = !bends_rays(camera.projection) || has(Channel::P);
+  if (gives_points || !has(Channel::Z) || !holds_all_channels(plan.format)) return "";
+  return "hint: a point cloud of a map with a lens needs channel P: '--channels Z,P'";
+}
+
 std::string as_json(const std::vector<MapReport>& maps) {
   Json list = Json::array();
   for (const MapReport& map : maps) list.push_back(to_json(map));

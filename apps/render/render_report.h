@@ -29,6 +29,10 @@ void warn_of_missing_segments(const TriangleSource& triangles, const std::vector
 /// will read: how OpenCV and imageio find the depth. Empty for other maps and folders.
 std::string hint_for_first_exr(const std::string& map, const MapPlan& plan);
 
+/// A hint for whoever writes depths seen through a lens, and nothing else that gives points: how to
+/// get a point cloud. Empty for other cameras and maps.
+std::string hint_for_lens(const Camera& camera, const MapPlan& plan);
+
 /// Warnings about suspicious cameras of a path, each kind once.
 class CameraWarnings {
  public:

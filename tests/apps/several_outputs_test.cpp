@@ -278,12 +278,14 @@ TEST_F(SeveralOutputs, NamesThatCannotBe) {
   EXPECT_THAT(folder_.names(), ::testing::IsSupersetOf({"depth=3.exr", "run=3.exr"}));
 }
 
-TEST_F(SeveralOutputs, TheFirstExrOfAFolderHasAHintOnATerminal) {
+TEST_F(SeveralOutputs, AFirstExrAndALensHaveHintsOnATerminal) {
+  expect_done({"camera", "look-at", "--eye", "0,0,4", "--size", "16x12", "--model", "SIMPLE_RADIAL",
+               "--distortion", "-0.05", "-o", "lens.json"});
   run_python("program = '" + program_path() + "'\n" + R"(
 import os, pty, subprocess
-def told(*arguments):
+def told(*arguments, camera='camera.json'):
     master, slave = pty.openpty()
-    command = [program, 'render', 'square.obj', '--camera', 'camera.json', *arguments]
+    command = [program, 'render', 'square.obj', '--camera', camera, *arguments]
     subprocess.run(command, stderr=slave, check=True)
     os.close(slave)
     os.set_blocking(master, False)
@@ -297,6 +299,9 @@ assert told('-o', 'b/z.npy') == ''
 assert told('-o', 'b/n.exr', '--channels', 'N') == ''
 assert told('-o', 'c/y.exr', '--channel-name', 'Z=Y') == ''
 assert told('-o', 'd/z.exr', '--quiet') == ''
+assert '--channels Z,P' in told('-o', 'b/z.npz', camera='lens.json')
+assert told('-o', 'b/z.npz', '--channels', 'Z,P', camera='lens.json') == ''
+assert told('-o', 'b/z.npz') == ''
 )");
 }
 
