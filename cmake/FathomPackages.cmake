@@ -90,4 +90,11 @@ foreach(component ${FATHOM_PACKAGE_COMPONENTS})
                     OUTPUT_FILE \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${documents}/changelog.gz\")"
           COMPONENT ${component})
 endforeach()
+# The package of the program also has the pages, and the meshes and scenes that they use.
+if(FATHOM_DOCUMENTS)
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${FATHOM_DOCUMENTS}" COMPONENT program
+          PATTERN site EXCLUDE)
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/meshes" "${PROJECT_SOURCE_DIR}/data/scenes"
+          "${PROJECT_SOURCE_DIR}/data/cameras" DESTINATION "${FATHOM_DOCUMENTS}/examples" COMPONENT program)
+endif()
 include(CPack)

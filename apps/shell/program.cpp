@@ -31,6 +31,14 @@ constexpr const char* examples =
     "\n'fathom COMMAND --help' or 'fathom help COMMAND' explains a command. "
     "'fathom COMMAND -h' lists its options on one screen.";
 
+/// Where a package has installed pages and examples.
+std::string documents_text() {
+  const std::string folder = FATHOM_DOCUMENTS;
+  if (folder.empty()) return "";
+  return "\n\nDocumentation: " + folder + "/docs/index.md\nMeshes and scenes to try: " + folder +
+         "/examples";
+}
+
 constexpr const char* companion_heading =
     "Companion programs; 'scripts/fathom COMMAND' in a clone of Fathom builds them";
 
@@ -168,7 +176,7 @@ int run_arguments(const std::vector<std::string>& given, const std::vector<AddCo
                   const std::vector<Companion>& companions) {
   CLI::App app("Compute exact depth maps of triangle meshes", "fathom");
   Console console;
-  Command program(app, console, examples);
+  Command program(app, console, examples + documents_text());
   program.requires_command();
   for (const AddCommand& add : commands) add(program);
   if (!companions.empty()) add_help(program, app, companions);
