@@ -62,14 +62,16 @@ ViewedMap some_directions() {
   viewed.name = "directions.npz";
   viewed.map.width = 512;
   viewed.map.height = 64;
+  constexpr std::size_t pixels = std::size_t{512} * 64;
   std::array<Samples<float>, 3> parts;
+  parts.fill(Samples<float>(pixels));
   std::mt19937 random(51);
-  for (std::size_t k = 0; k < std::size_t{512} * 64; ++k) {
+  for (std::size_t k = 0; k < pixels; ++k) {
     const double z = 2 * static_cast<double>(random()) / 4294967296.0 - 1;
     const double angle = static_cast<double>(random()), radius = std::sqrt(1 - z * z);
     const std::array vector{radius * std::cos(angle), radius * std::sin(angle), z};
     for (std::size_t part = 0; part < 3; ++part) {
-      parts[part].push_back(static_cast<float>(vector[part]));
+      parts[part][k] = static_cast<float>(vector[part]);
     }
   }
   for (std::size_t part = 0; part < 3; ++part) {
