@@ -55,7 +55,7 @@ nitpick_ignore_regex = [
 ]
 
 SHORT = 24  # characters of code that a line on a telephone holds easily
-INLINED = re.compile(r"(?:^|/)images/conventions-[\w-]+\.svg$")
+INLINED = re.compile(r"(?:^|/)images/(?:conventions|lenses)-[\w-]+\.svg$")
 ANCHOR = re.compile(r'^<a id="([^"]+)">$')
 
 

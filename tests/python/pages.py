@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Runs the snippets of pages, and compares what they print with what the page shows.
 
-    pages.py PAGE…                      FATHOM_PROGRAM: for pages with commands
+    pages.py [--draw] PAGE…             FATHOM_PROGRAM: for pages with commands
 
 Blocks of a page are run in order in a new folder where `data` is this repository's:
 
@@ -9,13 +9,18 @@ Blocks of a page are run in order in a new folder where `data` is this repositor
 - JSON becomes the file that the text before it names last, as in `camera.json`;
 - in a block without a language, what follows "$ " is run by bash, and the lines below are what it prints. Where lines
   are broken does not matter there, and a line "…" stands for any lines.
+
+Pictures of the page in docs/images that have the name of a file which its commands write have to be that file, byte for
+byte; --draw replaces them by it.
 """
 
 import contextlib
+import hashlib
 import io
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -23,11 +28,12 @@ import tempfile
 root = pathlib.Path(__file__).resolve().parent.parent.parent
 BLOCK = re.compile(r"^(prints\n\n)?```([^\n]*)\n(.*?)^```$", re.S | re.M)
 COMMAND = re.compile(r"^\$ (.*(?:(?<=\\)\n.*)*)\n((?:(?!\$ ).*\n)*)", re.M)
+PICTURE = re.compile(r"\]\(((?:\.\./)?images/([\w-]+\.png))\)")
 NAMED_JSON = re.compile(r"`([\w-]+\.json)`")
 
 
-def run_page(page):
-    """(what the page shows, what was printed) for each block that shows something."""
+def run_page(page, draws=False):
+    """(what the page shows, what was printed or drawn) for each block that shows something, and for each picture."""
     text = (root / page).read_text(encoding="utf-8")
     names = {"__name__": "page"}
     told, pairs = "", []
@@ -46,9 +52,19 @@ def run_page(page):
                     pairs.append((body, told))
                 elif not language:
                     pairs += [run_command(*command) for command in COMMAND.findall(body)]
+            pairs += pictures_of((root / page).parent, text, draws)
         finally:
             os.chdir(back)
     return pairs
+
+
+def pictures_of(folder, text, draws):
+    """(the picture of the page, the picture that was drawn), as hashes, for each file of this name."""
+    drawn = [(folder / link, pathlib.Path(name)) for link, name in PICTURE.findall(text) if pathlib.Path(name).exists()]
+    for shown, made in drawn:
+        if draws:
+            shutil.copyfile(made, shown)
+    return [tuple(f"{made} {hashlib.sha256(file.read_bytes()).hexdigest()}" for file in (shown, made)) for shown, made in drawn]
 
 
 def run_python(text, page, names):
@@ -79,10 +95,11 @@ def as_shown(shown, told):
 
 
 def main():
-    for page in sys.argv[1:]:
-        for shown, told in run_page(page):
+    draws = "--draw" in sys.argv[1:]
+    for page in sys.argv[1 + draws:]:
+        for shown, told in run_page(page, draws):
             if shown != told:
-                sys.exit(f"{page}: shows\n{shown}\nbut there is printed\n{told}")
+                sys.exit(f"{page}: shows\n{shown}\nbut there is printed or drawn\n{told}")
         print(f"{page}: prints what it shows")
 
 
