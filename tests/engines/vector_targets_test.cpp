@@ -84,6 +84,27 @@ TEST(FastTargets, EveryKindOfVectorInstructions) {
   }
 }
 
+TEST(FastTargets, EveryKindOfVectorInstructionsUnderLenses) {
+  const Lens lenses[] = {{LensModel::simple_radial, {-0.25}},
+                         {LensModel::opencv, {-0.15, 0.02, 0.01, -0.02}},
+                         {LensModel::full_opencv, {-0.1, 0.02, 0, 0, 0.003, 0.05, 0.01, 0.001}}};
+  std::mt19937_64 random(102);
+  RenderOptions options;
+  options.channels = {Channel::Z, Channel::id, Channel::distance, Channel::valid};
+  for (const Lens& lens : lenses) {
+    SCOPED_TRACE(name_of(lens.model));
+    Camera camera = testing::camera_of(160, 140, 64);
+    camera.projection.lens = lens;
+    const Scene scene = testing::soup(random, 60, false);
+    const DepthMap truth = render_reference(scene, camera, options).map;
+    for (const std::int64_t target : vector_targets()) {
+      const OnlyTarget only(target);
+      SCOPED_TRACE(vector_instructions());
+      testing::expect_same_map(render_fast(scene, camera, options).map, truth);
+    }
+  }
+}
+
 TEST(FastTargets, OneToEightThreads) {
   const Soups soups(100, 4, quick_channels);
   for (int threads = 1; threads <= 8; ++threads) {

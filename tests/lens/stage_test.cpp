@@ -1,4 +1,5 @@
-// The forward maps: against the oracle, OpenCV's own numbers and COLMAP's formulas.
+// The forward maps: against the oracle and OpenCV's own numbers. Other programs:
+// foreign_points_test.cpp.
 #include "fathom/lens/stage.h"
 
 #include <gtest/gtest.h>
@@ -108,50 +109,6 @@ TEST(Stage, IsOpenCVs) {
     }
   }
   EXPECT_EQ(count, 60);
-}
-
-/// COLMAP's Distortion() of its models (src/colmap/sensor/models.h), with the names that its
-/// parameters have there: what is added to (u, v).
-StagePoint<double> of_colmap(const Lens& lens, double u, double v) {
-  const auto& extra = lens.distortion;
-  const double u2 = u * u, uv = u * v, v2 = v * v, r2 = u2 + v2;
-  switch (lens.model) {
-    case LensModel::simple_radial:
-      return {u * (extra[0] * r2), v * (extra[0] * r2)};
-    case LensModel::radial: {
-      const double radial = extra[0] * r2 + extra[1] * r2 * r2;
-      return {u * radial, v * radial};
-    }
-    case LensModel::opencv: {
-      const double k1 = extra[0], k2 = extra[1], p1 = extra[2], p2 = extra[3];
-      const double radial = k1 * r2 + k2 * r2 * r2;
-      return {u * radial + 2 * p1 * uv + p2 * (r2 + 2 * u2),
-              v * radial + 2 * p2 * uv + p1 * (r2 + 2 * v2)};
-    }
-    default: {
-      const double k1 = extra[0], k2 = extra[1], p1 = extra[2], p2 = extra[3], k3 = extra[4],
-                   k4 = extra[5], k5 = extra[6], k6 = extra[7];
-      const double r4 = r2 * r2, r6 = r4 * r2;
-      const double radial = (1 + k1 * r2 + k2 * r4 + k3 * r6) / (1 + k4 * r2 + k5 * r4 + k6 * r6);
-      return {u * radial + 2 * p1 * uv + p2 * (r2 + 2 * u2) - u,
-              v * radial + 2 * p2 * uv + p1 * (r2 + 2 * v2) - v};
-    }
-  }
-}
-
-TEST(Stage, IsColmaps) {
-  std::mt19937_64 random(2);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  for (const LensModel model :
-       {LensModel::simple_radial, LensModel::radial, LensModel::opencv, LensModel::full_opencv}) {
-    for (int i = 0; i < 50; ++i) {
-      const Lens lens = oracle::random_lens(random, model, 0.2);
-      const double u = uniform(random), v = uniform(random);
-      const auto ours = stage_value(stage_of(lens), u, v), added = of_colmap(lens, u, v);
-      EXPECT_NEAR(100 * ours.x, 100 * (u + added.x), 1e-12);
-      EXPECT_NEAR(100 * ours.y, 100 * (v + added.y), 1e-12);
-    }
-  }
 }
 
 TEST(Tilt, IsTheOraclesAndUndone) {

@@ -1,0 +1,211 @@
+// What must not change a map with a lens, bit for bit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "tests/effort.h"
+#include "tests/engines/expect_same_map.h"
+#include "tests/engines/tested_engine.h"
+#include "tests/inputs/soup.h"
+
+namespace fathom {
+namespace {
+
+using testing::expect_same_map;
+using testing::render_tested;
+
+constexpr std::uint32_t width = 24, height = 20;
+
+struct NamedLens {
+  const char* name;
+  Lens lens;
+};
+
+/// Lenses of few bits, so that samples have edges on their rays; most fold within the image.
+std::vector<NamedLens> lenses() {
+  return {
+      {"barrel", {LensModel::simple_radial, {-0.25}}},
+      {"pincushion", {LensModel::radial, {0.125, 0.0625}}},
+      {"tangential", {LensModel::opencv, {-0.125, 0.03125, 0.0078125, -0.015625}}},
+      {"rational", {LensModel::full_opencv, {-0.125, 0, 0, 0, 0, 0.0625, 0.015625, 0.0078125}}},
+      {"tilted", {LensModel::opencv_14, {-0.125, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.05, -0.03}}},
+      {"brown", {LensModel::brown, {-0.125, 0.03125, -0.0078125, 0.001953125}}},
+      {"division", {LensModel::division, {-0.25}}}};
+}
+
+Camera camera_with(const Lens& lens) {
+  Camera camera = testing::camera_of(width, height, 12);
+  camera.projection.lens = lens;
+  return camera;
+}
+
+/// Triangles before the eye and around it, with corners of few bits.
+Scene triangles(std::mt19937_64& random, int count) {
+  const auto coordinate = [&] { return static_cast<double>(random() % 33) / 4 - 4; };
+  std::vector<MeshPoint> corners;
+  std::vector<CornerIndices> indices;
+  for (int i = 0; i < count; ++i) {
+    const auto first = static_cast<std::uint32_t>(corners.size());
+    for (int k = 0; k < 3; ++k) corners.push_back({coordinate(), coordinate(), coordinate() + 3});
+    indices.push_back({first, first + 1, first + 2});
+  }
+  return testing::scene_of(std::move(corners), std::move(indices));
+}
+
+RenderOptions with(std::vector<Channel> channels) {
+  RenderOptions options;
+  options.channels = std::move(channels);
+  options.threads = 1;
+  return options;
+}
+
+/// Without numbers of triangles and weights, which depend on the order of triangles and corners.
+RenderOptions what_is_seen() {
+  return with({Channel::Z, Channel::N, Channel::P, Channel::distance, Channel::valid});
+}
+
+RenderOptions every_value() {
+  return with({Channel::Z, Channel::Zlow, Channel::N, Channel::P, Channel::distance, Channel::id,
+               Channel::bary, Channel::valid});
+}
+
+/// Calls `check` with each lens and some scenes.
+template <class Check>
+void for_each_view(std::uint64_t seed, int scenes, const Check& check) {
+  std::mt19937_64 random(seed);
+  for (const NamedLens& named : lenses()) {
+    SCOPED_TRACE(named.name);
+    for (int i = 0; i < std::max(1, scenes / testing::effort); ++i)
+      check(camera_with(named.lens), triangles(random, 6), random);
+  }
+}
+
+TEST(LensLaws, ALensWithoutDistortionGivesThePinholesMap) {
+  std::mt19937_64 random(41);
+  for (const LensModelEntry& entry : lens_models()) {
+    if (!entry.is_plane) continue;
+    SCOPED_TRACE(entry.name);
+    const Scene scene = triangles(random, 8);
+    const Camera camera = camera_with(Lens{entry.model});
+    Camera pinhole = camera;
+    pinhole.projection.lens.reset();
+    expect_same_map(render_tested(scene, camera, every_value()),
+                    render_tested(scene, pinhole, every_value()));
+  }
+}
+
+TEST(LensLaws, AModelGivesTheMapOfTheModelThatContainsIt) {
+  const std::pair<Lens, Lens> same[] = {
+      {{LensModel::simple_radial, {-0.25}}, {LensModel::radial, {-0.25}}},
+      {{LensModel::radial, {-0.25, 0.125}}, {LensModel::opencv, {-0.25, 0.125}}},
+      {{LensModel::opencv, {-0.25, 0.125, 0.01, 0.02}},
+       {LensModel::full_opencv, {-0.25, 0.125, 0.01, 0.02}}},
+      {{LensModel::full_opencv, {-0.25, 0.125, 0.01, 0.02, 0.1, 0.2, 0.1, 0.05}},
+       {LensModel::opencv_14, {-0.25, 0.125, 0.01, 0.02, 0.1, 0.2, 0.1, 0.05}}},
+      {{LensModel::opencv, {-0.25, 0.125, 0.01, 0.02}},
+       {LensModel::brown, {-0.25, 0.125, 0, 0, 0.01, 0.02}}},
+      {{LensModel::simple_division, {0.25}}, {LensModel::division, {0.25}}},
+      {{LensModel::fisheye_stereographic}, {LensModel::division, {-0.25}}}};
+  std::mt19937_64 random(42);
+  for (const auto& [special, general] : same) {
+    SCOPED_TRACE(name_of(special.model));
+    const Scene scene = triangles(random, 8);
+    expect_same_map(render_tested(scene, camera_with(special), every_value()),
+                    render_tested(scene, camera_with(general), every_value()));
+  }
+}
+
+TEST(LensLaws, TheOrderOfTrianglesAndCornersChangesNothingThatIsSeen) {
+  for_each_view(43, 5, [](const Camera& camera, Scene scene, std::mt19937_64& random) {
+    const DepthMap before = render_tested(scene, camera, what_is_seen());
+    auto& all = scene.meshes[0].triangles;
+    std::shuffle(all.begin(), all.end(), random);
+    for (CornerIndices& corners : all) std::shuffle(corners.begin(), corners.end(), random);
+    expect_same_map(render_tested(scene, camera, what_is_seen()), before);
+  });
+}
+
+// The middle of an edge is exact here.
+TEST(LensLaws, SplittingATriangleChangesNothingThatIsSeen) {
+  for_each_view(44, 5, [](const Camera& camera, const Scene& whole, std::mt19937_64&) {
+    Scene split = whole;
+    Mesh& mesh = split.meshes[0];
+    mesh.triangles.clear();
+    for (const CornerIndices& t : whole.meshes[0].triangles) {
+      const MeshPoint a = mesh.vertices[t[0]], b = mesh.vertices[t[1]];
+      const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
+      mesh.vertices.push_back({(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2});
+      mesh.triangles.push_back({t[0], middle, t[2]});
+      mesh.triangles.push_back({middle, t[1], t[2]});
+    }
+    expect_same_map(render_tested(split, camera, what_is_seen()),
+                    render_tested(whole, camera, what_is_seen()));
+  });
+}
+
+TEST(LensLaws, ACropOfTheImageIsACropOfTheMap) {
+  constexpr std::uint32_t left = 5, top = 4;
+  for_each_view(45, 5, [](const Camera& camera, const Scene& scene, std::mt19937_64&) {
+    Camera crop = camera;
+    crop.width = 12;
+    crop.height = 10;
+    crop.projection.cx -= left;
+    crop.projection.cy -= top;
+    const DepthMap whole = render_tested(scene, camera, with({Channel::distance}));
+    const DepthMap part = render_tested(scene, crop, with({Channel::distance}));
+    Samples<float> cut;
+    for (std::uint32_t y = top; y < top + crop.height; ++y)
+      for (std::uint32_t x = left; x < left + crop.width; ++x)
+        cut.push_back((*whole.values<float>("distance"))[y * width + x]);
+    EXPECT_EQ(testing::first_difference(*part.values<float>("distance"), cut), std::nullopt);
+  });
+}
+
+TEST(LensLaws, MirroringTheWorldAndTheCameraChangesNothing) {
+  for_each_view(46, 3, [](Camera camera, Scene scene, std::mt19937_64&) {
+    const RenderOptions options = with({Channel::Z, Channel::distance, Channel::id});
+    const DepthMap before = render_tested(scene, camera, options);
+    for (MeshPoint& p : scene.meshes[0].vertices) p.x = -p.x;
+    for (auto& row : camera.world_to_camera) row[0] = -row[0];
+    expect_same_map(render_tested(scene, camera, options), before);
+  });
+}
+
+TEST(LensLaws, ThreadsChangeNothing) {
+  for_each_view(47, 2, [](const Camera& camera, const Scene& scene, std::mt19937_64&) {
+    RenderOptions options = every_value();
+    const DepthMap before = render_tested(scene, camera, options);
+    options.threads = 3;
+    expect_same_map(render_tested(scene, camera, options), before);
+  });
+}
+
+// Edges and diagonals of the box lie on the rays of samples: the eye is its centre, and the
+// principal point a sample or the corner between four.
+TEST(LensLaws, AClosedSurfaceAroundTheEyeCoversEveryRayOnce) {
+  const Scene box = testing::box_scene(1, 1, 1);
+  for (const NamedLens& named : lenses()) {
+    SCOPED_TRACE(named.name);
+    for (const double shift : {0.0, 0.5}) {
+      for (const double sign : {1.0, -1.0}) {
+        Camera camera = camera_with(named.lens);
+        camera.projection.cx += shift;
+        camera.projection.cy += shift;
+        camera.projection.fx *= sign;
+        const Rendered seen =
+            testing::render_and_count(box, camera, with({Channel::id, Channel::valid}));
+        const auto& valid = *seen.map.values<std::uint32_t>("valid");
+        const auto rays = static_cast<std::uint64_t>(std::ranges::count(valid, 1U));
+        EXPECT_GT(rays, width * height / 4U);
+        EXPECT_EQ(seen.statistics.pixels_with_surface, rays);
+        if (testing::tested_engine() == Engine::reference) {
+          EXPECT_EQ(seen.statistics.samples_covered, rays);  // not one is hit twice
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fathom
