@@ -1,15 +1,24 @@
 """Cameras with lenses: OpenCV and formulas of COLMAP and Nerfstudio, written down again, take the points that a map
-shows back to the centres of its pixels."""
+shows back to the centres of its pixels. The picture of docs/lenses.md shows lenses of the library. The program refuses bad
+lenses."""
 
 import copy
 import json
+import os
+import pathlib
 import pickle
+import subprocess
+import sys
 
 import cv2
 import numpy as np
 import pytest
 
 import fathom
+
+source = pathlib.Path(os.environ["FATHOM_SOURCE"])
+sys.path.append(str(source / "docs/site"))
+import lens_diagrams  # noqa: E402
 
 pose = np.array([[0.8, 0.0, 0.6, 0.1], [0.0, 1.0, 0.0, -0.05], [-0.6, 0.0, 0.8, 3.0]])
 size = (64, 48)
@@ -163,3 +172,76 @@ def test_what_needs_straight_edges_says_so(spot):
                  lambda: fathom.render_deep(spot, camera)):
         with pytest.raises(ValueError, match="the lens SIMPLE_RADIAL: "):
             call()
+
+
+@pytest.mark.parametrize("lens", lens_diagrams.LENSES, ids=lambda lens: lens["title"])
+def test_the_picture_draws_the_lenses_of_the_library(lens):
+    width, height = lens_diagrams.WIDTH, lens_diagrams.HEIGHT
+    camera = fathom.Camera(width, height, pixel_centre=0.5, model=lens["model"], params=lens_diagrams.params(lens))
+    directions = camera.directions()
+    rows, columns = np.nonzero(directions[..., 2] > 0)
+    assert len(rows) > width * height / 2
+    for row, column in zip(rows[::37], columns[::37]):
+        x, y, z = directions[row, column]
+        u, v = lens_diagrams.image_of(lens, x / z, y / z)
+        assert abs(u - column - 0.5) < 1e-9 and abs(v - row - 0.5) < 1e-9
+    v, u = np.mgrid[0:height, 0:width] + 0.5
+    radius = lens_diagrams.fold_radius(lens) or np.inf
+    has_ray = np.any(directions != 0, axis=2)
+    assert (has_ray == (np.hypot(u - width / 2, v - height / 2) < radius)).all()
+    assert has_ray.all() == (lens["title"] != "barrel")
+
+
+@pytest.mark.parametrize("name", lens_diagrams.PICTURES)
+def test_pictures_are_what_the_program_draws(name):
+    assert (source / "docs/images" / name).read_text(encoding="utf-8") == lens_diagrams.PICTURES[name]()
+
+
+straight = {"width": 16, "height": 12, "pixel_centre": 0.5}
+focal = {"fx": 15, "fy": 15, "cx": 8, "cy": 6}
+one_focal = {"f": 15, "cx": 8, "cy": 6}
+table = {"width": 16, "height": 12, "model": "TABLE"}
+
+
+@pytest.mark.parametrize("camera, words", [
+    ({**straight, **focal, "model": "OPENVC"}, "did you mean 'OPENCV'"),
+    ({**straight, **focal, "model": 7}, "model: is a number"),
+    ({**straight, "model": "OPENCV", "params": [15, 15, 8, 6, 0.1]}, "params: found 5 numbers, OPENCV has 8"),
+    ({**straight, "model": "OPENCV", "params": [15] * 9}, "params: found 9 numbers, OPENCV has 8"),
+    ({**straight, **focal, "model": "OPENCV_14", "distortion": [0.1] * 3}, "has 4, 5, 8, 12 or 14"),
+    ({**straight, **one_focal, "model": "SIMPLE_RADIAL", "k1": 0.2}, 'unknown key "k1"'),
+    ({**straight, **focal, "model": "SIMPLE_RADIAL", "k": 0.2}, 'unknown key "fx"'),
+    ({**straight, **focal, "model": "OPENCV", "k1": np.nan}, "not JSON"),
+    ({**straight, **focal, "model": "OPENCV", "k1": np.inf}, "not JSON"),
+    ({**straight, **focal, "model": "OPENCV", "k1": "a"}, "k1: is a string, expected a number"),
+    ({**straight, **focal, "model": "OPENCV", "fx": 0}, "fx is 0"),
+    ({**straight, "model": "SIMPLE_RADIAL", "params": [0, 8, 6, 0.1]}, "is 0"),
+    ({**straight, **focal, "model": "OPENCV_14", "tauX": 1.6}, "tauX is not between -pi/2 and pi/2"),
+    ({**straight, **focal, "model": "OPENCV", "max_radius": 0}, "max_radius is not greater than 0"),
+    ({**straight, **focal, "model": "OPENCV", "max_radius": -1}, "max_radius is not greater than 0"),
+    ({**straight, **focal, "model": "OPENCV", "projection": "orthographic"}, "an orthographic camera has no lens"),
+    ({**straight, **focal, "k1": 0.1}, 'unknown key "k1"'),
+    ({**straight, **focal, "model": "OPENCV", "k1": 0.1, "distortion": [0.1, 0, 0, 0]}, 'has both "distortion" and "k1"'),
+    ({**table}, "directions"),
+    ({**table, "directions": "missing.npy"}, "missing.npy"),
+    ({**table, "directions": "other-size.npy"}, "expected the size of the image, 16x12"),
+    ({**table, "directions": "infinite.npy"}, "column 4, row 3 has an infinite component"),
+    ({**table, "directions": "two.npy"}, "expected directions, 3 numbers"),
+    ({**table, "directions": "rays.npy", "fx": 3}, 'unknown key "fx"'),
+    ({**table, "directions": "rays.npy", "directions_sha256": "00"}, "directions_sha256"),
+    ({**table, "directions": "rays.npy", "origins": "rays.npy"}, "origins: not supported yet"),
+])
+def test_the_program_refuses_a_bad_lens_in_one_line(tmp_path, camera, words):
+    rays = np.zeros((12, 16, 3)) + (0, 0, 1)
+    infinite = rays.copy()
+    infinite[3, 4, 0] = np.inf
+    for name, directions in (("rays", rays), ("other-size", rays[:11]), ("infinite", infinite), ("two", rays[..., :2])):
+        np.save(tmp_path / f"{name}.npy", directions)
+    camera = {"world_to_camera": np.eye(4)[:3].tolist(), **camera}
+    (tmp_path / "camera.json").write_text(json.dumps(camera))
+    before = set(os.listdir(tmp_path))
+    ran = subprocess.run([os.environ["FATHOM_PROGRAM"], "render", str(source / "data/meshes/cube.obj"), "--camera", "camera.json",
+                          "-o", "map.npz"], cwd=tmp_path, capture_output=True, text=True)
+    assert (ran.returncode, ran.stdout, ran.stderr.count("\n")) == (3, "", 1), ran.stderr
+    assert words in ran.stderr
+    assert set(os.listdir(tmp_path)) == before
