@@ -63,7 +63,8 @@ double middle(const DyadicInterval& interval) {
   return (ends.lower + ends.upper) / 4;
 }
 
-/// How far apart the ray of a point and the ray that its image sees meet the plane z = 1, in pixels.
+/// The distance on the plane z = 1, in pixels, between the ray of a point and the ray that its image
+/// sees.
 double pixels_between(const ForeignPoint& point) {
   const Projection projection = camera_of(point).projection;
   const auto direction = Preimages(projection, *projection.lens).of(point.image[0], point.image[1]);

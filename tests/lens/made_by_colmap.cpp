@@ -1,6 +1,7 @@
-// Writes points that COLMAP's camera models distort: the lines of points_of_colmap.txt. The build does
-// not use it: compile it with src/colmap/sensor/models.cc of github.com/colmap/colmap, 5d968cf3, and
-// the headers of COLMAP, Eigen and Ceres, with -ffp-contract=off.
+// Writes points that COLMAP's camera models distort: the lines of points_of_colmap.txt. The build
+// does not use it: compile it with src/colmap/sensor/models.cc of github.com/colmap/colmap,
+// 5d968cf3, and the headers of COLMAP, Eigen and Ceres, with -ffp-contract=off.
+//
 // Each line: the name of a model, its parameters in COLMAP's order, x, y and z of a ray, and its
 // image, as hexadecimal floating-point numbers.
 #include <cstdio>
