@@ -63,8 +63,7 @@ double middle(const DyadicInterval& interval) {
   return (ends.lower + ends.upper) / 4;
 }
 
-/// The distance on the plane z = 1, in pixels, between the ray of a point and the ray that its image
-/// sees.
+/// How far the ray that an image sees is from the point's own on the plane z = 1, in pixels.
 double pixels_between(const ForeignPoint& point) {
   const Projection projection = camera_of(point).projection;
   const auto direction = Preimages(projection, *projection.lens).of(point.image[0], point.image[1]);
