@@ -154,11 +154,11 @@ TEST(LensLaws, ACropOfTheImageIsACropOfTheMap) {
     crop.projection.cy -= top;
     const DepthMap whole = render_tested(scene, camera, with({Channel::distance}));
     const DepthMap part = render_tested(scene, crop, with({Channel::distance}));
-    Samples<float> cut;
-    for (std::uint32_t y = top; y < top + crop.height; ++y)
-      for (std::uint32_t x = left; x < left + crop.width; ++x)
-        cut.push_back((*whole.values<float>("distance"))[y * width + x]);
-    EXPECT_EQ(testing::first_difference(*part.values<float>("distance"), cut), std::nullopt);
+    const auto& all = *whole.values<float>("distance");
+    const auto& cut = *part.values<float>("distance");
+    for (std::uint32_t y = 0; y < crop.height; ++y)
+      for (std::uint32_t x = 0; x < crop.width; ++x)
+        ASSERT_EQ(cut[y * crop.width + x], all[(y + top) * width + x + left]);
   });
 }
 

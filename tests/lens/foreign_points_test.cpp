@@ -66,7 +66,8 @@ double middle(const DyadicInterval& interval) {
 /// How far the ray that an image sees is from the point's own on the plane z = 1, in pixels.
 double pixels_between(const ForeignPoint& point) {
   const Projection projection = camera_of(point).projection;
-  const auto direction = Preimages(projection, *projection.lens).of(point.image[0], point.image[1]);
+  const Preimages preimages(projection, *projection.lens);
+  const auto direction = preimages.of(point.image[0], point.image[1]);
   if (!direction) return HUGE_VAL;
   const auto [x, y, z] = direction->enclosure(100);
   const double dx = middle(x) / middle(z) - point.ray[0] / point.ray[2];

@@ -5,9 +5,11 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
 
 #include "fathom/camera/camera_making.h"
+#include "fathom/camera/direction_table.h"
 #include "fathom/failures/errors.h"
 #include "fathom/scene/winding.h"
 #include "tests/scratch_folder.h"
@@ -177,6 +179,29 @@ TEST(CameraWarnings, APrincipalPointFarFromTheMiddle) {
   camera.projection.model = ProjectionModel::orthographic;
   camera.projection.cx = 1000;
   EXPECT_THAT(warnings_of_camera(camera), IsEmpty());
+}
+
+TEST(CameraWarnings, PixelsWithoutARayAndWhy) {
+  Camera camera = looking({1, 2, 3});
+  const auto told = [&] { return text_of(warnings_of_camera(camera), Kind::without_ray); };
+  Lens& bent = camera.projection.lens.emplace(Lens{LensModel::simple_radial, {-0.25}});
+  camera.projection.fx = camera.projection.fy = 500;
+  // The fold shows at 500·√(4/3)·2/3 = 384.9 pixels: the corners are 400 away.
+  EXPECT_THAT(told(), AllOf(StartsWith("0.3 % of the pixels have no ray"),
+                            HasSubstr("where the lens SIMPLE_RADIAL folds back")));
+  bent.max_radius = 0.5;
+  EXPECT_THAT(told(), HasSubstr("they lie beyond max_radius 0.5"));
+  bent = {LensModel::division, {3}};
+  EXPECT_THAT(told(), HasSubstr("they lie beyond the end of the lens DIVISION"));
+  bent = {LensModel::simple_radial, {0.25}};
+  EXPECT_THAT(warnings_of_camera(camera), IsEmpty());
+  camera.width = 2;
+  camera.height = 1;
+  bent = {LensModel::table};
+  bent.directions =
+      std::make_shared<const DirectionTable>(2, 1, std::vector<double>{0, 0, 0, 0, 0, 1});
+  EXPECT_THAT(told(), AllOf(StartsWith("50.0 % of the pixels"),
+                            HasSubstr("the table has no direction for them")));
 }
 
 TEST(ViewWarnings, AMapThatShowsAPartOfTheSceneIsNotLookedInto) {

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "fathom/camera/rounded_poses.h"
+#include "fathom/lens/without_ray.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/view_warnings.h"
 
@@ -109,6 +112,33 @@ void add_warning_of_principal_point(const Camera& camera, std::vector<ViewWarnin
                          "image is cut out of a larger one)")});
 }
 
+/// What is wrong with these pixels, after "have no ray and show nothing: ".
+std::string reason_of(const lens::WithoutRay& without_ray, const Lens& lens) {
+  using Reason = lens::WithoutRay::Reason;
+  switch (without_ray.reason) {
+    case Reason::fold:
+      return fmt::format("they lie where the lens {} folds back", name_of(lens.model));
+    case Reason::end_of_model:
+      return fmt::format("they lie beyond the end of the lens {}", name_of(lens.model));
+    case Reason::max_radius:
+      return fmt::format("they lie beyond max_radius {}", lens.max_radius);
+    case Reason::table:
+      return "the table has no direction for them";
+  }
+  throw std::logic_error("no such reason");
+}
+
+void add_warning_of_samples_without_ray(const Camera& camera, std::vector<ViewWarning>& warnings) {
+  const auto found = lens::find_samples_without_ray(camera.projection, camera.width, camera.height);
+  if (!found) return;
+  const double percent = 100 * found->share;
+  warnings.push_back(
+      {Kind::without_ray,
+       fmt::format("{} of the pixels have no ray and show nothing: {} (channel valid marks them)",
+                   percent < 0.1 ? "less than 0.1 %" : fmt::format("{:.1f} %", percent),
+                   reason_of(*found, *camera.projection.lens))});
+}
+
 }  // namespace
 
 std::vector<ViewWarning> warnings_of_camera(const Camera& camera) {
@@ -117,6 +147,7 @@ std::vector<ViewWarning> warnings_of_camera(const Camera& camera) {
   if (find_fault(camera)) return warnings;
   add_warnings_of_rotation(camera, warnings);
   add_warning_of_principal_point(camera, warnings);
+  add_warning_of_samples_without_ray(camera, warnings);
   return warnings;
 }
 

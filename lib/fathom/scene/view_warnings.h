@@ -31,6 +31,7 @@ struct ViewWarning {
     scaled,
     not_a_rotation,
     principal_point,
+    without_ray,
     units,
     behind,
     outside,
@@ -46,8 +47,10 @@ struct ViewWarning {
 
 /// Warnings about a camera by itself: a 3×3 part of world_to_camera that is scaled, mirrored
 /// (unless fx or fy mirrors it back) or skewed; a principal point of a perspective camera outside
-/// the middle half of the image, or in the middle of an image with exchanged width and height.
-/// Cost     negligible.
+/// the middle half of the image, or in the middle of an image with exchanged width and height;
+/// pixels without a ray, because the lens ends there.
+/// Cost     negligible; of a lens, milliseconds to find its end, and of a table, one look at each
+///          pixel.
 /// Fails    never; a camera with a fault (find_fault) gets no warning.
 std::vector<ViewWarning> warnings_of_camera(const Camera& camera);
 

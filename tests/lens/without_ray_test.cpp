@@ -1,0 +1,101 @@
+// The part of an image without rays, against a question for each pixel.
+#include "fathom/lens/without_ray.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "fathom/lens/preimages.h"
+#include "tests/lens/lens_oracle.h"
+
+namespace fathom::lens {
+namespace {
+
+using Reason = WithoutRay::Reason;
+
+constexpr std::uint32_t width = 48, height = 36;
+
+Projection with(const Lens& lens, double focal_length) {
+  Projection projection;
+  projection.fx = focal_length;
+  projection.fy = -focal_length;
+  projection.skew = has_one_focal_length(entry_of(lens.model)) ? 0 : 1.5;
+  projection.cx = 22;
+  projection.cy = 19;
+  projection.lens = lens;
+  return projection;
+}
+
+/// The share of pixels without a ray.
+double counted(const Projection& projection) {
+  const Preimages preimages(projection, *projection.lens);
+  int missing = 0;
+  for (std::uint32_t row = 0; row < height; ++row)
+    for (std::uint32_t column = 0; column < width; ++column)
+      missing += !preimages.of_pixel(column, row).has_value();
+  return missing / (1.0 * width * height);
+}
+
+void expect_share(const Lens& lens, double focal_length, Reason reason) {
+  SCOPED_TRACE(name_of(lens.model));
+  const Projection projection = with(lens, focal_length);
+  const auto found = find_samples_without_ray(projection, width, height);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->reason, reason);
+  EXPECT_GT(found->share, 0.02);
+  // Of the pixels on the rim, of which there are about 80, each is off by half of itself at most.
+  EXPECT_NEAR(found->share, counted(projection), 10.0 / (width * height));
+}
+
+TEST(WithoutRay, IsTheAreaBeyondTheFold) {
+  expect_share({LensModel::simple_radial, {-0.25}}, 25, Reason::fold);
+  expect_share({LensModel::opencv, {-0.25, 0.01, 0.01, -0.02}}, 25, Reason::fold);
+  expect_share({LensModel::full_opencv, {-0.3, 0, 0, 0, 0, 0.1, 0.02, 0.01}}, 25, Reason::fold);
+  expect_share({LensModel::opencv_14, {-0.25, 0, 0, 0, 0, 0, 0, 0, 0.01, 0, 0, 0, 0.1, -0.2}}, 25,
+               Reason::fold);
+}
+
+TEST(WithoutRay, IsTheAreaBeyondMaxRadius) {
+  Lens lens{LensModel::simple_radial, {-0.1}};
+  lens.max_radius = 0.7;
+  expect_share(lens, 25, Reason::max_radius);
+  lens = {LensModel::pinhole};
+  lens.max_radius = 0.7;
+  expect_share(lens, 25, Reason::max_radius);
+  for (const double k : {-0.25, 0.2}) {
+    lens = {LensModel::division, {k}};
+    lens.max_radius = 0.5;
+    expect_share(lens, 40, Reason::max_radius);
+  }
+  lens = {LensModel::fisheye_stereographic};
+  lens.max_radius = std::numbers::pi / 2;
+  expect_share(lens, 11, Reason::max_radius);
+}
+
+TEST(WithoutRay, IsTheAreaBeyondTheEndOfADivision) {
+  expect_share({LensModel::division, {0.5}}, 15, Reason::end_of_model);
+  Lens lens{LensModel::division, {0.5}};
+  lens.max_radius = 3;  // no ray is so far from the axis
+  expect_share(lens, 15, Reason::end_of_model);
+}
+
+TEST(WithoutRay, IsNoneWhereAllSamplesHaveARay) {
+  const auto found = [](const Lens& lens, double focal_length) {
+    return find_samples_without_ray(with(lens, focal_length), width, height).has_value();
+  };
+  EXPECT_FALSE(found({LensModel::simple_radial, {-0.25}}, 100));
+  EXPECT_FALSE(found({LensModel::simple_radial, {0.25}}, 10));
+  EXPECT_FALSE(found({LensModel::opencv}, 10));
+  EXPECT_FALSE(found({LensModel::fisheye_stereographic}, 1));
+  EXPECT_FALSE(find_samples_without_ray(Projection(), width, height).has_value());
+}
+
+TEST(WithoutRay, OfNumbersBeyondBinary64IsNotKnown) {
+  EXPECT_FALSE(
+      find_samples_without_ray(with({LensModel::opencv, {-1e-300}}, 1e300), width, height));
+}
+
+}  // namespace
+}  // namespace fathom::lens
