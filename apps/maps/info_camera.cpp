@@ -9,6 +9,7 @@
 #include "apps/shell/standard_streams.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/lens/preimages.h"
+#include "fathom/lens/without_ray.h"
 #include "fathom/text/parse_json.h"
 #include "fathom/text/printable.h"
 
@@ -46,6 +47,12 @@ double disc_of(const Projection& projection) {
   return lens::Preimages(projection, *projection.lens).disc();
 }
 
+/// About the share of the image that sees nothing because its lens ends.
+double share_without_ray(const Camera& camera) {
+  const auto found = lens::find_samples_without_ray(camera.projection, camera.width, camera.height);
+  return found ? found->share : 0;
+}
+
 const DirectionTable* directions_of(const Projection& projection) {
   return projection.lens ? projection.lens->directions.get() : nullptr;
 }
@@ -72,22 +79,27 @@ Json describe(const Camera& camera) {
     answer["share_without_ray"] = PixelsWithoutRay(*table).share();
   } else if (camera.projection.lens) {
     answer["lens_disc"] = disc_of(camera.projection);
+    answer["share_without_ray"] = share_without_ray(camera);
   }
   return answer;
 }
 
-/// The lens, and the disc on which it is one to one.
-std::string describe_lens(const Projection& projection) {
-  const LensModelEntry& model = entry_of(projection.lens->model);
+/// The lens, the disc on which it is one to one, and how much of the image it shows.
+std::string describe_lens(const Camera& camera) {
+  const Lens& lens = *camera.projection.lens;
+  const LensModelEntry& model = entry_of(lens.model);
   std::string lines = fmt::format("    lens          {}", model.name);
   for (std::size_t i = 0; i < model.distortion.size(); ++i)
-    lines += fmt::format(", {} {}", model.distortion[i], projection.lens->distortion[i]);
-  const double disc = disc_of(projection);
-  lines += std::isinf(disc)
-               ? "\n    has rays      everywhere"
-               : fmt::format("\n    has rays      for x^2 + y^2 <= {} on the plane z = 1", disc);
-  const double end = projection.lens->max_radius;
-  return lines + (std::isinf(end) ? "\n" : fmt::format(", max_radius {}\n", end));
+    lines += fmt::format(", {} {}", model.distortion[i], lens.distortion[i]);
+  const double disc = disc_of(camera.projection);
+  if (std::isfinite(disc))
+    lines += fmt::format("\n    folds         beyond x^2 + y^2 = {} on the plane z = 1", disc);
+  const double share = share_without_ray(camera);
+  lines += share == 0 ? "\n    has rays      everywhere"
+                      : fmt::format("\n    has rays      except at about {:.2f} % of the image",
+                                    100 * share);
+  if (std::isfinite(lens.max_radius)) lines += fmt::format(", max_radius {}", lens.max_radius);
+  return lines + "\n";
 }
 
 /// The file of a table, and how many of its pixels have a ray.
@@ -104,7 +116,8 @@ std::string describe_table(const Lens& lens) {
 }
 
 /// fx, fy, cx, cy and skew, and the lens.
-std::string describe_projection(const Projection& projection) {
+std::string describe_projection(const Camera& camera) {
+  const Projection& projection = camera.projection;
   if (directions_of(projection)) return describe_table(*projection.lens);
   std::string lines = fmt::format(
       "    fx, fy        {}, {}\n    cx, cy        {}, {}   (the centre of the top left pixel is "
@@ -112,7 +125,7 @@ std::string describe_projection(const Projection& projection) {
       "    skew          {}\n",
       projection.fx, projection.fy, projection.cx, projection.cy, projection.pixel_centre,
       projection.skew);
-  if (projection.lens) lines += describe_lens(projection);
+  if (projection.lens) lines += describe_lens(camera);
   return lines;
 }
 
@@ -122,7 +135,7 @@ std::string describe_as_text(const Camera& camera) {
                                   camera.width, camera.height);
   if (!camera.name.empty())
     lines += fmt::format("    name          {}\n", text::printable(camera.name));
-  lines += describe_projection(camera.projection);
+  lines += describe_projection(camera);
   if (has_field_of_view(camera.projection)) {
     lines += fmt::format("    field of view {:.4f} x {:.4f} degrees\n",
                          degrees_of(camera.width, camera.projection.fx),
