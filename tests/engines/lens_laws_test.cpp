@@ -193,6 +193,8 @@ TEST(LensLaws, AClosedSurfaceAroundTheEyeCoversEveryRayOnce) {
         camera.projection.cx += shift;
         camera.projection.cy += shift;
         camera.projection.fx *= sign;
+        if (has_one_focal_length(entry_of(named.lens.model)))
+          camera.projection.fy = camera.projection.fx;
         const Rendered seen =
             testing::render_and_count(box, camera, with({Channel::id, Channel::valid}));
         const auto& valid = *seen.map.values<std::uint32_t>("valid");

@@ -195,10 +195,10 @@ TEST(CameraWarnings, PixelsWithoutARayAndWhy) {
   EXPECT_THAT(told(), HasSubstr("they lie beyond the end of the lens DIVISION"));
   bent = {LensModel::simple_radial, {0.25}};
   EXPECT_THAT(warnings_of_camera(camera), IsEmpty());
+  camera = {};
   camera.width = 2;
   camera.height = 1;
-  bent = {LensModel::table};
-  bent.directions =
+  camera.projection.lens.emplace(Lens{LensModel::table}).directions =
       std::make_shared<const DirectionTable>(2, 1, std::vector<double>{0, 0, 0, 0, 0, 1});
   EXPECT_THAT(told(), AllOf(StartsWith("50.0 % of the pixels"),
                             HasSubstr("the table has no direction for them")));

@@ -28,7 +28,7 @@ struct Rim {
 
 std::optional<Rim> rim_of(const PolynomialStage& stage) {
   if (!stage.limit) return std::nullopt;
-  const bool is_fold = *stage.limit == Dyadic(stage.disc);
+  const bool is_fold = std::isfinite(stage.disc) && *stage.limit == Dyadic(stage.disc);
   return Rim{is_fold ? Reason::fold : Reason::max_radius, std::sqrt(enclose(*stage.limit).upper)};
 }
 
