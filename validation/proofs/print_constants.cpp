@@ -64,8 +64,6 @@ int main() {
   print("point_error", evaluation::bounds::point_error);
   print("difference_error", evaluation::bounds::difference_error);
   print("distance_error", evaluation::bounds::distance_error);
-  print("line_margin", evaluation::bounds::line_margin);
-  print("cross_margin", evaluation::bounds::cross_margin);
 
   print("end_room", fast::resolve_bounds::end_room);
   print("spread_room", fast::resolve_bounds::spread_room);

@@ -11,19 +11,6 @@
 namespace fathom::rays {
 namespace {
 
-/// Contains the s where the ray meets the plane. With x = height/w and the exact X,
-/// │x − X│ ≤ (E_t + │x│·E)/(│w│ − E); the division and the ends lose less than 4u of x.
-Interval s_at_plane(const TestedTriangle& triangle) {
-  const double room = std::abs(triangle.w) - triangle.error;
-  if (!(room > 0)) return {-infinity, infinity};
-  const double s = triangle.height / triangle.w;
-  const double error = ((triangle.height_error + std::abs(s) * triangle.error) / room +
-                        4 * unit_roundoff<double> * std::abs(s)) *
-                           bounds::slack +
-                       bounds::floor;
-  return {s - error, s + error};
-}
-
 Interval enclose(const Ratio& t) {
   const double nearest = round_to_binary64(t);
   return {std::nextafter(nearest, -infinity), std::nextafter(nearest, infinity)};
@@ -39,7 +26,7 @@ void Candidates::begin(const Ray& given, const WalkRay& ray) {
   // clear() would zero all buckets that an earlier ray needed.
   if (!exact_ts_.empty()) exact_ts_ = {};
   least_upper_ = infinity;
-  last_ = ray.last;
+  set_last(ray.last);
 }
 
 const ExactRay& Candidates::exact_ray() {
@@ -57,7 +44,7 @@ std::optional<Candidates::Hit> Candidates::settle(const TestedTriangle& triangle
 }
 
 bool Candidates::offer(const TestedTriangle& triangle) {
-  const Interval s = s_at_plane(triangle);
+  const Interval s = triangle.s();
   if (s.upper < ray_->segment_first.lower || s.lower > ray_->segment_last.upper) return false;
   if (question_ == Question::nearest && s.lower > least_upper_) return false;
   std::optional<Hit> hit;
@@ -79,7 +66,7 @@ bool Candidates::offer(const TestedTriangle& triangle) {
   }
   if (question_ == Question::nearest && hit->s.upper < least_upper_) {
     least_upper_ = hit->s.upper;
-    last_ = std::min(last_, round_up(least_upper_) * (1 + bounds::far_room));
+    set_last(std::min(last(), round_up(least_upper_) * (1 + bounds::far_room)));
   }
   return question_ == Question::any;
 }

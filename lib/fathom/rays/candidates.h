@@ -8,6 +8,7 @@
 
 #include "fathom/rays/exact_ray.h"
 #include "fathom/rays/ray_tree.h"
+#include "fathom/rays/tested_triangle.h"
 #include "fathom/rays/walk_ray.h"
 
 namespace fathom::rays {
@@ -15,22 +16,9 @@ namespace fathom::rays {
 /// What is asked of a ray.
 enum class Question { nearest, any, all };
 
-/// A triangle that the ray is not certain to miss: w = n·d and n·t in binary64 with the bounds of
-/// ray_bounds.h.
-struct TestedTriangle {
-  std::uint32_t number = 0;
-  /// Where the tree has it (RayTree::corners).
-  std::size_t place = 0;
-  /// Whether it is certain that the ray meets the triangle, at some t.
-  bool is_met = false;
-  double w = 0, height = 0;
-  /// Bounds on their errors; that of w bounds the weights, too.
-  double error = 0, height_error = 0;
-};
-
 /// The hits of a ray, as a walk finds them: doubtful triangles and limits are settled exactly when
 /// they are offered, the order of hits at the end.
-class Candidates {
+class Candidates final : public TriangleVisitor {
  public:
   Candidates(const TriangleSource& source, const RayTree& tree, const CastOptions& options,
              Question question)
@@ -39,10 +27,7 @@ class Candidates {
   /// Forgets all hits and begins with a ray; both must stay as they are meanwhile.
   void begin(const Ray& given, const WalkRay& ray);
 
-  /// Returns whether the answer is known, so that the walk can end.
-  bool offer(const TestedTriangle& triangle);
-  /// Nothing beyond this s can change the answer.
-  [[nodiscard]] float last() const { return last_; }
+  bool offer(const TestedTriangle& triangle) override;
 
   struct Hit {
     std::uint32_t triangle = 0;
@@ -81,9 +66,8 @@ class Candidates {
   std::vector<Hit> hits_;
   /// Each is computed once, however often it is compared; by Hit::first.
   std::unordered_map<std::uint32_t, Ratio> exact_ts_;
-  /// The least upper end of the s of a hit, and what follows from it.
+  /// The least upper end of the s of a hit; last() follows from it.
   double least_upper_ = 0;
-  float last_ = 0;
 };
 
 }  // namespace fathom::rays

@@ -22,7 +22,7 @@ namespace {
 /// Returns whether the answer is known.
 template <class Stored>
 bool test_leaf(const TriangleBlock<Stored>* blocks, std::size_t block, std::uint32_t triangles,
-               const WalkRay& ray, const Errors& errors, Candidates& candidates) {
+               const WalkRay& ray, const Errors& errors, TriangleVisitor& visitor) {
   BlockTest test;
   for (; triangles > 0; ++block) {
     const std::uint32_t here =
@@ -31,13 +31,13 @@ bool test_leaf(const TriangleBlock<Stored>* blocks, std::size_t block, std::uint
     test_block(blocks[block], ray, errors, test);
     for (unsigned open = test.open & ((1U << here) - 1); open != 0; open &= open - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(open));
-      if (candidates.offer({.number = blocks[block].numbers[i],
-                            .place = block * triangles_together + i,
-                            .is_met = ((test.met >> i) & 1) != 0,
-                            .w = test.w[i],
-                            .height = test.height[i],
-                            .error = test.error[i],
-                            .height_error = test.height_error[i]}))
+      if (visitor.offer({.number = blocks[block].numbers[i],
+                         .place = block * triangles_together + i,
+                         .is_met = ((test.met >> i) & 1) != 0,
+                         .w = test.w[i],
+                         .height = test.height[i],
+                         .error = test.error[i],
+                         .height_error = test.height_error[i]}))
         return true;
     }
   }
@@ -59,7 +59,7 @@ struct Waiting {
 };
 
 template <class Stored>
-void walk_among(const RayTree& tree, const WalkRay& ray, Candidates& candidates) {
+void walk_among(const RayTree& tree, const WalkRay& ray, TriangleVisitor& visitor) {
   const TriangleBlock<Stored>* const blocks = tree.blocks<Stored>().data();
   std::array<Waiting, RayTree::most_levels*(TreeNode::most_children - 1) + 1> waiting;
   std::array<float, TreeNode::most_children> entries;
@@ -68,14 +68,14 @@ void walk_among(const RayTree& tree, const WalkRay& ray, Candidates& candidates)
   waiting[count++] = {ray.first, 0, 0};
   while (count > 0) {
     const Waiting next = waiting[--count];
-    if (next.entry > candidates.last()) continue;
+    if (next.entry > visitor.last()) continue;
     if (next.triangles > 0) {
-      if (test_leaf(blocks, next.child, next.triangles, ray, errors, candidates)) return;
+      if (test_leaf(blocks, next.child, next.triangles, ray, errors, visitor)) return;
       continue;
     }
     const TreeNode& node = tree.nodes()[next.child];
     const std::size_t first = count;
-    for (unsigned bits = boxes_met(node, ray, candidates.last(), entries); bits != 0;
+    for (unsigned bits = boxes_met(node, ray, visitor.last(), entries); bits != 0;
          bits &= bits - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(bits));
       // The nearest is taken first, so it comes last.
@@ -92,11 +92,11 @@ void walk_among(const RayTree& tree, const WalkRay& ray, Candidates& candidates)
   }
 }
 
-void walk(const RayTree& tree, const WalkRay& ray, Candidates& candidates) {
+void walk(const RayTree& tree, const WalkRay& ray, TriangleVisitor& visitor) {
   if (tree.is_in_binary32()) {
-    walk_among<float>(tree, ray, candidates);
+    walk_among<float>(tree, ray, visitor);
   } else {
-    walk_among<double>(tree, ray, candidates);
+    walk_among<double>(tree, ray, visitor);
   }
 }
 
@@ -109,8 +109,8 @@ namespace fathom::rays {
 
 HWY_EXPORT(walk);
 
-void walk(const RayTree& tree, const WalkRay& ray, Candidates& candidates) {
-  if (!tree.nodes().empty()) HWY_DYNAMIC_DISPATCH(walk)(tree, ray, candidates);
+void walk(const RayTree& tree, const WalkRay& ray, TriangleVisitor& visitor) {
+  if (!tree.nodes().empty()) HWY_DYNAMIC_DISPATCH(walk)(tree, ray, visitor);
 }
 
 }  // namespace fathom::rays

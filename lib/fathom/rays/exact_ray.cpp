@@ -31,7 +31,12 @@ ExactVector3 difference(const WorldPoint& a, const WorldPoint& b) {
 ExactRay::ExactRay(const Ray& ray)
     : origin(exactly(ray.origin)), direction(exactly(ray.direction)) {}
 
-std::optional<ExactHit> meet(const ExactRay& ray, const std::array<WorldPoint, 3>& corners) {
+ExactRay ray_between(const WorldPoint& from, const WorldPoint& to) {
+  return {{from.x, from.y, from.z}, difference(to, from)};
+}
+
+std::optional<ExactHit> meet(const ExactRay& ray, const std::array<WorldPoint, 3>& corners,
+                             EdgeRule edges) {
   const ExactVector3& d = ray.direction;
   const auto& [a, b, c] = corners;
   ExactHit hit;
@@ -45,9 +50,12 @@ std::optional<ExactHit> meet(const ExactRay& ray, const std::array<WorldPoint, 3
   // s(c→a) = d·(r × t) and s(a→b) = d·(t × p) are the weights of B and C; all three add up to n·d.
   hit.weights = {dot(cross(r, t), d), dot(cross(t, p), d)};
   const Dyadic of_a = hit.divisor - hit.weights[0] - hit.weights[1];
-  if (sign_of_edge(hit.weights[0], difference(a, c), d) != hit.side ||
-      sign_of_edge(hit.weights[1], p, d) != hit.side ||
-      sign_of_edge(of_a, difference(c, b), d) != hit.side)
+  const auto is_inside = [&](const Dyadic& s, const ExactVector3& edge) {
+    if (edges == EdgeRule::closed && s.is_zero()) return true;
+    return sign_of_edge(s, edge, d) == hit.side;
+  };
+  if (!is_inside(hit.weights[0], difference(a, c)) || !is_inside(hit.weights[1], p) ||
+      !is_inside(of_a, difference(c, b)))
     return std::nullopt;
   hit.t = Ratio(dot(hit.normal, t), hit.divisor);
   return hit;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "fathom/geometry/frames.h"
 #include "fathom/numeric/certified.h"
@@ -18,7 +19,12 @@ struct ExactRay {
 
   ExactRay() = default;
   explicit ExactRay(const Ray& ray);
+  ExactRay(ExactVector3 from, ExactVector3 along)
+      : origin(std::move(from)), direction(std::move(along)) {}
 };
+
+/// The ray that is at `from` for t = 0 and at `to` for t = 1.
+ExactRay ray_between(const WorldPoint& from, const WorldPoint& to);
 
 /// How a ray meets a triangle.
 struct ExactHit {
@@ -34,9 +40,11 @@ struct ExactHit {
 
 /// The hit, if the ray meets the triangle, at any t. Of triangles that share an edge or a corner,
 /// and of a closed surface, a ray meets as many as if its origin were moved by (ε, ε², ε³) for an
-/// infinitely small ε > 0: it meets no edge then.
+/// infinitely small ε > 0: it meets no edge then. If edges are closed, a ray meets every triangle
+/// that it has a point in common with and is not parallel to.
 /// Source   [EM90]
-std::optional<ExactHit> meet(const ExactRay& ray, const std::array<WorldPoint, 3>& corners);
+std::optional<ExactHit> meet(const ExactRay& ray, const std::array<WorldPoint, 3>& corners,
+                             EdgeRule edges = EdgeRule::generic);
 
 /// The hit of a triangle that has been found to be met.
 /// Fails    InputError if it is not met: the scene has changed since.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 
 #include "fathom/rendering/options.h"
 
@@ -21,6 +22,18 @@ struct RaySegment {
   double t_max = std::numeric_limits<double>::infinity();
   bool open = false;
 };
+
+/// Which points of its edges a triangle has.
+enum class EdgeRule {
+  /// Those that the rule of section 11 gives it: an edge between two triangles belongs to one.
+  generic,
+  /// All.
+  closed
+};
+inline constexpr std::array all_edge_rules{EdgeRule::closed, EdgeRule::generic};
+constexpr std::string_view name_of(EdgeRule rule) {
+  return rule == EdgeRule::closed ? "closed" : "generic";
+}
 
 struct CastOptions {
   RaySegment segment;

@@ -21,11 +21,17 @@ namespace fathom::rays::bounds {
 /// 2⁻¹⁴⁸; adding underflow_room to a binary32 number never lowers it. `last` is rounded up and gets
 /// the same factor. A component of d below least_slope moves the ray by less than 8·2⁻⁶⁰ =
 /// parallel_room.
+/// All of this is about one s, so the origin may move differently for each: longest_way times the
+/// error of the direction is part of the error of the origin, as the ray leaves the scene, and all
+/// boxes, before s = longest_way.
 /// Source   [Ize13]; [WBW13] for the moved origin
 inline constexpr double least_slope = 0x1p-60;
 inline constexpr double parallel_room = 0x1p-57;
 inline constexpr float far_room = 0x1p-21F;
 inline constexpr float underflow_room = 0x1p-100F;
+inline constexpr double longest_way = 8;
+/// Leaves an origin that is near the scene below 8.
+inline constexpr double greatest_origin_error = 0x1p-20;
 
 /// The moved origin: exact but for one rounding of a coordinate below 8, and for less than 2⁻⁶⁰.
 inline constexpr double moved_origin_error = 0x1p-49;
@@ -45,7 +51,13 @@ inline constexpr double slack = 1 + 0x1p-20;
 /// w_A by the sum. So all four err by at most
 ///   E = D·(H·((T + H)·36u + 4(γ + ε)) + (T + H)·8γ)
 /// Terms of second order in γ and ε are at most D·(16γ(γ + ε) + 32γ²), which the 4γ of H cover.
+/// Direction: components that err by δ change w_B and w_C by 3δ·2HT, w by 3δ·2H², w_A by the sum,
+///   δ·H·(T + H)·12
+/// more. δ is at most 2⁻³⁶ (greatest_direction_error), so that slack covers its products with u, γ
+/// and ε.
 inline constexpr double of_products = 36 * unit_roundoff<double>;
+inline constexpr double of_direction = 12;
+inline constexpr double greatest_direction_error = 0x1p-36;
 inline constexpr double of_origin = 4;
 inline constexpr double of_corners = 8;
 inline constexpr double size_room = 4;

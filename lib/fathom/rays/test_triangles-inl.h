@@ -61,7 +61,8 @@ struct Errors {
     const Vector& d = ray.direction;
     const double size = (std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2])) * bounds::slack;
     const double near = corner_error + ray.origin_error;
-    products = size * bounds::of_products;
+    products =
+        size * bounds::of_products + bounds::of_direction * ray.direction_error * bounds::slack;
     origin = size * bounds::of_origin * near;
     corners = size * bounds::of_corners * corner_error;
     size_room = bounds::size_room * corner_error;

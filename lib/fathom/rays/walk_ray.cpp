@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fathom/numeric/double_word.h"
 #include "fathom/numeric/dyadic.h"
@@ -28,8 +29,6 @@ Interval difference(const Interval& a, const Interval& b) {
           high.lo == 0 && std::isfinite(upper) ? upper : std::nextafter(upper, infinity)};
 }
 
-/// An origin outside this is moved.
-constexpr double near_scene = 2;
 /// A moved origin beyond this belongs to a ray that misses the scene: it lies less than 3 from the
 /// scene along its greatest component, and other coordinates change by no more on the way.
 constexpr double greatest_moved = 5;
@@ -68,11 +67,10 @@ Dyadic approximate_quotient(const Dyadic& x, double divisor) {
 
 /// The same in exact numbers, for origins of any size: step by step, as each step leaves 2⁻⁵⁰ of
 /// the way.
-void move_exactly(WalkRay& ray, std::size_t axis, const Ray& given, long power,
-                  long direction_power) {
+void move_exactly(WalkRay& ray, std::size_t axis, const ExactVector3& origin,
+                  const ExactVector3& direction) {
   const auto coordinate = [&](std::size_t k, const Dyadic& start) {
-    return Dyadic(given.origin[k]).scaled(-power) +
-           start * Dyadic(given.direction[k]).scaled(-direction_power);
+    return origin[k] + start * direction[k];
   };
   const Dyadic to(goal(ray.direction[axis]));
   Dyadic start;
@@ -83,6 +81,26 @@ void move_exactly(WalkRay& ray, std::size_t axis, const Ray& given, long power,
   }
   for (std::size_t k = 0; k < 3; ++k) ray.origin[k] = enclose(coordinate(k, start)).lower;
   ray.start = enclose(start);
+}
+
+ExactVector3 scaled(const ExactVector3& v, long power) {
+  return {v[0].scaled(power), v[1].scaled(power), v[2].scaled(power)};
+}
+
+/// Each component is rounded down.
+Vector rounded(const ExactVector3& v) {
+  return {enclose(v[0]).lower, enclose(v[1]).lower, enclose(v[2]).lower};
+}
+
+/// By how much rounded() changes a component below 2.
+constexpr double rounding_below_2 = 0x1p-52;
+
+/// k for which the greatest component of d/2^k is in [1, 2).
+long power_of_direction(const ExactVector3& direction) {
+  long greatest = std::numeric_limits<long>::min();
+  for (const Dyadic& component : direction)
+    if (!component.is_zero()) greatest = std::max(greatest, component.top());
+  return greatest - 1;
 }
 
 double greatest_magnitude(const Vector& v) {
@@ -113,6 +131,16 @@ Interval s_of(const WalkRay& ray, const Interval& t) {
   return difference({low.lower, high.upper}, ray.start);
 }
 
+bool set_stretch(WalkRay& ray, const RaySegment& segment) {
+  ray.segment_first = s_of(ray, {segment.t_min, segment.t_min});
+  ray.segment_last = s_of(ray, {segment.t_max, segment.t_max});
+  if (ray.segment_last.upper < 0) return false;
+  ray.first = std::max(0.0F, round_down(ray.segment_first.lower));
+  ray.last = round_up(ray.segment_last.upper) * (1 + bounds::far_room);
+  set_slabs(ray);
+  return true;
+}
+
 long power_of_direction(const Ray& ray) {
   return std::ilogb(greatest_magnitude(ray.direction));
 }
@@ -132,19 +160,35 @@ std::optional<WalkRay> prepare(const Ray& given, const RaySegment& segment, cons
     if (size <= greatest_for_double_words) {
       move(ray, axis);
     } else {
-      move_exactly(ray, axis, given, tree.power(), direction_power);
+      const ExactRay exact(given);
+      move_exactly(ray, axis, scaled(exact.origin, -tree.power()),
+                   scaled(exact.direction, -direction_power));
     }
     ray.origin_error = bounds::moved_origin_error;
     if (!(greatest_magnitude(ray.origin) <= greatest_moved)) return std::nullopt;
   }
 
-  ray.segment_first = s_of(ray, {segment.t_min, segment.t_min});
-  ray.segment_last = s_of(ray, {segment.t_max, segment.t_max});
-  if (ray.segment_last.upper < 0) return std::nullopt;
-  ray.first = std::max(0.0F, round_down(ray.segment_first.lower));
-  ray.last = round_up(ray.segment_last.upper) * (1 + bounds::far_room);
-  set_slabs(ray);
-  return ray;
+  return set_stretch(ray, segment) ? std::optional(ray) : std::nullopt;
+}
+
+std::optional<WalkRay> prepare(const ExactRay& exact, const RaySegment& segment,
+                               const RayTree& tree) {
+  WalkRay ray;
+  const long direction_power = power_of_direction(exact.direction);
+  const ExactVector3 origin = scaled(exact.origin, -tree.power());
+  const ExactVector3 direction = scaled(exact.direction, -direction_power);
+  ray.origin = rounded(origin);
+  ray.direction = rounded(direction);
+  ray.direction_error = rounding_below_2;
+  ray.scale = tree.power() - direction_power;
+  double error = rounding_below_2;
+  if (!(greatest_magnitude(ray.origin) <= near_scene && segment.t_min >= 0)) {
+    move_exactly(ray, steepest_axis(ray.direction), origin, direction);
+    error = bounds::moved_origin_error;
+    if (!(greatest_magnitude(ray.origin) <= greatest_moved)) return std::nullopt;
+  }
+  ray.origin_error = error + bounds::longest_way * ray.direction_error;
+  return set_stretch(ray, segment) ? std::optional(ray) : std::nullopt;
 }
 
 }  // namespace fathom::rays

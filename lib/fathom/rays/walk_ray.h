@@ -5,12 +5,16 @@
 #include <optional>
 
 #include "fathom/numeric/interval.h"
+#include "fathom/rays/exact_ray.h"
 #include "fathom/rays/ray.h"
 #include "fathom/rays/ray_tree.h"
 
 namespace fathom::rays {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// An origin with a greater coordinate is moved.
+inline constexpr double near_scene = 2;
 
 /// A ray as a tree is walked along it: in the tree's unit, its direction scaled by a power of two
 /// until the greatest component is in [1, 2), and its origin moved along it to near the scene.
@@ -19,9 +23,10 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 ///   t = (s + start)·2^(power − k)
 /// for the parameter s of the walk, which is at most 8 in the scene.
 struct WalkRay {
-  /// Each coordinate of the origin is within origin_error of the exact one, and below 8.
+  /// For every s from 0 to 8, each coordinate of origin + s·direction is within origin_error of the
+  /// exact one. The origin is below 8; the direction is within direction_error of the exact one.
   Vector origin{}, direction{};
-  double origin_error = 0;
+  double origin_error = 0, direction_error = 0;
 
   /// The stretch that is searched, with certainty around that which is asked for: s ≥ 0.
   float first = 0, last = 0;
@@ -46,6 +51,13 @@ long power_of_direction(const Ray& ray);
 /// The ray, or nullopt if it certainly misses everything in the segment.
 /// Needs    a finite ray with a direction that is not 0.
 std::optional<WalkRay> prepare(const Ray& ray, const RaySegment& segment, const RayTree& tree);
+
+/// The same of a ray whose numbers need not be binary64 numbers. Its direction is not 0.
+std::optional<WalkRay> prepare(const ExactRay& ray, const RaySegment& segment, const RayTree& tree);
+
+/// Sets all that follows from the segment and from origin, direction, their errors, scale and
+/// start. Returns false if the ray certainly misses everything in the segment.
+bool set_stretch(WalkRay& ray, const RaySegment& segment);
 
 /// An interval that contains the s of a t in the interval.
 Interval s_of(const WalkRay& ray, const Interval& t);
