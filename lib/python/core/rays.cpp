@@ -11,6 +11,7 @@
 #include "bindings.h"
 #include "fathom/rays/cast.h"
 #include "fathom/rays/hit_values.h"
+#include "fathom/rays/sight.h"
 #include "fathom/rendering/option_names.h"
 #include "fathom/threads/threads.h"
 #include "objects.h"
@@ -156,6 +157,46 @@ py::tuple origins_of(const SharedRays& prepared, const ContiguousArray<std::uint
   return py::make_tuple(array_of(std::move(objects)), array_of(std::move(faces)));
 }
 
+/// Rows of coordinates if there are no triangles, else of weights.
+std::vector<SightPoint> points_of(const ContiguousArray<std::uint32_t>& triangles,
+                                  const Numbers& numbers) {
+  std::vector<SightPoint> points(static_cast<std::size_t>(numbers.shape(0)));
+  if (triangles.size() == 0) {
+    std::ranges::copy(rows_of(numbers), points.begin());
+  } else {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      points[i] =
+          SurfacePoint{triangles.data()[i], numbers.data()[2 * i], numbers.data()[2 * i + 1]};
+  }
+  return points;
+}
+
+py::array array_of_flags(const std::vector<bool>& flags) {
+  return array_of(std::vector<std::uint8_t>(flags.begin(), flags.end()));
+}
+
+py::array sees_points(const SharedRays& prepared,
+                      const ContiguousArray<std::uint32_t>& eye_triangles, const Numbers& eyes,
+                      const ContiguousArray<std::uint32_t>& point_triangles, const Numbers& points,
+                      bool pairs, const std::string& edges, int threads) {
+  const auto from = points_of(eye_triangles, eyes), to = points_of(point_triangles, points);
+  const SightOptions options{named_value("edges", all_edge_rules, edges), threads};
+  return array_of_flags(run([&](const auto&) {
+    return pairs ? sees(prepared->rays, from, to, options)
+                 : sees_each(prepared->rays, from, to, options);
+  }));
+}
+
+py::array seen_by_cameras(const SharedRays& prepared,
+                          const ContiguousArray<std::uint32_t>& triangles, const Numbers& numbers,
+                          const std::vector<Camera>& cameras, const std::string& cull,
+                          int threads) {
+  const auto points = points_of(triangles, numbers);
+  const Cull left_out = named_value("cull", all_culls, cull);
+  return array_of_flags(run(
+      [&](const auto&) { return seen_by(prepared->rays, points, cameras, left_out, threads); }));
+}
+
 }  // namespace
 
 void bind_rays(Module& core) {
@@ -169,6 +210,8 @@ void bind_rays(Module& core) {
   core.def("hit_values32", &values_of<float>);
   core.def("hit_values64", &values_of<double>);
   core.def("origins_of", &origins_of);
+  core.def("sees", &sees_points);
+  core.def("seen_by", &seen_by_cameras);
 }
 
 }  // namespace fathom::python

@@ -24,6 +24,7 @@ from .questions import probe, verify, visible
 from .rendering import render
 from .scanning import scan
 from .scene import Scene
+from .sight import SurfacePoints
 from .validation import Validation, validate
 
 __all__ = [
@@ -39,6 +40,7 @@ __all__ = [
     "MapComparison",
     "OutputError",
     "Scene",
+    "SurfacePoints",
     "UsageError",
     "Validation",
     "ViewWarning",

@@ -311,6 +311,13 @@ def hit_values32(
 def hit_values64(
     rays: Rays, origins: Floats, directions: Floats, triangles: npt.NDArray[np.uint32], threads: int
 ) -> tuple[Floats, ...]: ...
+def sees(
+    rays: Rays, eye_triangles: npt.NDArray[np.uint32], eyes: Floats, point_triangles: npt.NDArray[np.uint32],
+    points: Floats, pairs: bool, edges: str, threads: int
+) -> npt.NDArray[np.uint8]: ...
+def seen_by(
+    rays: Rays, triangles: npt.NDArray[np.uint32], points: Floats, cameras: list[Camera], cull: str, threads: int
+) -> npt.NDArray[np.uint8]: ...
 def origins_of(rays: Rays, triangles: npt.NDArray[np.uint32]) -> tuple[npt.NDArray[np.uint32], npt.NDArray[np.uint32]]: ...
 
 def evaluate(

@@ -16,6 +16,8 @@ Channels = Union[Sequence[Channel], str]
 RayChannel = Literal["t", "id", "distance", "P", "bary", "N", "object", "face"]
 RayChannels = Union[Sequence[RayChannel], str]
 RayMode = Literal["nearest", "all"]
+#: Of sight: whether all points of edges hide what is behind them.
+EdgeRule = Literal["closed", "generic"]
 Cull = Literal["none", "back", "front"]
 Engine = Literal["fast", "reference"]
 Normals = Literal["file", "vertex", "place"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from . import _core, _rays
+from . import _core, _rays, sight
 from ._arguments import (
     as_count,
     as_text,
@@ -27,12 +27,14 @@ from .camera import Camera
 from .maps import Map
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     import numpy as np
     import numpy.typing as npt
 
     from ._meshes import Mesh
     from ._shown import Picture
-    from .names import Background, Channels, Cull, Engine, Normals, RayChannels, RayMode
+    from .names import Background, Channels, Cull, EdgeRule, Engine, Normals, RayChannels, RayMode
 
 #: Larger scenes are shown in notebooks without a picture, and more objects are counted.
 most_triangles_to_draw = 10_000_000
@@ -298,6 +300,45 @@ class Scene:
         numbers = _core.winding_numbers(self._prepared_rays(threads), given.reshape(-1, 3), as_threads(threads))
         inside: npt.NDArray[np.bool_] = numbers != 0
         return inside.reshape(given.shape[:-1])
+
+    def sees(
+        self, eyes: npt.ArrayLike | sight.SurfacePoints, points: npt.ArrayLike | sight.SurfacePoints, pairs: bool = True,
+        edges: EdgeRule = "closed", *, threads: int = 0,
+    ) -> npt.NDArray[np.bool_]:
+        """Whether points are seen from eyes: whether no triangle has a point in the open segment between them. Triangles
+        on which an end lies, or in a plane with the segment, hide nothing. Every decision is exact.
+
+        eyes, points  N×3, or any shape that ends in 3; numbers are taken exactly. Or SurfacePoints: coordinates of a
+                      surface that were rounded lie beside it, perhaps behind it
+        pairs         eyes and points are pairs, and one eye fits many points; False: all eyes and all points
+        edges         "closed": the edges of triangles hide what is behind them. "generic": an edge hides what it hides
+                      from a ray of cast()
+
+        Returns an array of the shape of the pairs, or of eyes and points one after the other.
+
+        >>> import numpy as np
+        >>> scene = Scene()
+        >>> _ = scene.add_mesh(np.array([(0, 0, 4), (4, 0, 4), (0, 4, 4)]), np.array([(0, 1, 2)]))
+        >>> scene.sees((1, 1, 0), [(1, 1, 3), (1, 1, 4), (1, 1, 5)]).tolist()
+        [True, True, False]
+        """
+        return sight.sees(self._prepared_rays(threads), eyes, points, pairs, edges, threads)
+
+    def seen_by(
+        self, points: npt.ArrayLike | sight.SurfacePoints, cameras: Camera | Iterable[Camera], cull: Cull = "none", *,
+        threads: int = 0,
+    ) -> npt.NDArray[np.bool_]:
+        """Whether cameras see points: an array of the shape of the points, then a column for each camera.
+
+        A camera sees a point whose depth is above 0 and from near to far and whose image is in the closed rectangle of
+        the image, if no triangle that culling keeps, its edges included, is nearer there. Of SurfacePoints it sees
+        those whose triangle it does not see edge on and culling keeps. Cameras whose lens bends rays are refused.
+
+        points   as in sees()
+        cameras  a camera, or several
+        cull     leaves out "back" or "front" faces
+        """
+        return sight.seen_by(self._prepared_rays(threads), points, cameras, cull, threads)
 
     def _prepared_rays(self, threads: int) -> _core.Rays:
         objects = self._handle.object_count
