@@ -4,7 +4,6 @@
 #include <string>
 
 #include "fathom/rays/hit_values.h"
-#include "fathom/threads/threads.h"
 
 namespace fathom::app {
 namespace {
@@ -85,13 +84,13 @@ std::vector<Column> columns_of(const TriangleSource& triangles, std::span<const 
                                const std::vector<HitChannel>& channels, int threads) {
   Values values;
   if (std::ranges::any_of(channels, is_value)) {
-    values.assign(hits.size(), values_without_hit<double>());
-    with_threads(threads, [&] {
-      parallel_for(std::size_t{0}, hits.size(), [&](std::size_t i) {
-        if (hits[i].triangle != no_triangle)
-          values[i] = hit_values<double>(triangles, rays[ray_of_hit[i]], hits[i].triangle);
-      });
-    });
+    std::vector<Ray> of_hits;
+    std::vector<std::uint32_t> met;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      of_hits.push_back(rays[ray_of_hit[i]]);
+      met.push_back(hits[i].triangle);
+    }
+    values = hit_values<double>(triangles, of_hits, met, threads);
   }
   std::vector<Column> columns;
   for (const HitChannel channel : channels) {

@@ -7,6 +7,7 @@
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/rays/exact_ray.h"
+#include "fathom/threads/threads.h"
 
 namespace fathom {
 namespace {
@@ -48,6 +49,7 @@ HitValues<Real> hit_values(const TriangleSource& triangles, const Ray& ray,
   const rays::ExactRay exact(ray);
   const rays::ExactHit hit = exact_hit(triangles, exact, triangle);
   HitValues<Real> values;
+  values.front_facing = hit.side == Sign::negative;
   values.t = rounded<Real>(hit.t);
   const Ratio squared_length(dot(exact.direction, exact.direction));
   values.distance = rounded_root<Real>(hit.t * hit.t * squared_length, hit.t.sign());
@@ -62,7 +64,24 @@ HitValues<Real> hit_values(const TriangleSource& triangles, const Ray& ray,
   return values;
 }
 
+template <class Real>
+std::vector<HitValues<Real>> hit_values(const TriangleSource& triangles, std::span<const Ray> rays,
+                                        std::span<const std::uint32_t> met, int threads) {
+  const StandardArithmetic standard;
+  std::vector<HitValues<Real>> values(met.size(), values_without_hit<Real>());
+  run_with_threads(threads, [&] {
+    parallel_for(std::size_t{0}, met.size(), [&](std::size_t i) {
+      if (met[i] != no_triangle) values[i] = hit_values<Real>(triangles, rays[i], met[i]);
+    });
+  });
+  return values;
+}
+
 template HitValues<float> hit_values(const TriangleSource&, const Ray&, std::uint32_t);
 template HitValues<double> hit_values(const TriangleSource&, const Ray&, std::uint32_t);
+template std::vector<HitValues<float>> hit_values(const TriangleSource&, std::span<const Ray>,
+                                                  std::span<const std::uint32_t>, int);
+template std::vector<HitValues<double>> hit_values(const TriangleSource&, std::span<const Ray>,
+                                                   std::span<const std::uint32_t>, int);
 
 }  // namespace fathom
