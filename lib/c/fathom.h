@@ -208,6 +208,87 @@ FATHOM_API fathom_status fathom_verify(const fathom_map* map, const fathom_scene
                                        const fathom_camera* camera, const fathom_options* options,
                                        uint64_t pixels, uint64_t* differing);
 
+/* ---------------------------------------------------------------------------------------- rays */
+
+/* A scene that is prepared for rays. */
+typedef struct fathom_rays fathom_rays;
+
+/* Prepares a scene for rays, with `threads` threads (0: all). Keep the scene unchanged until the
+ * rays are freed. FATHOM_INPUT if the scene has a fault. */
+FATHOM_API fathom_status fathom_rays_new(const fathom_scene* scene, int threads,
+                                         fathom_rays** rays);
+/* Frees prepared rays; NULL is allowed. */
+FATHOM_API void fathom_rays_free(fathom_rays* rays);
+
+/* Rays in your memory: the points origin + t * direction. Numbers are taken exactly. */
+typedef struct {
+  size_t count;
+  const double* origins;    /* 3 numbers for each ray */
+  const double* directions; /* 3 numbers for each ray, not all 0; t counts their lengths */
+  /* Bytes from each ray to the next; 0: the numbers have no gaps. */
+  size_t origin_stride, direction_stride;
+} fathom_ray_array;
+
+/* Which hits count. NULL instead of this: all with t >= 0. */
+typedef struct {
+  double t_min, t_max; /* hits count if t_min <= t <= t_max; INFINITY and -INFINITY are allowed */
+  int open;            /* not 0: hits count if t_min < t < t_max */
+  fathom_cull cull;    /* a face is a front face if its normal points against the ray */
+  int threads;         /* number of threads; 0: all */
+} fathom_cast_options;
+
+/* Where the values of hits are written, each the exact number rounded once; NULL: not wanted.
+ * Without a hit, triangle, object and face are FATHOM_NO_SURFACE, t and distance INFINITY, position
+ * and barycentric NAN, and normal 0. triangle and t are fast; distance, position, barycentric and
+ * normal take about 10 us for each hit. */
+typedef struct {
+  uint32_t* triangle;  /* its number in the scene */
+  double* t;           /* in lengths of the direction */
+  double* distance;    /* t times the length of the direction */
+  double* position;    /* 3 numbers: origin + t * direction */
+  double* barycentric; /* 2 numbers: the weights of the second and third corner */
+  double* normal;      /* 3 numbers: the unit normal, turned against the ray */
+  uint32_t* object;
+  uint32_t* face; /* the number of the face in its file or array */
+  size_t stride;  /* bytes from each hit to the next, in all arrays; 0: the arrays have no gaps */
+} fathom_hit_arrays;
+
+/* Finds the nearest hit of each ray: the least t, among equals the lowest triangle number. Every
+ * decision is exact: no ray passes between two triangles that share an edge, and no ray meets both
+ * there (docs/rays.md). FATHOM_INPUT if a number of a ray is not finite or a direction is 0. */
+FATHOM_API fathom_status fathom_cast(const fathom_rays* rays, const fathom_ray_array* given,
+                                     const fathom_cast_options* options,
+                                     const fathom_hit_arrays* hits);
+/* Writes 1 for each ray that has a hit, else 0. */
+FATHOM_API fathom_status fathom_occluded(const fathom_rays* rays, const fathom_ray_array* given,
+                                         const fathom_cast_options* options, uint8_t* occluded);
+/* Writes the number of hits of each ray. */
+FATHOM_API fathom_status fathom_count_hits(const fathom_rays* rays, const fathom_ray_array* given,
+                                           const fathom_cast_options* options, uint32_t* counts);
+
+/* All hits of several rays. */
+typedef struct fathom_hits fathom_hits;
+
+/* Finds every hit of each ray, by t, then by triangle number. Keep the rays until the hits are
+ * freed. */
+FATHOM_API fathom_status fathom_all_hits(const fathom_rays* rays, const fathom_ray_array* given,
+                                         const fathom_cast_options* options, fathom_hits** hits);
+/* Frees hits; NULL is allowed. */
+FATHOM_API void fathom_hits_free(fathom_hits* hits);
+/* Number of hits of all rays. */
+FATHOM_API uint64_t fathom_hits_count(const fathom_hits* hits);
+/* One number more than there are rays, valid until the hits are freed: the hits of ray i are those
+ * from splits[i] to splits[i + 1], without the last. */
+FATHOM_API const uint64_t* fathom_hits_splits(const fathom_hits* hits);
+/* Writes the values of all hits. */
+FATHOM_API fathom_status fathom_hits_values(const fathom_hits* hits,
+                                            const fathom_hit_arrays* values);
+
+/* Writes 1 for each point that is inside a closed surface, else 0: the surface winds around it. The
+ * points have 3 numbers each and `stride` bytes from each to the next, 0: no gaps. */
+FATHOM_API fathom_status fathom_contains(const fathom_rays* rays, const double* points,
+                                         size_t count, size_t stride, int threads, uint8_t* inside);
+
 /* NOLINTEND(readability-identifier-naming) */
 
 #ifdef __cplusplus

@@ -1,13 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <limits>
 #include <map>
 #include <memory>
-#include <new>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,20 +16,16 @@
 #include "fathom/camera/lens_numbers.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/map_files.h"
-#include "fathom/mesh/element_counts.h"
-#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/verify.h"
 #include "fathom/render.h"
 #include "fathom/scene/bounds.h"
 #include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
+#include "lib/c/calls.h"
 #include "lib/c/fathom.h"
 
 using namespace fathom;
-
-struct fathom_scene {
-  Scene scene;
-};
+using namespace fathom::c;
 
 struct fathom_map {
   explicit fathom_map(DepthMap given) : map(std::move(given)), texts(texts_of(map)) {}
@@ -45,65 +39,6 @@ struct fathom_lens {
 };
 
 namespace {
-
-/// Thrown through the library where the caller's progress function asks for it.
-struct Stopped {};
-
-std::string& error_of_thread() {
-  thread_local std::string error;
-  return error;
-}
-
-fathom_status failed(fathom_status status, const char* why) {
-  try {
-    error_of_thread() = why;
-  } catch (const std::bad_alloc&) {
-    error_of_thread().clear();
-  }
-  return status;
-}
-
-/// Does the work of a function that the library exports, in StandardArithmetic, whatever mode the
-/// caller computes in. Every exported function consists of one call of this or of status_of().
-template <class Work>
-auto answer_of(const Work& work) noexcept {
-  const StandardArithmetic standard;
-  return work();
-}
-
-/// The same where the work may throw: a failure becomes the function's status.
-template <class Work>
-fathom_status status_of(const Work& work) noexcept {
-  const StandardArithmetic standard;
-  try {
-    work();
-    return FATHOM_OK;
-  } catch (const Stopped&) {
-    return failed(FATHOM_STOPPED, "stopped");
-  } catch (const UsageError& error) {
-    return failed(FATHOM_USAGE, error.what());
-  } catch (const OutputError& error) {
-    return failed(FATHOM_OUTPUT, error.what());
-  } catch (const std::bad_alloc&) {
-    return failed(FATHOM_MEMORY, "there is not enough memory");
-  } catch (const std::exception& error) {
-    return failed(FATHOM_INPUT, error.what());
-  }
-}
-
-void require(bool holds, const char* message) {
-  if (!holds) throw UsageError(message);
-}
-
-/// A count beyond what a mesh can have, such as a negative number made unsigned: refused before its
-/// bytes are computed, or an element is read.
-void require_count(const char* what, std::size_t count, std::size_t bytes_of_element) {
-  const std::uint64_t most =
-      std::min<std::uint64_t>(mesh::most_elements, SIZE_MAX / bytes_of_element);
-  if (count <= most) return;
-  throw UsageError(std::string(what) + ": expected at most " + std::to_string(most) + ", found " +
-                   std::to_string(count));
-}
 
 Camera camera_of(const fathom_camera* given) {
   require(given, "camera: NULL");
@@ -160,12 +95,7 @@ LensChoice lens_of(std::uint32_t width, std::uint32_t height, double fov) {
 RenderOptions options_of(const fathom_options* given) {
   RenderOptions options;
   if (!given) return options;
-  require(given->cull == FATHOM_CULL_NONE || given->cull == FATHOM_CULL_BACK ||
-              given->cull == FATHOM_CULL_FRONT,
-          "options: cull: expected one of fathom_cull");
-  options.cull = given->cull == FATHOM_CULL_BACK    ? Cull::back
-                 : given->cull == FATHOM_CULL_FRONT ? Cull::front
-                                                    : Cull::none;
+  options.cull = cull_of(given->cull);
   if (given->float64) options.depth_encoding.type = StoredType::binary64;
   options.threads = given->threads;
   return options;

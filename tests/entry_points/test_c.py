@@ -31,6 +31,7 @@ for text in re.findall(r"FATHOM_API ([^;(]*?\bfathom_\w+)\(", header):
     getattr(library, name).restype = {
         "const char*": ctypes.c_char_p, "uint32_t": ctypes.c_uint32, "uint64_t": ctypes.c_uint64, "void": None,
         "const float*": ctypes.POINTER(ctypes.c_float), "const double*": ctypes.POINTER(ctypes.c_double),
+        "const uint64_t*": ctypes.POINTER(ctypes.c_uint64),
         "const uint32_t*": ctypes.POINTER(ctypes.c_uint32), "const uint16_t*": ctypes.POINTER(ctypes.c_uint16),
         "double": ctypes.c_double, "fathom_status": ctypes.c_int}[kind]
 
@@ -64,6 +65,8 @@ class Given:
         self.lens = ctypes.c_void_p()
         numbers = (ctypes.c_double * 4)(-0.3, 5e-324, 0.1, 0)
         assert library.fathom_lens_new(b"OPENCV", numbers, ctypes.c_size_t(4), ctypes.c_double(0.7), ctypes.byref(self.lens)) == 0
+        self.rays = ctypes.c_void_p()
+        assert library.fathom_rays_new(self.scene, 0, ctypes.byref(self.rays)) == 0
         self.map_file = folder / "map.exr"
         assert library.fathom_map_write(self.map, bytes(self.map_file), None) == 0
 
@@ -210,6 +213,57 @@ def verify(given):
     return status, differing.value
 
 
+class RayArray(ctypes.Structure):
+    _fields_ = [("count", ctypes.c_size_t), ("origins", ctypes.POINTER(ctypes.c_double)),
+                ("directions", ctypes.POINTER(ctypes.c_double)), ("origin_stride", ctypes.c_size_t),
+                ("direction_stride", ctypes.c_size_t)]
+
+
+class HitArrays(ctypes.Structure):
+    _fields_ = [("triangle", ctypes.POINTER(ctypes.c_uint32)),
+                *((name, ctypes.POINTER(ctypes.c_double)) for name in ("t", "distance", "position", "barycentric", "normal")),
+                ("object", ctypes.POINTER(ctypes.c_uint32)), ("face", ctypes.POINTER(ctypes.c_uint32)),
+                ("stride", ctypes.c_size_t)]
+
+
+ray_count = 3
+some_rays = RayArray(ray_count, (ctypes.c_double * 9)(0.1, 0.2, 0, 5e-324, 0.1, 0, 0.3, 0, 1),
+                     (ctypes.c_double * 9)(0.01, 0, 1.1, 0, 0, 5e-324, 0.1, 0.2, 0.3), 0, 0)
+
+
+def values_of(write, count):
+    """All that is written about so many hits."""
+    values = [(ctypes.c_double * (count * width))() for width in (1, 1, 3, 2, 3)]
+    numbers = [(ctypes.c_uint32 * count)() for _ in range(3)]
+    status = write(ctypes.byref(HitArrays(numbers[0], *values, *numbers[1:], 0)))
+    return status, [bytes_of(array) for array in (*values, *numbers)]
+
+
+def of_rays(function, kind):
+    def call(given):
+        found = (kind * ray_count)()
+        return function(given.rays, ctypes.byref(some_rays), None, found), list(found)
+    return call
+
+
+def all_hits(given):
+    return made(library.fathom_all_hits, given.rays, ctypes.byref(some_rays), None)
+
+
+def of_hits(ask):
+    def call(given):
+        hits = all_hits(given)
+        found = ask(hits)
+        library.fathom_hits_free(hits)
+        return found
+    return call
+
+
+def contains(given):
+    inside, points = (ctypes.c_uint8 * 2)(9, 9), (ctypes.c_double * 6)(0.1, 0.2, 0, 5e-324, 0.1, 4)
+    return library.fathom_contains(given.rays, points, ctypes.c_size_t(2), ctypes.c_size_t(0), 0, inside), list(inside)
+
+
 def freed(make, free):
     def call(given):
         handle = make(given)
@@ -250,6 +304,19 @@ calls = {
     "fathom_map_name": lambda given: library.fathom_map_name(given.map, b"object", 0),
     "fathom_map_text": lambda given: library.fathom_map_text(given.map, b"fathom.camera"),
     "fathom_verify": verify,
+    "fathom_rays_new": lambda given: library.fathom_rays_free(made(library.fathom_rays_new, given.scene, 0)),
+    "fathom_rays_free": freed(lambda given: made(library.fathom_rays_new, given.scene, 0), library.fathom_rays_free),
+    "fathom_cast": lambda given: values_of(
+        lambda hits: library.fathom_cast(given.rays, ctypes.byref(some_rays), None, hits), ray_count),
+    "fathom_occluded": of_rays(library.fathom_occluded, ctypes.c_uint8),
+    "fathom_count_hits": of_rays(library.fathom_count_hits, ctypes.c_uint32),
+    "fathom_all_hits": of_hits(lambda hits: library.fathom_hits_count(hits)),
+    "fathom_hits_free": freed(all_hits, library.fathom_hits_free),
+    "fathom_hits_count": of_hits(library.fathom_hits_count),
+    "fathom_hits_splits": of_hits(lambda hits: library.fathom_hits_splits(hits)[:ray_count + 1]),
+    "fathom_hits_values": of_hits(lambda hits: values_of(lambda to: library.fathom_hits_values(hits, to),
+                                                         library.fathom_hits_count(hits))),
+    "fathom_contains": contains,
 }
 
 
