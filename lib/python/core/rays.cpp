@@ -4,16 +4,17 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "apps/rays/ray_file.h"
 #include "bindings.h"
 #include "fathom/rays/cast.h"
 #include "fathom/rays/hit_values.h"
 #include "fathom/rays/sight.h"
 #include "fathom/rendering/option_names.h"
-#include "fathom/threads/threads.h"
 #include "objects.h"
 #include "options.h"
 #include "running.h"
@@ -112,35 +113,33 @@ py::array winding_numbers_of(const SharedRays& prepared, const Numbers& given, i
       run([&](const auto&) { return winding_numbers(prepared->rays, points, threads); }));
 }
 
-/// t, distance, P, bary and N of hits, a row for each; where there is no hit, the rows have what
-/// the specification says.
+/// t, distance, P, bary and N of hits, and whether each is at a front face, a row for each; where
+/// there is no hit, the rows have what the specification says.
 template <class Real>
 py::tuple values_of(const SharedRays& prepared, const Numbers& origins, const Numbers& directions,
                     const ContiguousArray<std::uint32_t>& triangles, int threads) {
   const std::vector<Ray> rays = rays_of(origins, directions);
-  const std::uint32_t* const numbers = triangles.data();
   const std::size_t count = rays.size();
+  const std::span<const std::uint32_t> met(triangles.data(), count);
   Samples<Real> t(count), distance(count), position(3 * count), weights(2 * count),
       normal(3 * count);
-  run([&](const auto&) {
-    run_with_threads(threads, [&] {
-      parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-        const auto values = numbers[i] == no_triangle
-                                ? values_without_hit<Real>()
-                                : hit_values<Real>(prepared->rays.triangles(), rays[i], numbers[i]);
-        t[i] = values.t;
-        distance[i] = values.distance;
-        std::ranges::copy(values.position, position.begin() + 3 * i);
-        std::ranges::copy(values.barycentric, weights.begin() + 2 * i);
-        std::ranges::copy(values.normal, normal.begin() + 3 * i);
-      });
-    });
+  std::vector<std::uint8_t> front(count);
+  const std::vector<HitValues<Real>> values = run([&](const auto&) {
+    return hit_values<Real>(prepared->rays.triangles(), rays, met, threads);
   });
+  for (std::size_t i = 0; i < count; ++i) {
+    t[i] = values[i].t;
+    distance[i] = values[i].distance;
+    std::ranges::copy(values[i].position, position.begin() + 3 * i);
+    std::ranges::copy(values[i].barycentric, weights.begin() + 2 * i);
+    std::ranges::copy(values[i].normal, normal.begin() + 3 * i);
+    front[i] = values[i].front_facing ? 1 : 0;
+  }
   const auto rows = static_cast<py::ssize_t>(count);
   return py::make_tuple(array_of(std::move(t), {rows}), array_of(std::move(distance), {rows}),
                         array_of(std::move(position), {rows, 3}),
                         array_of(std::move(weights), {rows, 2}),
-                        array_of(std::move(normal), {rows, 3}));
+                        array_of(std::move(normal), {rows, 3}), array_of(std::move(front)));
 }
 
 /// Object and face of triangles.
@@ -197,6 +196,17 @@ py::array seen_by_cameras(const SharedRays& prepared,
       [&](const auto&) { return seen_by(prepared->rays, points, cameras, left_out, threads); }));
 }
 
+/// Rays of a file: N×6 numbers.
+py::array read_rays_of(const std::string& file) {
+  const std::vector<Ray> rays = run([&](const auto&) { return app::read_rays(file); });
+  Samples<double> numbers(6 * rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    std::ranges::copy(rays[i].origin, numbers.begin() + 6 * i);
+    std::ranges::copy(rays[i].direction, numbers.begin() + 6 * i + 3);
+  }
+  return array_of(std::move(numbers), {static_cast<py::ssize_t>(rays.size()), 6});
+}
+
 }  // namespace
 
 void bind_rays(Module& core) {
@@ -212,6 +222,7 @@ void bind_rays(Module& core) {
   core.def("origins_of", &origins_of);
   core.def("sees", &sees_points);
   core.def("seen_by", &seen_by_cameras);
+  core.def("read_rays", &read_rays_of);
 }
 
 }  // namespace fathom::python
