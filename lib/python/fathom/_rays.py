@@ -37,6 +37,16 @@ class Asked(NamedTuple):
 def asked(
     origins: npt.ArrayLike, directions: npt.ArrayLike | None, tmin: float, tmax: float, open: bool, cull: Cull, threads: int
 ) -> Asked:
+    o, d = origins_and_directions(origins, directions)
+    first, last = as_number("tmin", tmin), as_number("tmax", tmax)
+    if not first <= last:
+        raise ValueError(f"tmin: expected a number that is at most tmax, found {first} and {last}")
+    options = (first, last, bool(open), one_of("cull", cull, culls), as_threads(threads))
+    return Asked(_flat(o), _flat(d), o.shape[:-1], options)
+
+
+def origins_and_directions(origins: npt.ArrayLike, directions: npt.ArrayLike | None) -> tuple[Numbers, Numbers]:
+    """Arrays of the same shape, which ends in 3. Without directions, `origins` has six numbers for each ray."""
     if directions is None:
         rays = _rows_of_six(origins)
         o, d = rays[..., :3], rays[..., 3:]
@@ -51,11 +61,7 @@ def asked(
     if is_zero.any():
         place = [int(i) for i in np.argwhere(is_zero)[0]]
         raise ValueError(f"directions: the direction at {place} is 0")
-    first, last = as_number("tmin", tmin), as_number("tmax", tmax)
-    if not first <= last:
-        raise ValueError(f"tmin: expected a number that is at most tmax, found {first} and {last}")
-    options = (first, last, bool(open), one_of("cull", cull, culls), as_threads(threads))
-    return Asked(_flat(o, shape), _flat(d, shape), shape[:-1], options)
+    return np.broadcast_to(o, shape), np.broadcast_to(d, shape)
 
 
 def rows_of_three(name: str, value: npt.ArrayLike) -> Numbers:
@@ -72,8 +78,8 @@ def _rows_of_six(value: npt.ArrayLike) -> Numbers:
     return numbers
 
 
-def _flat(numbers: Numbers, shape: tuple[int, ...]) -> Numbers:
-    return np.ascontiguousarray(np.broadcast_to(numbers, shape)).reshape(-1, 3)
+def _flat(numbers: Numbers) -> Numbers:
+    return np.ascontiguousarray(numbers).reshape(-1, 3)
 
 
 def checked_channels(channels: RayChannels) -> list[str]:
@@ -92,22 +98,37 @@ def hit_arrays(
     rays: _core.Rays, question: Asked, found: tuple[npt.NDArray[np.uint32], Numbers], channels: Sequence[str],
     kind: np.dtype[Any],
 ) -> dict[str, npt.NDArray[Any]]:
-    """The channels of hits, one for each row of the question."""
+    """The channels of hits, one for each row of the question; also "front", whether the ray meets the front."""
     triangles, t = found
     arrays: dict[str, npt.NDArray[Any]] = {"id": triangles}
-    threads = question.options[-1]
-    if kind == np.float64:
+    if not {"distance", "P", "bary", "N", "front"}.isdisjoint(channels):
+        given = (rays, question.origins, question.directions, triangles, question.options[-1])
+        values = _core.hit_values32(*given) if kind == np.float32 else _core.hit_values64(*given)
+        arrays.update(zip(("t", "distance", "P", "bary", "N", "front"), values))
+    elif kind == np.float64:
         arrays["t"] = t
-    if not {"distance", "P", "bary", "N"}.isdisjoint(channels) or ("t" in channels and kind == np.float32):
-        given = (rays, question.origins, question.directions, triangles, threads)
-        names = ("t", "distance", "P", "bary", "N")
-        if kind == np.float32:
-            arrays.update(zip(names, _core.hit_values32(*given)))
-        else:
-            arrays.update(zip(names, _core.hit_values64(*given)))
+    elif "t" in channels:
+        arrays["t"] = _t_as_float32(rays, question, triangles, t)
     if not {"object", "face"}.isdisjoint(channels):
         arrays.update(zip(("object", "face"), _core.origins_of(rays, triangles)))
     return {name: arrays[name] for name in channels}
+
+
+def _t_as_float32(rays: _core.Rays, question: Asked, triangles: npt.NDArray[np.uint32], t: Numbers) -> npt.NDArray[np.float32]:
+    """t rounded once. What binary64 rounds to a number within an interval lies in that interval, so a t that binary64 has
+    rounded is rounded once more without harm, except half-way between two float32 numbers. Those that may be half-way, and
+    all that are subnormal as float32, are computed again."""
+    with _core.standard_arithmetic(), np.errstate(over="ignore"):
+        narrow = t.astype(np.float32)
+        low_bits = t.view(np.uint64) & np.uint64(2**29 - 1)  # that float32 does not have
+        doubtful = (low_bits == 2**28) | (np.abs(t) < 2.0**-126)
+    again = np.flatnonzero(doubtful & (triangles != np.uint32(2**32 - 1)))
+    if len(again):
+        values = _core.hit_values32(rays, np.ascontiguousarray(question.origins[again]),
+                                    np.ascontiguousarray(question.directions[again]),
+                                    np.ascontiguousarray(triangles[again]), question.options[-1])
+        narrow[again] = values[0]
+    return narrow
 
 
 def hit_lists(rays: _core.Rays, question: Asked, channels: Sequence[str], kind: np.dtype[Any]) -> dict[str, npt.NDArray[Any]]:

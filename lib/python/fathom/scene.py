@@ -24,7 +24,8 @@ from ._render import background_value, render_cameras
 from ._shown import html_of, png_of
 from ._warnings import warn
 from .camera import Camera
-from .maps import Map
+from .maps import NO_SURFACE, Map
+from .rays import arrays_of_rays, camera_of, require_whole_rays
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from ._meshes import Mesh
     from ._shown import Picture
     from .names import Background, Channels, Cull, EdgeRule, Engine, Normals, RayChannels, RayMode
+    from .rays import RaysLike
 
 #: Larger scenes are shown in notebooks without a picture, and more objects are counted.
 most_triangles_to_draw = 10_000_000
@@ -226,7 +228,7 @@ class Scene:
 
     def cast(
         self,
-        origins: npt.ArrayLike,
+        origins: RaysLike,
         directions: npt.ArrayLike | None = None,
         tmin: float = 0,
         tmax: float = float("inf"),
@@ -243,7 +245,7 @@ class Scene:
 
         origins     N×3, or any shape that ends in 3; one origin fits many directions. Numbers are taken exactly
         directions  likewise; they need no length of 1: t counts their lengths. Without directions, `origins` has N×6 numbers,
-                    the origin and the direction of each ray
+                    the origin and the direction of each ray, or is a fathom.Rays
         tmin, tmax  which hits count: tmin ≤ t ≤ tmax, or tmin < t < tmax if `open`. tmin may be -inf
         cull        leaves out "back" or "front" faces. A face is a front face if its normal points against the ray
         mode        "nearest": the hit with the least t, among equals the lowest triangle number. "all": every hit, by t,
@@ -265,30 +267,42 @@ class Scene:
         >>> hits["t"].tolist(), (hits["id"] != 4294967295).tolist()
         ([4.0, inf], [True, False])
         """
-        question = _rays.asked(origins, directions, tmin, tmax, open, cull, threads)
         names, kind = _rays.checked_channels(channels), _rays.real_type(dtype)
+        is_nearest = one_of("mode", mode, _rays.ray_modes) == "nearest"
+        if camera := camera_of(origins):
+            require_whole_rays(directions, tmin, tmax, open)
+            if not is_nearest:
+                raise ValueError("mode: rays of a camera have their nearest hits only; probe() lists all hits of a pixel")
+            return self._hits_of(camera, names, cull, kind, threads)
+        question = _rays.asked(*arrays_of_rays(origins, directions), tmin, tmax, open, cull, threads)
         prepared = self._prepared_rays(threads)
-        if one_of("mode", mode, _rays.ray_modes) == "all":
+        if not is_nearest:
             return _rays.hit_lists(prepared, question, names, kind)
         found = _core.cast_rays(prepared, question.origins, question.directions, *question.options)
         arrays = _rays.hit_arrays(prepared, question, found, names, kind)
         return {name: array.reshape(question.shape + array.shape[1:]) for name, array in arrays.items()}
 
     def occluded(
-        self, origins: npt.ArrayLike, directions: npt.ArrayLike | None = None, tmin: float = 0,
+        self, origins: RaysLike, directions: npt.ArrayLike | None = None, tmin: float = 0,
         tmax: float = float("inf"), *, open: bool = False, cull: Cull = "none", threads: int = 0,
     ) -> npt.NDArray[np.bool_]:
         """Whether each ray meets a triangle. The arguments are as in cast()."""
-        question = _rays.asked(origins, directions, tmin, tmax, open, cull, threads)
+        if camera := camera_of(origins):
+            require_whole_rays(directions, tmin, tmax, open)
+            seen: npt.NDArray[np.bool_] = self._hits_of(camera, ["id"], cull, threads=threads)["id"] != NO_SURFACE
+            return seen
+        question = _rays.asked(*arrays_of_rays(origins, directions), tmin, tmax, open, cull, threads)
         found = _core.occluded(self._prepared_rays(threads), question.origins, question.directions, *question.options)
         return found.reshape(question.shape).astype(bool)
 
     def count(
-        self, origins: npt.ArrayLike, directions: npt.ArrayLike | None = None, tmin: float = 0,
+        self, origins: RaysLike, directions: npt.ArrayLike | None = None, tmin: float = 0,
         tmax: float = float("inf"), *, open: bool = False, cull: Cull = "none", threads: int = 0,
     ) -> npt.NDArray[np.uint32]:
         """How many triangles each ray meets. The arguments are as in cast()."""
-        question = _rays.asked(origins, directions, tmin, tmax, open, cull, threads)
+        if camera_of(origins):
+            raise ValueError("origins: hits of a camera's rays are not counted; probe() lists all hits of a pixel")
+        question = _rays.asked(*arrays_of_rays(origins, directions), tmin, tmax, open, cull, threads)
         found = _core.count_hits(self._prepared_rays(threads), question.origins, question.directions, *question.options)
         return found.reshape(question.shape)
 
@@ -296,10 +310,21 @@ class Scene:
         """Whether points (N×3, or any shape that ends in 3) are inside: whether the surface winds around them, seen along
         +x. For a closed surface every point is inside or outside, also on the surface; for an open surface the result
         depends on that direction."""
+        inside: npt.NDArray[np.bool_] = self._winding_numbers(points, threads) != 0
+        return inside
+
+    def _winding_numbers(self, points: npt.ArrayLike, threads: int) -> npt.NDArray[np.int64]:
         given = _rays.rows_of_three("points", points)
         numbers = _core.winding_numbers(self._prepared_rays(threads), given.reshape(-1, 3), as_threads(threads))
-        inside: npt.NDArray[np.bool_] = numbers != 0
-        return inside.reshape(given.shape[:-1])
+        return numbers.reshape(given.shape[:-1])
+
+    def _hits_of(
+        self, camera: Camera, channels: Sequence[str], cull: Cull, kind: np.dtype[Any] | None = None, threads: int = 0
+    ) -> dict[str, npt.NDArray[Any]]:
+        """The nearest hits of a camera's rays: what the camera shows."""
+        names = ["Z" if name == "t" else name for name in channels]
+        maps = self.render(camera, channels=",".join(names), cull=cull, dtype=kind or "float32", threads=threads)
+        return {name: maps[of_map] for name, of_map in zip(channels, names)}
 
     def sees(
         self, eyes: npt.ArrayLike | sight.SurfacePoints, points: npt.ArrayLike | sight.SurfacePoints, pairs: bool = True,
