@@ -48,7 +48,8 @@ nitpick_ignore_regex = [
     ("py:class", r"(np|npt|numpy|_core|os|pathlib|fractions|pytest|collections|typing)\..*"),
     ("py:class", r"((_files\.)?Path|Size|LensKeywords|Unpack|Rows|Ring|Number|Numbers|Cull|Normals|Up|Projection|Background|Mapping|"
                  r"Sequence|Iterable|Fraction|Any|Callable|Literal|optional|Union|Iterator|Answer|Arithmetic|Ties|Edges|Option|Precision|"
-                 r"RayChannels|RayMode|EdgeRule|(sight\.)?SurfacePoints|Channels?|ColorMap|ColorScale|Compression|DeepCompression|"
+                 r"RayChannels|RayMode|RaysLike|EdgeRule|(sight\.)?SurfacePoints|Channels?|ColorMap|ColorScale|Compression|"
+                 r"DeepCompression|"
                  r"Engine|Frame|Measure|Mesh|Metrics|Model|NormalAxes|Storage)"),
     ("py:class", r"fathom\._\w+(\..*)?"),
     ("c:identifier", r"u?int\d+_t|size_t"),

@@ -9,6 +9,7 @@ GROUPS = {
     "Rendering": ["render"],
     "Scenes": ["Scene", "scene.Object", "scene.Origin"],
     "Cameras": ["Camera", "Lens", "read_cameras", "write_cameras", "ViewWarning"],
+    "Rays": ["Rays", "compat.RaycastingScene", "compat.RayMeshIntersector", "compat.Hits", "compat.Tensor"],
     "Maps": ["Map", "read_map", "compare", "MapComparison", "NO_SURFACE"],
     "Questions": ["probe", "questions.CoveringTriangle", "visible", "questions.VisibleAreas", "questions.Areas",
                   "render_deep", "DeepMap", "verify", "questions.Verification", "questions.Disagreement"],
@@ -42,7 +43,7 @@ def directive(name):
 
 
 def text():
-    listed = {name for names in GROUPS.values() for name in names} | {"pipeline"}  # a module, by its functions
+    listed = {name for names in GROUPS.values() for name in names} | {"pipeline", "compat"}  # modules, by their members
     groups = {**GROUPS, "Others": [name for name in public_names() if name not in listed]}
     parts = []
     for title, names in groups.items():

@@ -7,8 +7,10 @@ import json
 import os
 import pathlib
 import re
+from types import SimpleNamespace
 
 import fathom
+import fathom.compat
 import fathom.pipeline
 import fathom.studies
 import fathom.testing
@@ -107,11 +109,29 @@ def with_mattes(given):
     return copy
 
 
+def open3d_scene(given):
+    scene = RaycastingScene()
+    scene.add_triangles(given.vertices, given.faces)
+    return scene
+
+
+def trimesh_rays(given):
+    return RayMeshIntersector(SimpleNamespace(vertices=given.vertices, faces=given.faces))
+
+
+def refused(call):
+    with pytest.raises(NotImplementedError):
+        call([(0, 0, 0)])
+
+
 def judged(given):
     return fathom.testing.assert_depth(given.map["Z"], given.scene, given.camera, model="float32-ray")
 
 
 Camera, Map, Scene = fathom.Camera, fathom.Map, fathom.Scene
+RaycastingScene, RayMeshIntersector = fathom.compat.RaycastingScene, fathom.compat.RayMeshIntersector
+rays_of_six = [(0.1, 0.2, 0, 0.01, 0, 1.1), (0.1, 0.2, 5e-324, 0, 0, 5e-324), (0.3, 0, 1, 0.3, 0, 1)]
+three_and_three = np.array(rays_of_six)[:, :3], np.array(rays_of_six)[:, 3:]
 calls = {
     "render": lambda g: fathom.render(g.vertices, g.faces, K, turned, (8, 6), pixel_centre=0.5, channels=("Z", "A", "N")),
     "render_deep": lambda g: fathom.render_deep(g.scene, g.camera),
@@ -209,18 +229,40 @@ calls = {
     "Scene.count": lambda g: g.scene.count((0.1, 0.2, 0), [(0.01, 0, 1.1), (0, 0, 5e-324)]),
     "Scene.contains": lambda g: g.scene.contains([(0.1, 0.2, 0), (5e-324, 0.3, 4.1)]),
     "Validation.report": lambda g: g.validation.report(),
+    "Rays.from_camera": lambda g: g.scene.cast(fathom.Rays.from_camera(g.camera), channels=("t", "id", "P")),
+    "Rays.read": lambda g: g.scene.cast(fathom.Rays.read(g.text("rays.csv", "x,y,z,dx,dy,dz\n0.1,5e-324,0.2,0.01,0,1.1\n"))),
+    "compat.RaycastingScene.add_triangles": lambda g: open3d_scene(g).count_intersections(rays_of_six),
+    "compat.RaycastingScene.cast_rays": lambda g: dict(open3d_scene(g).cast_rays(rays_of_six)),
+    "compat.RaycastingScene.test_occlusions": lambda g: open3d_scene(g).test_occlusions(rays_of_six, tfar=3.1),
+    "compat.RaycastingScene.count_intersections": lambda g: open3d_scene(g).count_intersections(rays_of_six),
+    "compat.RaycastingScene.list_intersections": lambda g: dict(open3d_scene(g).list_intersections(rays_of_six)),
+    "compat.RaycastingScene.compute_occupancy": lambda g: open3d_scene(g).compute_occupancy([(0.1, 0.2, 0), (5e-324, 0.3, 4.1)]),
+    "compat.RaycastingScene.compute_closest_points": lambda g: refused(open3d_scene(g).compute_closest_points),
+    "compat.RaycastingScene.compute_distance": lambda g: refused(open3d_scene(g).compute_distance),
+    "compat.RaycastingScene.compute_signed_distance": lambda g: refused(open3d_scene(g).compute_signed_distance),
+    "compat.RaycastingScene.create_rays_pinhole": lambda g: [
+        RaycastingScene.create_rays_pinhole(K, turned, 8, 6),
+        RaycastingScene.create_rays_pinhole(41.3, (0.1, 0.7, 9), (1, 0.2, 0.3), (0, 1, 0.1), 8, 6)],
+    "compat.RayMeshIntersector.intersects_id": lambda g: trimesh_rays(g).intersects_id(*three_and_three, return_locations=True),
+    "compat.RayMeshIntersector.intersects_location": lambda g: trimesh_rays(g).intersects_location(*three_and_three),
+    "compat.RayMeshIntersector.intersects_first": lambda g: trimesh_rays(g).intersects_first(*three_and_three),
+    "compat.RayMeshIntersector.intersects_any": lambda g: trimesh_rays(g).intersects_any(*three_and_three),
+    "compat.RayMeshIntersector.contains_points": lambda g: trimesh_rays(g).contains_points([(0.1, 0.2, 0), (5e-324, 0.3, 4.1)]),
+    "compat.Tensor.numpy": lambda g: open3d_scene(g).cast_rays(rays_of_six)["t_hit"].numpy(),
+    "compat.Tensor.cpu": lambda g: open3d_scene(g).cast_rays(rays_of_six)["t_hit"].cpu(),
 }
 #: An object of each class whose properties are looked at.
 of_class = {"Camera": lambda g: g.camera, "DeepMap": lambda g: g.deep, "DepthFormat": lambda g: g.format,
             "MapComparison": lambda g: fathom.compare(g.map, g.near_map, channel="Z"),
             "Map": lambda g: g.scene.render(g.camera, background=0.1), "Scene": lambda g: g.scene,
+            "Rays": lambda g: fathom.Rays(*three_and_three),
             "Validation": lambda g: g.validation, "studies.Study": lambda g: fathom.studies.run("depth-resolution", samples=20)}
 
 
 def members():
     """(name, member) of everything public that is called or looked at."""
-    modules = {"": (fathom, fathom.__all__), "pipeline.": (fathom.pipeline, None), "scanning.": (fathom.scanning, None),
-               "studies.": (fathom.studies, None), "testing.": (fathom.testing, None)}
+    modules = {"": (fathom, fathom.__all__), "compat.": (fathom.compat, None), "pipeline.": (fathom.pipeline, None),
+               "scanning.": (fathom.scanning, None), "studies.": (fathom.studies, None), "testing.": (fathom.testing, None)}
     for prefix, (module, names) in modules.items():
         own = [name for name, value in vars(module).items() if not name.startswith("_") and (
             getattr(value, "__module__", None) == module.__name__)]

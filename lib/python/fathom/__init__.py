@@ -8,7 +8,7 @@
 ((480, 640), 'float32', 18000)
 """
 
-from . import pipeline
+from . import compat, pipeline
 from ._core import Error, InputError, OutputError, UsageError
 from ._core import version as __version__
 from ._warnings import ViewWarning
@@ -21,6 +21,7 @@ from .evaluation import evaluate
 from .lens import Lens
 from .maps import NO_SEGMENT, NO_SURFACE, Map, read_map
 from .questions import probe, verify, visible
+from .rays import Rays
 from .rendering import render
 from .scanning import scan
 from .scene import Scene
@@ -39,6 +40,7 @@ __all__ = [
     "Map",
     "MapComparison",
     "OutputError",
+    "Rays",
     "Scene",
     "SurfacePoints",
     "UsageError",
@@ -47,6 +49,7 @@ __all__ = [
     "__version__",
     "clip",
     "compare",
+    "compat",
     "evaluate",
     "pipeline",
     "probe",
