@@ -63,7 +63,8 @@ def test_hard_scenes(name):
         assert_equal(scene, each)
 
 
-@pytest.mark.parametrize("model, numbers", [("OPENCV", [-0.25, 0.06, 0.001, -0.0005]), ("FISHEYE_STEREOGRAPHIC", []), ("SIMPLE_RADIAL", [-0.1]),
+@pytest.mark.parametrize("model, numbers", [("OPENCV", [-0.25, 0.06, 0.001, -0.0005]), ("FISHEYE_STEREOGRAPHIC", []),
+                                            ("SIMPLE_RADIAL", [-0.1]),
                                             ("FULL_OPENCV", [0.1, -0.06, 0.004, 0.003, 0.02, 0.3, -0.05, 0.01])])
 def test_lenses(model, numbers):
     scene = fathom.Scene.read(source / "data/meshes/spot.obj")
@@ -80,6 +81,25 @@ def test_rays_of_pixels_that_see_nothing_have_the_values_of_rays_that_meet_nothi
     nothing, missed = scene.cast(fathom.Rays.from_camera(away), channels=channels), scene.cast((0, 0, 0), (0, 0, -1), channels=channels)
     for name in channels:
         assert np.array_equal(nothing[name], np.broadcast_to(missed[name], nothing[name].shape), equal_nan=name in ("P", "bary")), name
+
+
+@pytest.mark.parametrize("projection", ["perspective", "orthographic"])
+def test_all_hits_are_those_of_probe(projection):
+    scene = fathom.Scene.read(source / "data/scenes/pair.json")
+    framed = fathom.Camera.frame(scene, size=(24, 18), projection=projection)
+    for camera, cull in ((framed, "none"), (mirrored(framed), "back"), (framed, "front")):
+        rays = fathom.Rays.from_camera(camera)
+        hits = scene.cast(rays, mode="all", cull=cull, channels="t,id,object,face")
+        counts, nearest = scene.count(rays, cull=cull), scene.cast(rays, cull=cull)
+        for pixel, (row, column) in enumerate(np.ndindex(*rays.shape)):
+            expected = [each for each in fathom.probe(scene, camera, column, row, cull=cull) if each.counts]
+            rows = slice(hits["splits"][pixel], hits["splits"][pixel + 1])
+            assert counts[row, column] == len(expected) and (hits["ray"][rows] == pixel).all()
+            assert [tuple(hits[name][rows][i] for name in ("id", "object", "face", "t")) for i in range(len(expected))] == [
+                (each.id, each.object, each.face, float(each.depth)) for each in expected]
+            assert (nearest["t"][row, column], nearest["id"][row, column]) == (
+                (hits["t"][rows][0], hits["id"][rows][0]) if expected else (np.inf, fathom.NO_SURFACE))
+        assert counts.max() > 1
 
 
 def test_a_pixel_centre_on_an_edge_meets_one_of_two_triangles():
@@ -140,6 +160,7 @@ def test_faulty_files_are_refused(tmp_path, text, message):
 
 
 camera_rays = fathom.Rays.from_camera(fathom.Camera(4, 2, 4, 4, 2, 1, pixel_centre=0.5))
+bent_rays = fathom.Rays.from_camera(fathom.Camera(4, 2, 4, 4, 2, 1, pixel_centre=0.5, model="SIMPLE_RADIAL", distortion=[0.1]))
 
 
 @pytest.mark.parametrize("call, kind, message", [
@@ -148,8 +169,10 @@ camera_rays = fathom.Rays.from_camera(fathom.Camera(4, 2, 4, 4, 2, 1, pixel_cent
     (lambda scene: scene.cast(camera_rays, tmax=3), ValueError, "tmin, tmax and open: not for rays of a camera: set near and far"),
     (lambda scene: scene.cast(camera_rays, open=True), ValueError, "tmin, tmax and open: not for rays of a camera"),
     (lambda scene: scene.occluded(camera_rays, tmin=1), ValueError, "tmin, tmax and open: not for rays of a camera"),
-    (lambda scene: scene.cast(camera_rays, mode="all"), ValueError, "mode: rays of a camera have their nearest hits only; probe"),
-    (lambda scene: scene.count(camera_rays), ValueError, "origins: hits of a camera's rays are not counted; probe"),
+    (lambda scene: scene.cast(camera_rays, mode="all", channels="P"), ValueError, "channels: expected 't', 'id', 'object', 'face'"),
+    (lambda scene: scene.cast(camera_rays, mode="all", dtype="float32"), TypeError, "all hits of a camera's rays have t in float64"),
+    (lambda scene: scene.count(camera_rays, tmax=1), ValueError, "tmin, tmax and open: not for rays of a camera"),
+    (lambda scene: scene.count(bent_rays), fathom.UsageError, "the lens SIMPLE_RADIAL"),
     (lambda scene: fathom.Rays.from_camera("camera"), TypeError, "camera: expected a Camera"),
     (lambda scene: fathom.Rays((0, 0, 0), (0, 0, 0)), ValueError, r"directions: the direction at \[\] is 0"),
     (lambda scene: fathom.Rays(np.zeros((2, 5))), ValueError, "origins: expected shape N×6 without directions, found 2×5"),

@@ -74,6 +74,7 @@ def test_cast_rays():
     types = {name: array.dtype.name for name, array in hits.items()}
     assert types == {"t_hit": "float32", "geometry_ids": "uint32", "primitive_ids": "uint32", "primitive_uvs": "float32",
                      "primitive_normals": "float32"}
+    assert hits["t_hit"][0].cpu().numpy() == 1 and hits["t_hit"][1].item() == np.inf
     assert "t_hit" in hits and "points" not in hits and hits.get("points") is None
 
 

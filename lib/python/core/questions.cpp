@@ -1,9 +1,11 @@
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "bindings.h"
 #include "fathom/area/visible_areas.h"
+#include "fathom/reference/pixel_hits.h"
 #include "fathom/reference/probe.h"
 #include "fathom/reference/verify.h"
 #include "fathom/render.h"
@@ -36,6 +38,21 @@ py::list probe_pixel(const SharedScene& shared, const Camera& camera, std::uint3
                                       each.edge_decided_by(1), each.edge_decided_by(2))));
   }
   return list;
+}
+
+/// Of a whole image: where the hits of each pixel begin, triangles and depths.
+py::tuple hits_of_image(const SharedScene& shared, const Camera& camera, const std::string& cull,
+                        int threads) {
+  const std::shared_ptr<const Scene> scene = shared.scene;
+  PixelHits found = run([&](const auto& progress) {
+    return hits_of_pixels(*scene, camera, named_value("cull", all_culls, cull), threads, progress);
+  });
+  std::vector<std::uint32_t> triangles(found.hits.size());
+  std::ranges::transform(found.hits, triangles.begin(), &PixelHit::triangle);
+  std::vector<double> depths(found.hits.size());
+  std::ranges::transform(found.hits, depths.begin(), &PixelHit::depth);
+  return py::make_tuple(array_of(std::move(found.splits)), array_of(std::move(triangles)),
+                        array_of(std::move(depths)));
 }
 
 py::tuple columns(const std::vector<VisibleArea>& areas) {
@@ -78,6 +95,7 @@ py::tuple verify_map(const SharedMap& map, const SharedScene& shared, const Came
 
 void bind_questions(Module& core) {
   core.def("probe", &probe_pixel);
+  core.def("hits_of_pixels", &hits_of_image);
   core.def("visible", &visible);
   core.def("verify", &verify_map);
 }

@@ -133,9 +133,23 @@ def _t_as_float32(rays: _core.Rays, question: Asked, triangles: npt.NDArray[np.u
 
 def hit_lists(rays: _core.Rays, question: Asked, channels: Sequence[str], kind: np.dtype[Any]) -> dict[str, npt.NDArray[Any]]:
     """The channels of all hits, with "splits" and "ray"."""
-    splits, triangles, t = _core.all_hits(rays, question.origins, question.directions, *question.options)
-    bounds = splits.astype(np.int64)
-    ray = np.repeat(np.arange(len(bounds) - 1), np.diff(bounds))
+    of_hits, splits, ray, found = all_hits(rays, question)
+    return {"splits": splits, "ray": ray, **hit_arrays(rays, of_hits, found, channels, kind)}
+
+
+def all_hits(
+    rays: _core.Rays, question: Asked
+) -> tuple[Asked, npt.NDArray[np.int64], npt.NDArray[np.int64], tuple[npt.NDArray[np.uint32], Numbers]]:
+    """All hits of rays: a question with a ray for each hit, where the hits of each ray begin, the numbers of the rays, and
+    triangles and t."""
+    given, triangles, t = _core.all_hits(rays, question.origins, question.directions, *question.options)
+    splits, ray = splits_and_rays(given)
     of_hits = question._replace(origins=np.ascontiguousarray(question.origins[ray]),
                                 directions=np.ascontiguousarray(question.directions[ray]))
-    return {"splits": bounds, "ray": ray, **hit_arrays(rays, of_hits, (triangles, t), channels, kind)}
+    return of_hits, splits, ray, (triangles, t)
+
+
+def splits_and_rays(given: npt.NDArray[np.uint64]) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """Where the hits of each ray begin, and the ray of each hit."""
+    splits = given.astype(np.int64)
+    return splits, np.repeat(np.arange(len(splits) - 1), np.diff(splits))

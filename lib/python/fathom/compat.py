@@ -34,6 +34,9 @@ class Tensor(np.ndarray):  # type: ignore[type-arg]
         """Itself."""
         return self
 
+    def __getitem__(self, place: Any) -> Tensor:
+        return np.asarray(super().__getitem__(place)).view(Tensor)  # numbers, too
+
 
 class Hits(Mapping[str, Tensor]):
     """Arrays by name, as Open3D's dictionaries. primitive_uvs and primitive_normals take longer than the rest: they are
@@ -122,13 +125,10 @@ class RaycastingScene:
         ray_splits (uint32): the hits of ray i are those from ray_splits[i] to ray_splits[i + 1]."""
         question = self._asked(rays, nthreads=nthreads)
         prepared = self._prepared()
-        splits, triangles, t = _core.all_hits(prepared, question.origins, question.directions, *question.options)
-        if len(t) > self.INVALID_ID:
+        of_hits, splits, ray, found = _rays.all_hits(prepared, question)
+        if len(ray) > self.INVALID_ID:
             raise ValueError("rays: they have more than 2^32 - 1 hits: list those of fewer rays")
-        ray = np.repeat(np.arange(len(splits) - 1), np.diff(splits.astype(np.int64)))
-        of_hits = question._replace(origins=np.ascontiguousarray(question.origins[ray]),
-                                    directions=np.ascontiguousarray(question.directions[ray]))
-        hits = _hits(prepared, of_hits, (triangles, t), t.shape)
+        hits = _hits(prepared, of_hits, found, ray.shape)
         hits._later.pop("primitive_normals")
         hits._known |= {"ray_splits": _tensor(splits.astype(np.uint32)), "ray_ids": _tensor(ray.astype(np.uint32))}
         return hits

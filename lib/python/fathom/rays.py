@@ -48,7 +48,8 @@ class Rays:
         - hits are within the camera's near and far. tmin, tmax and open are not for these rays;
         - a pixel of a lens that has no ray meets nothing.
 
-        Works for cameras with lenses and tables, too. Scene.cast() takes mode "nearest".
+        Works for cameras with lenses and tables, too. Mode "all" and Scene.count() need a camera without a lens, take longer
+        (a pixel of every triangle is decided one by one), and have the channels t, id, object and face in float64.
 
         >>> import fathom
         >>> scene = fathom.Scene()

@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from . import _core, _rays, sight
 from ._arguments import (
     as_count,
     as_text,
     as_threads,
+    camera_handle,
     check_elements,
+    culls,
     faces_of,
     labels_of,
     names_of,
@@ -30,7 +34,6 @@ from .rays import arrays_of_rays, camera_of, require_whole_rays
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    import numpy as np
     import numpy.typing as npt
 
     from ._meshes import Mesh
@@ -271,9 +274,9 @@ class Scene:
         is_nearest = one_of("mode", mode, _rays.ray_modes) == "nearest"
         if camera := camera_of(origins):
             require_whole_rays(directions, tmin, tmax, open)
-            if not is_nearest:
-                raise ValueError("mode: rays of a camera have their nearest hits only; probe() lists all hits of a pixel")
-            return self._hits_of(camera, names, cull, kind, threads)
+            if is_nearest:
+                return self._hits_of(camera, names, cull, kind, threads)
+            return self._all_hits_of(camera, names, cull, kind, threads)
         question = _rays.asked(*arrays_of_rays(origins, directions), tmin, tmax, open, cull, threads)
         prepared = self._prepared_rays(threads)
         if not is_nearest:
@@ -300,8 +303,11 @@ class Scene:
         tmax: float = float("inf"), *, open: bool = False, cull: Cull = "none", threads: int = 0,
     ) -> npt.NDArray[np.uint32]:
         """How many triangles each ray meets. The arguments are as in cast()."""
-        if camera_of(origins):
-            raise ValueError("origins: hits of a camera's rays are not counted; probe() lists all hits of a pixel")
+        if camera := camera_of(origins):
+            require_whole_rays(directions, tmin, tmax, open)
+            splits, _, _ = self._hits_of_pixels(camera, cull, threads)
+            counts: npt.NDArray[np.uint32] = np.diff(splits).astype(np.uint32)
+            return counts.reshape(camera.height, camera.width)
         question = _rays.asked(*arrays_of_rays(origins, directions), tmin, tmax, open, cull, threads)
         found = _core.count_hits(self._prepared_rays(threads), question.origins, question.directions, *question.options)
         return found.reshape(question.shape)
@@ -364,6 +370,30 @@ class Scene:
         cull     leaves out "back" or "front" faces
         """
         return sight.seen_by(self._prepared_rays(threads), points, cameras, cull, threads)
+
+    def _all_hits_of(
+        self, camera: Camera, channels: Sequence[str], cull: Cull, kind: np.dtype[Any], threads: int
+    ) -> dict[str, npt.NDArray[Any]]:
+        """All hits of a camera's rays, pixel by pixel."""
+        for name in channels:
+            one_of("channels", name, ("t", "id", "object", "face"))
+        if kind != "float64":
+            raise TypeError(f"dtype: all hits of a camera's rays have t in float64, found {kind}")
+        given, triangles, t = self._hits_of_pixels(camera, cull, threads)
+        splits, ray = _rays.splits_and_rays(given)
+        arrays: dict[str, npt.NDArray[Any]] = {"splits": splits, "ray": ray, "t": t, "id": triangles}
+        if not {"object", "face"}.isdisjoint(channels):
+            arrays["object"], arrays["face"] = _core.origins_of(self._prepared_rays(threads), triangles)
+        return {name: arrays[name] for name in ("splits", "ray", *channels)}
+
+    def _hits_of_pixels(
+        self, camera: Camera, cull: Cull, threads: int
+    ) -> tuple[npt.NDArray[np.uint64], npt.NDArray[np.uint32], npt.NDArray[np.float64]]:
+        try:
+            return _core.hits_of_pixels(self._handle, camera_handle(camera), one_of("cull", cull, culls), as_threads(threads))
+        except _core.InputError:
+            self._check()
+            raise
 
     def _prepared_rays(self, threads: int) -> _core.Rays:
         objects = self._handle.object_count
