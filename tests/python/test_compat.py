@@ -174,9 +174,11 @@ def test_many_rays():
 def test_t_is_rounded_once():
     """t = 1 + 2^-24 + 2^-60: as float64 it is half-way between two float32 numbers, and then would be 1."""
     scene = scene_of([(-8, -8, 1), (8, -8, 1), (0, 8, 1)], [(0, 1, 2)])
-    rays = np.array([[0, 0, -(2.0**-24 + 2.0**-60), 0, 0, 1], [0, 0, -(2.0**-24), 0, 0, 1], [0, 0, 1 - 1e-42, 0, 0, 1]])
-    expected = [np.float32(1 + 2.0**-23), 1, np.float32(2.0**-140 if 1 - 1e-42 != 1 else 0)]
-    assert scene.cast_rays(rays)["t_hit"].tolist() == expected
+    rays = np.array([[0, 0, -(2.0**-24 + 2.0**-60), 0, 0, 1], [0, 0, -(2.0**-24), 0, 0, 1], [0, 0, 1, 0, 0, 1], [0, 0, 2, 0, 0, 1]])
+    assert scene.cast_rays(rays)["t_hit"].tolist() == [1 + 2.0**-23, 1, 0, np.inf]
+    near = scene_of([(-8, -8, 2.0**-150), (8, -8, 2.0**-150), (0, 8, 2.0**-150)], [(0, 1, 2)])
+    subnormal = np.array([[0, 0, -(2.0**-210), 0, 0, 1], [0, 0, 0, 0, 0, 1]])
+    assert near.cast_rays(subnormal)["t_hit"].tolist() == [2.0**-149, 0]
 
 
 def test_pinholes_by_matrices():
