@@ -79,6 +79,25 @@ TEST(HitValues, AreThoseOnPaper) {
   EXPECT_EQ(values.position, (std::array<double, 3>{1, 2, 4}));
   EXPECT_EQ(values.barycentric, (std::array<double, 2>{0.25, 0.5}));
   EXPECT_EQ(values.normal, (std::array<double, 3>{0, 0, -1}));
+  EXPECT_FALSE(values.front_facing);
+  EXPECT_TRUE(hit_values<double>(scene, {{1, 2, 9}, {0, 0, -2}}, 0).front_facing);
+}
+
+TEST(HitValues, OfManyHitsAreThoseOfEach) {
+  const Scene scene = testing::scene_of({{0, 0, 4}, {4, 0, 4}, {0, 4, 4}}, {{0, 1, 2}});
+  const std::vector<Ray> rays{
+      {{1, 2, 0}, {0, 0, 2}}, {{9, 9, 0}, {0, 0, 1}}, {{1, 1, 9}, {0, 0, -1}}};
+  const std::vector<std::uint32_t> met{0, no_triangle, 0};
+  for (const int threads : {0, 1}) {
+    const auto values = hit_values<float>(scene, rays, met, threads);
+    ASSERT_EQ(values.size(), 3U);
+    EXPECT_EQ(values[0].position, (std::array<float, 3>{1, 2, 4}));
+    EXPECT_EQ(values[1].t, std::numeric_limits<float>::infinity());
+    EXPECT_EQ(values[2].t, 5);
+    EXPECT_TRUE(values[2].front_facing && !values[1].front_facing);
+  }
+  const std::vector<std::uint32_t> not_met{0, 0, 0};
+  EXPECT_THROW(hit_values<float>(scene, rays, not_met), UsageError);
 }
 
 TEST(HitValues, RefuseATriangleThatIsNotMet) {
