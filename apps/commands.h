@@ -21,6 +21,9 @@ void add_visible(Command& program);
 void add_areas(Command& program);
 void add_coplanar(Command& program);
 
+/// `fathom sun`: directions towards the sun, for `areas`.
+void add_sun(Command& program);
+
 /// `fathom cast`: which triangles rays meet.
 void add_cast(Command& program);
 

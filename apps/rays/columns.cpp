@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "fathom/files/byte_order.h"
+#include "fathom/image/files/npy_array.h"
 #include "fathom/image/files/zip_archive.h"
 #include "fathom/text/decimal.h"
 
@@ -23,22 +24,11 @@ constexpr const char* type_of = std::is_same_v<Number, double>          ? "<f8"
                                 : std::is_same_v<Number, std::uint32_t> ? "<u4"
                                                                         : "<u8";
 
-/// NPY, version 1.0: the header ends with a line feed, at a multiple of 64 bytes.
 template <class Number>
 files::Bytes npy_of(const Column& column, const std::vector<Number>& values) {
   std::string shape = std::to_string(column.rows()) + ",";
   if (!column.parts.empty()) shape += " " + std::to_string(column.width());
-  std::string header = std::string("{'descr': '") + type_of<Number> +
-                       "', 'fortran_order': False, 'shape': (" + shape + "), }";
-  constexpr std::size_t preamble = 10, alignment = 64;
-  header.append(alignment - 1 - (preamble + header.size()) % alignment, ' ');
-  header += '\n';
-  files::Bytes bytes;
-  files::append(bytes, std::string("\x93NUMPY\x01\x00", 8));
-  const auto text_size = static_cast<std::uint16_t>(header.size());
-  bytes.resize(preamble);
-  store(&bytes[8], text_size, std::endian::little);
-  files::append(bytes, header);
+  files::Bytes bytes = image::npy_header(type_of<Number>, shape);
   const std::size_t first = bytes.size();
   bytes.resize(first + values.size() * sizeof(Number));
   for (std::size_t i = 0; i < values.size(); ++i)

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/surfaces/csv_field.h"
+#include "apps/surfaces/light_columns.h"
 #include "fathom/failures/errors.h"
 #include "fathom/text/printable.h"
 #include "fathom/text/small_letters.h"
@@ -18,9 +19,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array own_columns{"direction", "name", "kind",      "number",  "object",
-                                 "face",      "side", "projected", "visible", "fraction",
-                                 "lit",       "x",    "y",         "z"};
+const std::vector<std::string>& own_columns() {
+  static const std::vector<std::string> columns{
+      "direction", "name",    "kind",     "number", "object", "face", "side",
+      "projected", "visible", "fraction", "lit",    "x",      "y",    "z"};
+  return columns;
+}
 
 const char* name_of(LitSide side) {
   switch (side) {
@@ -51,44 +55,30 @@ Json json_of(const std::optional<Number>& number) {
   return number ? json_of(*number) : Json(nullptr);
 }
 
-/// Headings that no column of the table has already: those that one has begin with "light_".
-std::vector<std::string> free_names(const std::vector<std::string>& headings) {
-  std::vector<std::string> names;
-  for (const std::string& heading : headings) names.push_back(text::printable(heading));
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const auto is_taken = [&](const std::string& name) {
-      return std::ranges::find(own_columns, name) != own_columns.end() ||
-             std::ranges::count(names, name) > (name == names[k] ? 1 : 0);
-    };
-    std::string name = names[k];
-    while (is_taken(name)) name = "light_" + name;
-    names[k] = name;
-  }
-  return names;
-}
-
 }  // namespace
 
 TableFormat table_format_of(const std::string& file, bool wants_json) {
   const std::string suffix =
       text::in_small_letters(std::filesystem::path(file).extension().string());
   if (suffix == ".json") return TableFormat::json;
-  if (suffix != ".csv" && !suffix.empty()) {
-    throw UsageError("'" + file + "' does not end in .csv or .json");
+  if (suffix != ".csv" && suffix != ".npz" && !suffix.empty()) {
+    throw UsageError("'" + file + "' does not end in .csv, .npz or .json");
   }
-  if (suffix == ".csv" && wants_json) {
-    throw UsageError("'" + file + "' is a name of CSV, and --json asks for JSON");
+  if (!suffix.empty() && wants_json) {
+    throw UsageError("'" + file + "' is a name of " + (suffix == ".csv" ? "CSV" : "NPZ") +
+                     ", and --json asks for JSON");
   }
+  if (suffix == ".npz") return TableFormat::npz;
   return wants_json ? TableFormat::json : TableFormat::csv;
 }
 
 AreaTable::AreaTable(const Form& form, const AreaItems& items, const LightList& list)
-    : form_(form), items_(items), list_(list), columns_(free_names(list.headings)) {}
+    : form_(form), items_(items), list_(list), columns_(free_names(list.headings, own_columns())) {}
 
 std::string AreaTable::beginning() const {
   if (form_.format == TableFormat::json) return "[";
   std::string line;
-  for (const char* key : own_columns) line += std::string(line.empty() ? "" : ",") + key;
+  for (const std::string& key : own_columns()) line += (line.empty() ? "" : ",") + key;
   for (const std::string& column : columns_) line += "," + quoted(column);
   return line + "\n";
 }

@@ -5,17 +5,17 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/surfaces/area_items.h"
 #include "apps/surfaces/light_list.h"
+#include "fathom/area/area_items.h"
 #include "fathom/area/areas.h"
 
 namespace fathom::app {
 
-enum class TableFormat { csv, json };
+enum class TableFormat { csv, json, npz };
 
-/// The format of a table by the suffix of its file: .csv and .json. Other names are names of CSV,
+/// The format of a table by the suffix of its file: .csv, .npz and .json. Other names are names of CSV,
 /// or of JSON if that is asked for.
-/// Fails    UsageError: another suffix, or .csv where JSON is asked for.
+/// Fails    UsageError: another suffix, or .csv or .npz where JSON is asked for.
 TableFormat table_format_of(const std::string& file, bool wants_json);
 
 /// A table of areas as text: a row for each light and each item. The rows of the lights follow one

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 
 #include "apps/commands.h"
 #include "apps/options/camera_options.h"
@@ -19,9 +19,10 @@
 #include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
-#include "apps/surfaces/area_items.h"
+#include "apps/surfaces/area_arrays.h"
 #include "apps/surfaces/area_table.h"
 #include "apps/surfaces/light_list.h"
+#include "fathom/area/area_items.h"
 #include "fathom/area/areas.h"
 #include "fathom/failures/errors.h"
 #include "fathom/files/descriptor.h"
@@ -37,7 +38,7 @@ struct AreasArguments {
   AreaItemKind by = AreaItemKind::object;
   std::optional<AreaCentroid> centroid;
   Cull cull = Cull::none;
-  bool nonzero = false, json = false, stream = false;
+  bool alone = false, nonzero = false, json = false, stream = false;
   std::string output = "-";
 };
 
@@ -68,7 +69,7 @@ bool has_light_file(const AreasArguments& a) {
   return !a.directions.empty() || !a.points.empty();
 }
 
-void expect_consistent(const AreasArguments& a) {
+void expect_consistent(const AreasArguments& a, TableFormat format) {
   if (a.stream) {
     throw UsageError(
         "--stream: areas need the whole scene in memory, because any triangle may "
@@ -82,6 +83,16 @@ void expect_consistent(const AreasArguments& a) {
     throw UsageError(
         "--centroid across is for --directions; from a lamp or a camera, areas on the "
         "surface weigh the centroids");
+  }
+  if (a.alone && !a.points.empty()) {
+    throw UsageError("--alone is for --directions and cameras; a lamp has no projected areas");
+  }
+  if (a.alone && a.by == AreaItemKind::triangle) {
+    throw UsageError(
+        "--alone is for groups of triangles; --by triangle has projected areas always");
+  }
+  if (a.nonzero && format == TableFormat::npz) {
+    throw UsageError("--nonzero is for CSV and JSON; NPZ has every item in its arrays");
   }
 }
 
@@ -97,66 +108,105 @@ Lights lights_of(const AreasArguments& a, const Scene& scene, const Console& con
   return lights;
 }
 
-/// Takes the parts of a text, one after the other.
-using TakePart = std::function<void(std::string_view)>;
-
-/// Measures several lights at the same time, each by one thread, and passes on their rows in the
-/// order of the lights. So many lights have rows in memory:
-constexpr std::size_t lights_at_once = 64;
-void measure(const Scene& scene, const Lights& lights, const AreasArguments& a,
-             const AreaItems& items, const AreaTable& table, const Console& console,
-             const TakePart& take) {
-  AreaOptions options;
+AreaOptions options_of(const AreasArguments& a, const AreaItems& items, std::size_t lights) {
+  AreaOptions options = fathom::options_of(items);
   options.cull = a.cull;
   options.centroid = a.centroid.value_or(AreaCentroid::across);
-  options.threads = lights.size() > 1 ? 1 : a.scene.threads;
-  options.groups = items.of_triangle;
-  options.group_count = static_cast<std::uint32_t>(items.items.size());
+  options.alone = a.alone;
+  options.threads = lights > 1 ? 1 : a.scene.threads;
+  return options;
+}
+
+/// Measures several lights at the same time, each by one thread, makes their rows by
+/// make(light, areas), and passes these on in the order of the lights. So many lights have rows in
+/// memory:
+constexpr std::size_t lights_at_once = 64;
+template <class Make, class Take>
+void measure(const Scene& scene, const Lights& lights, const AreasArguments& a,
+             const AreaItems& items, const Console& console, const Make& make, const Take& take) {
+  const AreaOptions options = options_of(a, items, lights.size());
   const TriangleSource triangles(scene);
   app::Progress shown(console, "measuring");
   const auto report = shown.reporter();
   fathom::Progress progress(report, lights.size());
-  bool is_first = true;
-  take(table.beginning());
   for (std::size_t first = 0; first < lights.size(); first += lights_at_once) {
-    std::vector<std::string> rows(std::min(lights_at_once, lights.size() - first));
+    std::vector<std::invoke_result_t<Make, std::size_t, std::vector<LitArea>>> rows(
+        std::min(lights_at_once, lights.size() - first));
     with_threads(a.scene.threads, [&] {
       in_parallel(rows.size(), [&](std::size_t k) {
-        rows[k] = table.rows(first + k, lights.areas(triangles, first + k, options));
+        rows[k] = make(first + k, lights.areas(triangles, first + k, options));
         progress.part_done();
       });
     });
-    for (const std::string& some : rows) {
-      take(table.after(some, is_first));
-      is_first = is_first && some.empty();
-    }
+    for (const auto& some : rows) take(some);
   }
+}
+
+/// A command's scene and lights, and the items that it measures.
+struct Question {
+  const AreasArguments& arguments;
+  const Console& console;
+  const Scene& scene;
+  const Lights& lights;
+  const AreaItems& items;
+
+  template <class Make, class Take>
+  void answer(const Make& make, const Take& take) const {
+    measure(scene, lights, arguments, items, console, make, take);
+  }
+};
+
+/// Calls take(text) for the parts of the table.
+template <class Take>
+void write_text(const Question& q, TableFormat format, const Take& take) {
+  const AreaTable table({format, q.arguments.by, q.arguments.nonzero}, q.items, q.lights.list);
+  bool is_first = true;
+  take(table.beginning());
+  q.answer([&](std::size_t light, const auto& areas) { return table.rows(light, areas); },
+           [&](const std::string& some) {
+             take(table.after(some, is_first));
+             is_first = is_first && some.empty();
+           });
   take(table.end());
 }
 
+void write_arrays(const Question& q, int descriptor) {
+  const AreaArrays arrays(q.arguments.by, q.items, q.lights.list, q.lights.size());
+  NpzRows file(descriptor, q.arguments.output, arrays.arrays());
+  arrays.append_others(file);
+  q.answer([&](std::size_t, const auto& areas) { return arrays.rows(areas); },
+           [&](const std::vector<files::Bytes>& rows) {
+             for (std::size_t k = 0; k < rows.size(); ++k) file.append(k, rows[k]);
+           });
+  file.finish();
+}
+
+void write_file(const Question& q, TableFormat format, OutputFile& file) {
+  file.write([&](const std::filesystem::path& staged) {
+    const files::Descriptor open(::open(staged.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC));
+    if (!open.is_open()) fail_with_errno(q.arguments.output, errno);
+    if (format == TableFormat::npz) return write_arrays(q, open.get());
+    write_text(q, format, [&](std::string_view text) {
+      write_all(open.get(), text.data(), text.size(), q.arguments.output);
+    });
+  });
+  file.commit();
+}
+
 int run_areas(const AreasArguments& a, const Console& console) {
-  expect_consistent(a);
   const TableFormat format =
       about_option("--output", [&] { return table_format_of(a.output, a.json); });
-  const bool has_segments = a.by == AreaItemKind::material || a.by == AreaItemKind::group ||
-                            a.by == AreaItemKind::part || a.by == AreaItemKind::label;
-  const Scene scene = a.scene.read(console, {.segments = has_segments});
+  expect_consistent(a, format);
+  const Scene scene = a.scene.read(console, {.segments = are_segments(a.by)});
   const Lights lights = lights_of(a, scene, console);
   TextOutput output(a.output);
   const AreaItems items = area_items(scene, a.by);
-  const AreaTable table({format, a.by, a.nonzero}, items, lights.list);
+  const Question question{a, console, scene, lights, items};
   if (OutputFile* const file = output.file()) {
-    file->write([&](const std::filesystem::path& staged) {
-      const files::Descriptor open(::open(staged.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC));
-      if (!open.is_open()) fail_with_errno(a.output, errno);
-      measure(scene, lights, a, items, table, console, [&](std::string_view text) {
-        write_all(open.get(), text.data(), text.size(), a.output);
-      });
-    });
-    file->commit();
+    write_file(question, format, *file);
   } else {
     std::string all;
-    measure(scene, lights, a, items, table, console, [&](std::string_view text) { all += text; });
+    write_text(question, format, [&](std::string_view text) { all += text; });
     output.finish(all);
   }
   return done;
@@ -169,7 +219,7 @@ void add_areas(Command& program) {
   Command& command = program.command(
       "areas", "Measure the areas that a sun, a lamp or a camera sees, exactly, without pixels",
       "  fathom areas house.obj --directions suns.csv --by face -o areas.csv\n"
-      "  fathom areas house.obj --directions suns.csv --centroid lit -o areas.json\n"
+      "  fathom areas house.obj --directions suns.csv --alone --centroid lit -o areas.npz\n"
       "  fathom areas room.json --points lamps.csv --by triangle --nonzero");
   arguments->scene.add_to(command);
   const Option directions = command.option(
@@ -181,7 +231,10 @@ void add_areas(Command& program) {
                                  "CSV file with columns x, y and z: places of lamps");
   points.excludes(directions);
   arguments->camera.add_to(command);
-  command.option("--by", "KIND", into(arguments->by, parse_area_item_kind),
+  const auto parse_kind = [](const std::string& text) {
+    return parse_enumerator(text, all_area_item_kinds);
+  };
+  command.option("--by", "KIND", into(arguments->by, parse_kind),
                  "Measure each object (default), face, triangle, material, group, part or label");
   const auto parse_centroid = [](const std::string& text) {
     return parse_word<AreaCentroid>(text,
@@ -191,12 +244,16 @@ void add_areas(Command& program) {
                  "With --directions: weigh centroids by the area across the direction (across, "
                  "default) or on the surface (lit)");
   add_cull_option(command, arguments->cull);
+  command.flag(
+      "--alone", arguments->alone,
+      "Also measure each item with everything else removed, for its projected area and its "
+      "fraction");
   command.flag("--nonzero", arguments->nonzero, "Leave out items without a visible part");
   command.flag("--json", arguments->json, "Print JSON instead of CSV");
   command.flag("--stream", arguments->stream, "").below("");  // refused
   add_output_option(command, "FILE", arguments->output,
-                    "Write the table to this file; the suffix chooses the format: .csv or .json "
-                    "(default -, standard output)");
+                    "Write the table to this file; the suffix chooses the format: .csv, "
+                    ".npz or .json (default -, standard output)");
   command.runs([arguments](const Console& console) { return run_areas(*arguments, console); });
 }
 

@@ -1,6 +1,7 @@
 #include "apps/surfaces/light_list.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string_view>
 
@@ -90,9 +91,6 @@ Columns columns_of(const Headings& headings, LightList::Kind kind, const text::T
   const std::vector<std::size_t> vector = places_of({"x", "y", "z"}, headings);
   const std::vector<std::size_t> angles =
       takes_angles ? places_of({"azimuth", "elevation"}, headings) : std::vector<std::size_t>();
-  if (!vector.empty() && !angles.empty()) {
-    cursor.fail("expected x, y and z or azimuth and elevation, found both");
-  }
   if (vector.empty() && angles.empty()) {
     cursor.fail(takes_angles
                     ? "expected a heading with the columns x, y and z, or azimuth and elevation"
@@ -108,6 +106,9 @@ Columns columns_of(const Headings& headings, LightList::Kind kind, const text::T
 
 std::array<double, 3> direction_of(double azimuth, double elevation,
                                    const text::TextCursor& cursor) {
+  if (!(std::abs(azimuth) <= 360)) {
+    cursor.fail("the azimuth must be between -360 and 360 degrees");
+  }
   try {
     return compass_direction(azimuth, elevation);
   } catch (const UsageError& error) {

@@ -87,8 +87,6 @@ TEST_F(Lights, NeedTheirColumnsOnce) {
             "line 1: expected a heading with the columns x, y and z, or azimuth and elevation");
   EXPECT_EQ(refusal("x,y,z,x\n1,2,3,4\n"), "line 1: the column 'x' is there twice");
   EXPECT_EQ(refusal("x,note,y,z,note\n1,a,2,3,b\n"), "line 1: the column 'note' is there twice");
-  EXPECT_EQ(refusal("x,y,z,azimuth,elevation\n1,2,3,4,5\n"),
-            "line 1: expected x, y and z or azimuth and elevation, found both");
   EXPECT_EQ(refusal("x,y,z\n1,2\n"), "line 2: expected 3 fields, found 2");
   EXPECT_EQ(refusal("x,y,z\n1,2,3,4\n"), "line 2: expected 3 fields, found 4");
   EXPECT_EQ(refusal(""), "is empty");
@@ -111,8 +109,16 @@ TEST_F(Lights, MayHaveAnAzimuthAndAnElevation) {
   EXPECT_EQ(list.lights[1].numbers[2], 0.5);
   EXPECT_LT(list.lights[1].numbers[1], 0);
   EXPECT_THAT(list.lights[1].fields, ElementsAre("180", "30", "2"));
+  // x, y and z are the direction if both are there, as in tables of fathom sun.
+  const LightList both = read("azimuth,elevation,x,y,z\n90,0,1,2,3\n");
+  EXPECT_EQ(both.lights[0].numbers, (Numbers{1, 2, 3}));
+  EXPECT_THAT(both.headings, ElementsAre("azimuth", "elevation"));
   EXPECT_EQ(refusal("azimuth,elevation\n0,91\n"),
             "line 2: the elevation must be between -90 and 90 degrees");
+  for (const char* azimuth : {"360.5", "-361", "1e300"}) {
+    EXPECT_EQ(refusal(std::string("azimuth,elevation\n-360,0\n") + azimuth + ",0\n"),
+              "line 3: the azimuth must be between -360 and 360 degrees");
+  }
 }
 
 TEST(AreaTableFormat, IsThatOfTheSuffix) {
@@ -123,8 +129,11 @@ TEST(AreaTableFormat, IsThatOfTheSuffix) {
   EXPECT_EQ(table_format_of("-", true), TableFormat::json);
   EXPECT_EQ(table_format_of("folder.d/areas", true), TableFormat::json);
   EXPECT_THROW(table_format_of("a.csv", true), UsageError);
-  EXPECT_EQ(message_of<UsageError>([] { table_format_of("a.npz", false); }),
-            "'a.npz' does not end in .csv or .json");
+  EXPECT_EQ(table_format_of("a.NPZ", false), TableFormat::npz);
+  EXPECT_EQ(message_of<UsageError>([] { table_format_of("a.npz", true); }),
+            "'a.npz' is a name of NPZ, and --json asks for JSON");
+  EXPECT_EQ(message_of<UsageError>([] { table_format_of("a.txt", false); }),
+            "'a.txt' does not end in .csv, .npz or .json");
 }
 
 /// Items of which one is hidden, one so small that its area is 0, and one too large.
@@ -225,8 +234,14 @@ TEST_F(AreasCommand, RefusesOptionsWithoutEffect) {
               HasSubstr("--centroid across is for --directions"));
   EXPECT_THAT(refusal({"--directions", "suns.csv", "--stream"}, 2),
               HasSubstr("areas need the whole scene in memory"));
-  EXPECT_THAT(refusal({"--directions", "suns.csv", "-o", "a.npz"}, 2),
-              HasSubstr("'a.npz' does not end in .csv or .json"));
+  EXPECT_THAT(refusal({"--directions", "suns.csv", "-o", "a.txt"}, 2),
+              HasSubstr("'a.txt' does not end in .csv, .npz or .json"));
+  EXPECT_THAT(refusal({"--directions", "suns.csv", "--nonzero", "-o", "a.npz"}, 2),
+              HasSubstr("--nonzero is for CSV and JSON"));
+  EXPECT_THAT(refusal({"--points", "suns.csv", "--alone"}, 2),
+              HasSubstr("--alone is for --directions and cameras"));
+  EXPECT_THAT(refusal({"--directions", "suns.csv", "--alone", "--by", "triangle"}, 2),
+              HasSubstr("--alone is for groups of triangles"));
   EXPECT_EQ(areas({"--points", "suns.csv", "--centroid", "lit"}).status, 0);
   EXPECT_THAT(test::run_fathom({"areas", "--help"}).out, ::testing::Not(HasSubstr("--stream")));
 }

@@ -22,6 +22,7 @@ namespace {
 
 using oracle::Q;
 using testing::Case;
+using testing::rational;
 
 double nearest(const Q& q) {
   return oracle::quotient(oracle::binary64, q.get_mpq_t());
@@ -203,6 +204,82 @@ TEST(Areas, OfAConvexBodyAreItsFrontFaces) {
   }
 }
 
+// Exact areas are those of the closed forms; the panel's own area is 200, the face's 100.
+TEST(Areas, OfASatelliteBeforeRounding) {
+  const Scene scene = satellite();
+  AreaOptions options = by_faces(scene);
+  options.alone = options.exact = true;
+  const auto areas = areas_in_direction(scene, {15, -26, 0}, options);
+  const LitArea &panel = areas[6], &face = areas[3], &hidden = areas[2];
+  EXPECT_EQ(rational(*panel.exact->visible), Q(37, 60) * 200 * 15);
+  EXPECT_EQ(rational(*panel.exact->projected), Q(200 * 15));
+  EXPECT_EQ(rational(*face.exact->visible), Q(29, 52) * 100 * 26);
+  EXPECT_EQ(panel.fraction, nearest(Q(37, 60)));
+  EXPECT_EQ(face.fraction, nearest(Q(29, 52)));
+  EXPECT_EQ(panel.projected, nearest_root(Q(200 * 15) * Q(200 * 15) / (15 * 15 + 26 * 26)));
+  EXPECT_EQ(hidden.fraction, 0);
+  EXPECT_FALSE(areas[4].fraction);  // its top is seen edge on
+  EXPECT_EQ(areas[4].projected, 0);
+  EXPECT_FALSE(areas_in_direction(scene, {15, -26, 0}, by_faces(scene))[6].projected);
+}
+
+/// A group's projected area is what is visible of it in a scene without the other triangles.
+TEST(Areas, AloneAreThoseOfASceneWithoutTheRest) {
+  std::mt19937_64 random(12);
+  testing::CaseMaker maker(31, testing::Kind::few_bits);
+  for (int i = 0; i < 40 && !HasFailure(); ++i) {
+    SCOPED_TRACE(i);
+    const Case c = maker.make();
+    const TriangleSource source(c.scene);
+    const auto count = static_cast<std::uint32_t>(source.count());
+    std::vector<MeshPoint> v;
+    std::vector<CornerIndices> t;
+    AreaOptions two, one;
+    two.group_count = 2;
+    two.alone = two.exact = true;
+    one.group_count = 1;
+    one.exact = true;
+    for (std::uint32_t number = 0; number < count; ++number) {
+      two.groups.push_back(number % 2);
+      if (number % 2 != 0) continue;
+      const auto n = static_cast<std::uint32_t>(v.size());
+      const auto corners = source.triangle(number);
+      v.insert(v.end(), corners.corners.begin(), corners.corners.end());
+      t.push_back({n, n + 1, n + 2});
+      one.groups.push_back(0);
+    }
+    if (c.scene.objects.size() != 1 || !c.scene.objects[0].placed_as_is) continue;
+    const Scene half = testing::scene_of(v, t);
+    const AreaDirection d = direction_of(random);
+    for (const Cull cull : {Cull::none, Cull::back}) {
+      two.cull = one.cull = cull;
+      const LitArea found = areas_in_direction(c.scene, d, two)[0];
+      const LitArea expected = areas_in_direction(half, d, one)[0];
+      EXPECT_EQ(found.projected, expected.visible);
+      EXPECT_EQ(*found.exact->projected, *expected.exact->visible);
+      const bool is_none = expected.exact->visible->sign() == Sign::zero;
+      ASSERT_EQ(found.fraction.has_value(), !is_none);
+      if (is_none) continue;
+      EXPECT_EQ(*found.fraction,
+                nearest(rational(*found.exact->visible) / rational(*found.exact->projected)));
+      const LitArea in_image = areas_from_camera(c.scene, c.camera, two)[0];
+      EXPECT_EQ(in_image.projected, areas_from_camera(half, c.camera, one)[0].visible);
+    }
+  }
+}
+
+TEST(Areas, FromAPointAreSharesBeforeRounding) {
+  const Scene scene = satellite();
+  const auto areas = areas_from_point(scene, {40, 0, 0}, {.exact = true});
+  EXPECT_EQ(rational(*areas[0].exact->visible), 1);
+  EXPECT_EQ(rational(*areas[0].exact->projected), 1);
+  EXPECT_EQ(rational(*areas[2].exact->visible), 0);
+  AreaOptions groups = by_faces(scene);
+  groups.alone = groups.exact = true;
+  const LitArea group = areas_from_point(scene, {40, 0, 0}, groups)[0];
+  EXPECT_FALSE(group.exact->visible || group.exact->projected || group.projected);
+}
+
 /// A ring of many triangles around the axes: all coordinates of its centre are exactly 0, and many
 /// normals have different lengths. So no enclosure decides how they round.
 TEST(Areas, OfSymmetricGroupsHaveCentresOfZero) {
@@ -275,9 +352,17 @@ TEST(Areas, FromACameraAreThoseOfPairs) {
         EXPECT_EQ(found[t].projected, expected.triangles[t].unoccluded);
         EXPECT_EQ(found[t].fraction, expected.triangles[t].ratio);
       }
+      Q background = Q(c.camera.width) * c.camera.height;
+      for (const LitArea& area : areas_from_camera(c.scene, c.camera, {.exact = true})) {
+        background -= rational(*area.exact->visible);
+      }
+      EXPECT_EQ(background_from_camera(c.scene, c.camera), nearest(background));
+      by_object.alone = true;
       const auto objects = areas_from_camera(c.scene, c.camera, by_object);
       for (std::size_t object = 0; object < objects.size(); ++object) {
         EXPECT_EQ(objects[object].visible, expected.objects[object].visible);
+        EXPECT_EQ(objects[object].projected, expected.objects[object].unoccluded);
+        EXPECT_EQ(objects[object].fraction, expected.objects[object].ratio);
       }
     });
   }
@@ -398,6 +483,13 @@ TEST(Areas, RefuseWhatIsNoLight) {
 
 TEST(Areas, OfAnEmptySceneAreNone) {
   EXPECT_TRUE(areas_in_direction(Scene(), {1, 0, 0}).empty());
+  AreaOptions of_object;
+  of_object.group_count = 1;
+  of_object.alone = true;
+  const auto areas = areas_in_direction(Scene(), {1, 0, 0}, of_object);
+  ASSERT_EQ(areas.size(), 1U);
+  EXPECT_EQ(areas[0].visible, 0);
+  EXPECT_FALSE(areas[0].fraction);
   EXPECT_TRUE(areas_from_point(Scene(), {1, 0, 0}).empty());
 }
 

@@ -1,13 +1,10 @@
 #include "fathom/area/areas.h"
 
 #include <bit>
-#include <functional>
-#include <numeric>
 #include <utility>
 
 #include "fathom/area/plane/light_cameras.h"
-#include "fathom/area/plane/plane_areas.h"
-#include "fathom/camera/pose.h"
+#include "fathom/area/seen_scene.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/ratio_sum.h"
 #include "fathom/numeric/root_sum.h"
@@ -21,35 +18,6 @@ using namespace area;
 
 namespace {
 
-ExactVector3 exact(const WorldPoint& p) {
-  return {p.x, p.y, p.z};
-}
-ExactVector3 difference(const ExactVector3& a, const ExactVector3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Ratio third(const Ratio& x) {
-  return {x.numerator, x.denominator * Dyadic(3.0)};
-}
-
-/// The part of a triangle that a light sees, exactly.
-struct SeenTriangle {
-  LitSide side = LitSide::edge;
-  /// The visible share of the triangle's area, and this share times 3β and 3γ of its centre, as in
-  /// SurfaceTerms.
-  Ratio share, beta, gamma;
-  /// From a camera, in pixels: the visible area, and the area with all other triangles removed.
-  Ratio visible, unoccluded;
-  ExactVector3 corner, to_second, to_third, normal;
-  /// |n·d| of a direction.
-  Dyadic facing;
-
-  /// The share times the centre.
-  [[nodiscard]] Ratio moment(std::size_t axis) const {
-    return Ratio(corner[axis]) * share + Ratio(to_second[axis]) * third(beta) +
-           Ratio(to_third[axis]) * third(gamma);
-  }
-};
-
 /// √(x²/(4·square)), rounded once.
 double rounded_across(const Real& x, const Dyadic& square) {
   return std::bit_cast<double>(x.rounded([&](const Ratio& value) {
@@ -58,140 +26,11 @@ double rounded_across(const Real& x, const Dyadic& square) {
   }));
 }
 
-/// Whether the image is mirrored, so that front sides look like back sides. A pose and a projection
-/// may each mirror it; both together do not.
-bool shows_mirror_image(const Camera& camera) {
-  const bool pose_mirrors =
-      determinant_of_rotation(camera.world_to_camera).sign() == Sign::negative;
-  return is_mirrored(camera.projection) != pose_mirrors;
-}
-
-enum class LightKind { direction, point, camera };
-
-/// The visible parts of all triangles, from the cameras of a light.
-class SeenScene {
- public:
-  SeenScene(const TriangleSource& triangles, LightKind kind, const std::vector<Camera>& cameras,
-            Cull cull)
-      : triangles_(triangles), kind_(kind), terms_(triangles.count()) {
-    wanted_ = {.image = kind == LightKind::camera, .share = true, .moments = true};
-    if (kind == LightKind::camera) {
-      unoccluded_.resize(triangles.count());
-      facings_.resize(triangles.count());
-    }
-    for (const Camera& camera : cameras) add({triangles, camera, cull});
-  }
-
-  /// Whether nothing is visible of a triangle, for certain.
-  [[nodiscard]] bool is_hidden(std::uint32_t number) const { return terms_[number].share.empty(); }
-
-  /// `light` is the direction, or the point.
-  [[nodiscard]] SeenTriangle triangle(std::uint32_t number,
-                                      const std::array<double, 3>& light) const {
-    SeenTriangle seen;
-    const auto corners = triangles_.world_corners(number);
-    seen.corner = exact(corners[0]);
-    seen.to_second = difference(exact(corners[1]), seen.corner);
-    seen.to_third = difference(exact(corners[2]), seen.corner);
-    seen.normal = cross(seen.to_second, seen.to_third);
-    seen.side = side_of(number, seen, light);
-    const SurfaceTerms& terms = terms_[number];
-    seen.share = sum_of(terms.share);
-    seen.beta = sum_of(terms.beta);
-    seen.gamma = sum_of(terms.gamma);
-    if (kind_ == LightKind::camera) {
-      seen.visible = sum_of(terms.image);
-      seen.unoccluded = unoccluded_[number];
-    }
-    return seen;
-  }
-
- private:
-  void add(const CoverageFrame& frame) {
-    const std::function<void(double)> no_report;
-    Progress progress(no_report, 1);
-    const ProjectedScene scene(frame, progress);
-    std::vector<std::uint32_t> numbers(scene.count());
-    std::iota(numbers.begin(), numbers.end(), 0);
-    const PlaneMesh mesh(scene, numbers);
-    PlaneAreas areas(mesh, wanted_);
-    for (std::uint32_t i = 0; i < mesh.size(); ++i) add(scene, mesh.number(i), areas, i);
-    if (kind_ == LightKind::camera) add_image(scene, shows_mirror_image(frame.camera));
-  }
-
-  void add(const ProjectedScene& scene, std::uint32_t number, const PlaneAreas& areas,
-           std::uint32_t i) {
-    if (areas.visibility(i) == Visibility::hidden) return;
-    if (areas.visibility(i) == Visibility::whole) {
-      const Ratio one(Dyadic(1.0));
-      add(number, {wanted_.image ? Terms{scene.own_area(number)} : Terms(), {one}, {one}, {one}});
-    } else {
-      add(number, in_order(scene, number, areas.terms(i)));
-    }
-  }
-
-  /// The terms for the corners in the order of the mesh.
-  static SurfaceTerms in_order(const ProjectedScene& scene, std::uint32_t number,
-                               SurfaceTerms terms) {
-    if (scene.orientation(number) == Sign::positive) return terms;
-    if (scene.kind(number) == TriangleKind::regular) {
-      std::swap(terms.beta, terms.gamma);
-      return terms;
-    }
-    for (Terms* some : {&terms.share, &terms.beta, &terms.gamma}) {
-      for (Ratio& term : *some) term.numerator = -term.numerator;
-    }
-    return terms;
-  }
-
-  void add(std::uint32_t number, const SurfaceTerms& some) {
-    SurfaceTerms& all = terms_[number];
-    all.image.insert(all.image.end(), some.image.begin(), some.image.end());
-    all.share.insert(all.share.end(), some.share.begin(), some.share.end());
-    all.beta.insert(all.beta.end(), some.beta.begin(), some.beta.end());
-    all.gamma.insert(all.gamma.end(), some.gamma.begin(), some.gamma.end());
-  }
-
-  void add_image(const ProjectedScene& scene, bool is_mirrored) {
-    parallel_for(std::uint32_t{0}, scene.count(), [&](std::uint32_t number) {
-      const Sign turn = scene.orientation(number);
-      facings_[number] = is_mirrored ? turn : -turn;
-      unoccluded_[number] = unoccluded_area(scene, number);
-    });
-  }
-
-  [[nodiscard]] LitSide side_of(std::uint32_t number, SeenTriangle& seen,
-                                const std::array<double, 3>& light) const {
-    Sign side = Sign::zero;
-    if (kind_ == LightKind::camera) {
-      side = facings_[number];
-    } else {
-      ExactVector3 towards{light[0], light[1], light[2]};
-      if (kind_ == LightKind::point) towards = difference(towards, seen.corner);
-      seen.facing = dot(seen.normal, towards);
-      side = seen.facing.sign();
-      if (side == Sign::negative) seen.facing = -seen.facing;
-    }
-    return side == Sign::zero       ? LitSide::edge
-           : side == Sign::positive ? LitSide::front
-                                    : LitSide::back;
-  }
-
-  const TriangleSource& triangles_;
-  LightKind kind_;
-  WantedTerms wanted_;
-  std::vector<SurfaceTerms> terms_;
-  /// From a camera.
-  std::vector<Ratio> unoccluded_;
-  /// The sign of n·d.
-  std::vector<Sign> facings_;
-};
-
 /// Rounds the values of triangles and groups.
 class LightAreas {
  public:
-  LightAreas(LightKind kind, const std::array<double, 3>& light, AreaCentroid centroid)
-      : kind_(kind), centroid_(centroid) {
+  LightAreas(LightKind kind, const std::array<double, 3>& light, const AreaOptions& options)
+      : kind_(kind), centroid_(options.centroid), keeps_exact_(options.exact) {
     const ExactVector3 d{light[0], light[1], light[2]};
     if (kind == LightKind::direction) square_ = dot(d, d);
   }
@@ -199,17 +38,10 @@ class LightAreas {
   [[nodiscard]] LitArea of(const SeenTriangle& seen) const {
     LitArea area;
     area.side = seen.side;
-    switch (kind_) {
-      case LightKind::direction:
-        area.visible = rounded_across(seen.share * Ratio(seen.facing), square_);
-        area.projected = rounded_across(Ratio(seen.facing), square_);
-        break;
-      case LightKind::camera:
-        area.visible = round_to_binary64(seen.visible);
-        area.projected = round_to_binary64(seen.unoccluded);
-        break;
-      case LightKind::point:
-        break;
+    const auto [visible, projected] = areas_of(seen);
+    if (kind_ != LightKind::point) {
+      area.visible = rounded(visible);
+      area.projected = rounded(projected);
     }
     area.fraction = fraction_of(seen);
     const Dyadic n = dot(seen.normal, seen.normal);
@@ -220,16 +52,20 @@ class LightAreas {
         centre[axis] = round_to_binary64(quotient(seen.moment(axis), seen.share));
       }
     }
+    if (keeps_exact_) area.exact = ExactArea{unscaled(visible), unscaled(projected)};
     return area;
   }
 
   /// Of triangles of each of which something is visible.
   [[nodiscard]] LitArea of(const std::vector<SeenTriangle>& group) const {
     LitArea area;
-    if (kind_ != LightKind::point) area.visible = visible(group);
+    const Terms terms = visible_terms(group);
+    if (kind_ != LightKind::point) area.visible = rounded(real_sum(terms));
     RootSum lit;
     for (const SeenTriangle& seen : group) add(lit, seen.share, seen);
     area.lit = round_to_binary64(affine(lit.value(), Ratio(Dyadic(0.5)), Ratio()));
+    if (keeps_exact_) area.exact.emplace();
+    if (keeps_exact_ && kind_ != LightKind::point) area.exact->visible = unscaled(sum_of(terms));
     if (lit.is_empty()) return area;
     const bool across = kind_ == LightKind::direction && centroid_ == AreaCentroid::across;
     auto& centre = area.centroid.emplace();
@@ -239,7 +75,30 @@ class LightAreas {
     return area;
   }
 
+  /// Adds the values that a group has if its areas with all other triangles removed are known.
+  void add_alone(LitArea& area, const std::vector<SeenTriangle>& group, const Terms& alone) const {
+    area.projected = rounded(real_sum(alone));
+    if (!alone.empty()) {
+      const Terms visible = visible_terms(group);
+      area.fraction = visible.empty() ? 0 : round_to_binary64(real_quotient(visible, alone));
+    }
+    if (keeps_exact_) area.exact->projected = unscaled(sum_of(alone));
+  }
+
  private:
+  /// Of a direction share·|n·d| and |n·d|, of a camera pixels, of a point shares.
+  [[nodiscard]] std::pair<Ratio, Ratio> areas_of(const SeenTriangle& seen) const {
+    switch (kind_) {
+      case LightKind::direction:
+        return {seen.share * Ratio(seen.facing), seen.facing};
+      case LightKind::camera:
+        return {seen.visible, seen.unoccluded};
+      case LightKind::point:
+        break;
+    }
+    return {seen.share, Dyadic(seen.side == LitSide::edge ? 0.0 : 1.0)};
+  }
+
   [[nodiscard]] std::optional<double> fraction_of(const SeenTriangle& seen) const {
     if (seen.side == LitSide::edge) return std::nullopt;
     if (kind_ != LightKind::camera) return round_to_binary64(seen.share);
@@ -247,14 +106,19 @@ class LightAreas {
     return round_to_binary64(quotient(seen.visible, seen.unoccluded));
   }
 
-  [[nodiscard]] double visible(const std::vector<SeenTriangle>& group) const {
+  /// An area of areas_of(), rounded once.
+  [[nodiscard]] double rounded(const Real& area) const {
+    return kind_ == LightKind::direction ? rounded_across(area, square_) : round_to_binary64(area);
+  }
+  /// The same as in ExactArea.
+  [[nodiscard]] Ratio unscaled(const Ratio& area) const {
+    return kind_ == LightKind::direction ? area * Ratio(Dyadic(0.5)) : area;
+  }
+
+  [[nodiscard]] Terms visible_terms(const std::vector<SeenTriangle>& group) const {
     Terms terms;
-    const bool in_pixels = kind_ == LightKind::camera;
-    for (const SeenTriangle& seen : group) {
-      terms.push_back(in_pixels ? seen.visible : seen.share * Ratio(seen.facing));
-    }
-    const Real sum = real_sum(std::move(terms));
-    return in_pixels ? round_to_binary64(sum) : rounded_across(sum, square_);
+    for (const SeenTriangle& seen : group) terms.push_back(areas_of(seen).first);
+    return terms;
   }
 
   static void add(RootSum& sum, const Ratio& factor, const SeenTriangle& seen) {
@@ -279,37 +143,52 @@ class LightAreas {
 
   LightKind kind_;
   AreaCentroid centroid_;
+  bool keeps_exact_;
   Dyadic square_;
 };
+
+/// The triangles of each group, in ascending order.
+std::vector<std::vector<std::uint32_t>> members_of(const AreaOptions& options) {
+  std::vector<std::vector<std::uint32_t>> members(options.group_count);
+  for (std::uint32_t number = 0; number < options.groups.size(); ++number) {
+    if (options.groups[number] < options.group_count) {
+      members[options.groups[number]].push_back(number);
+    }
+  }
+  return members;
+}
+
+/// What is visible of some triangles; not those of which nothing is.
+std::vector<SeenTriangle> seen_among(const SeenScene& scene,
+                                     const std::vector<std::uint32_t>& numbers) {
+  std::vector<SeenTriangle> seen;
+  for (const std::uint32_t number : numbers) {
+    if (scene.is_hidden(number)) continue;
+    SeenTriangle triangle = scene.triangle(number);
+    if (triangle.share.sign() != Sign::zero) seen.push_back(std::move(triangle));
+  }
+  return seen;
+}
 
 std::vector<LitArea> measure(const TriangleSource& triangles, LightKind kind,
                              const std::vector<Camera>& cameras, const std::array<double, 3>& light,
                              const AreaOptions& options) {
   const auto count = static_cast<std::uint32_t>(triangles.count());
-  const SeenScene scene(triangles, kind, cameras, options.cull);
-  const LightAreas areas(kind, light, options.centroid);
-  if (options.groups.empty()) {
+  const SeenScene scene(triangles, kind, cameras, light, options.cull);
+  const LightAreas areas(kind, light, options);
+  if (options.groups.empty() && count > 0) {
     std::vector<LitArea> result(count);
-    parallel_for(std::uint32_t{0}, count, [&](std::uint32_t number) {
-      result[number] = areas.of(scene.triangle(number, light));
-    });
+    parallel_for(std::uint32_t{0}, count,
+                 [&](std::uint32_t number) { result[number] = areas.of(scene.triangle(number)); });
     return result;
   }
-  std::vector<std::vector<std::uint32_t>> members(options.group_count);
-  for (std::uint32_t number = 0; number < count; ++number) {
-    if (options.groups[number] < options.group_count) {
-      members[options.groups[number]].push_back(number);
-    }
-  }
+  const auto members = members_of(options);
+  const bool alone = options.alone && kind != LightKind::point;
   std::vector<LitArea> result(options.group_count);
   parallel_for(std::uint32_t{0}, options.group_count, [&](std::uint32_t group) {
-    std::vector<SeenTriangle> seen;
-    for (const std::uint32_t number : members[group]) {
-      if (scene.is_hidden(number)) continue;
-      SeenTriangle member = scene.triangle(number, light);
-      if (member.share.sign() != Sign::zero) seen.push_back(std::move(member));
-    }
+    const std::vector<SeenTriangle> seen = seen_among(scene, members[group]);
     result[group] = areas.of(seen);
+    if (alone) areas.add_alone(result[group], seen, scene.alone(members[group]));
   });
   return result;
 }
@@ -356,6 +235,17 @@ std::vector<LitArea> areas_from_camera(const TriangleSource& triangles, const Ca
   return in_arena(triangles, options, [&] {
     require_renderable(triangles, camera);
     return measure(triangles, LightKind::camera, {camera}, {}, options);
+  });
+}
+
+double background_from_camera(const TriangleSource& triangles, const Camera& camera,
+                              const AreaOptions& options) {
+  const StandardArithmetic standard;
+  return with_threads(options.threads, [&] {
+    require_renderable(triangles, camera);
+    const SeenScene scene(triangles, LightKind::camera, {camera}, {}, options.cull);
+    const Ratio image = Dyadic(1.0 * camera.width) * Dyadic(1.0 * camera.height);
+    return round_to_binary64(affine(real_sum(scene.image_terms()), Ratio(Dyadic(-1.0)), image));
   });
 }
 

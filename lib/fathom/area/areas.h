@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
+#include "fathom/numeric/ratio.h"
 #include "fathom/rendering/options.h"
 #include "fathom/scene/triangle_source.h"
 
@@ -21,6 +22,15 @@ using AreaPoint = std::array<double, 3>;
 /// The side of a triangle that faces the light.
 enum class LitSide : std::uint8_t { front, back, edge };
 
+/// Areas before they are rounded: of a direction times its length, of a camera in pixels, of a
+/// point as shares of the area of the triangle.
+struct ExactArea {
+  /// Not defined of a group from a point.
+  std::optional<Ratio> visible;
+  /// Not defined of a group that is not measured alone.
+  std::optional<Ratio> projected;
+};
+
 /// The area of a triangle, or of a group of triangles. Each number is exact and rounded once.
 struct LitArea {
   /// Of a triangle: the side that faces the light; edge if the light sees it edge on. A camera
@@ -29,15 +39,19 @@ struct LitArea {
   /// The visible area across the direction; from a camera in pixels; not defined from a point.
   std::optional<double> visible;
   /// The area of a triangle across the direction, with all other triangles removed; from a camera
-  /// the area within the image.
+  /// the area within the image. Of a group with AreaOptions::alone, the area that is visible of it
+  /// with all other triangles removed.
   std::optional<double> projected;
-  /// Of a triangle, visible / projected; from a point the visible share of its surface.
+  /// visible / projected; of a triangle from a point the visible share of its surface. Not defined
+  /// if projected is 0.
   std::optional<double> fraction;
   /// The visible area, measured on the surface.
   double lit = 0;
   /// The centroid of the visible part of the surface, in the world; not defined if nothing is
   /// visible.
   std::optional<std::array<double, 3>> centroid;
+  /// With AreaOptions::exact.
+  std::optional<ExactArea> exact;
 };
 
 /// Which area weighs the centroid of a group: the area across the direction, or on the surface.
@@ -49,6 +63,11 @@ struct AreaOptions {
   int threads = 0;
   /// For groups under a direction. From a camera and from a point, `lit` is used.
   AreaCentroid centroid = AreaCentroid::across;
+  /// Also measure each group with all other triangles removed, which takes about as long for all
+  /// groups as the scene does. From a point this has no effect.
+  bool alone = false;
+  /// Also return areas before they are rounded.
+  bool exact = false;
   /// The group of each triangle, below `group_count`, or no_group. If empty, each triangle is
   /// measured by itself.
   std::vector<std::uint32_t> groups;
@@ -70,5 +89,9 @@ std::vector<LitArea> areas_from_point(const TriangleSource& triangles, const Are
 /// The same from a camera without a lens, within its image.
 std::vector<LitArea> areas_from_camera(const TriangleSource& triangles, const Camera& camera,
                                        const AreaOptions& options = {});
+/// The area of such a camera's image, in pixels, in which no triangle is visible; exact, rounded
+/// once. Groups have no effect.
+double background_from_camera(const TriangleSource& triangles, const Camera& camera,
+                              const AreaOptions& options = {});
 
 }  // namespace fathom

@@ -11,6 +11,10 @@
 /// fails with InputError.
 namespace fathom::image {
 
+/// The preamble and the header of an array of a type, "<f8", and a shape, "3, 4"; its values, which
+/// follow, begin at a multiple of 64 bytes.
+files::Bytes npy_header(const std::string& type, const std::string& shape);
+
 struct ImageSize {
   std::uint32_t width = 0, height = 0;
   friend bool operator==(const ImageSize&, const ImageSize&) = default;

@@ -265,8 +265,9 @@ std::vector<ImageChannel> channels_of_array(const Parts& file, const std::string
   return channels;
 }
 
-/// The preamble and the header of an array; its values begin at a multiple of 64 bytes.
-Bytes array_header(const std::string& type, const std::string& shape) {
+}  // namespace
+
+Bytes npy_header(const std::string& type, const std::string& shape) {
   std::string header =
       "{'descr': '" + type + "', 'fortran_order': False, 'shape': (" + shape + "), }";
   constexpr std::size_t preamble = 10;
@@ -279,8 +280,6 @@ Bytes array_header(const std::string& type, const std::string& shape) {
   append(bytes, header);
   return bytes;
 }
-
-}  // namespace
 
 bool is_image_array(ByteView bytes, const std::string& name) {
   const Array array = take_apart(bytes, name).array;
@@ -305,7 +304,7 @@ std::vector<ImageChannel> channels_of_npy(ByteView bytes, const std::string& cha
 }
 
 Bytes npy_of_text(const std::string& text) {
-  Bytes bytes = array_header("|S" + std::to_string(text.size()), "");
+  Bytes bytes = npy_header("|S" + std::to_string(text.size()), "");
   append(bytes, text);
   return bytes;
 }
@@ -321,7 +320,7 @@ Bytes npy_of_channels(const ImageSize& size, const std::vector<const ImageChanne
           parts.push_back(&std::get<Values>(channel->values));
         std::string shape = std::to_string(size.height) + ", " + std::to_string(size.width);
         if (parts.size() > 1) shape += ", " + std::to_string(parts.size());
-        Bytes bytes = array_header(type_name(Value{}), shape);
+        Bytes bytes = npy_header(type_name(Value{}), shape);
         std::size_t position = bytes.size();
         bytes.resize(position + first.size() * parts.size() * sizeof(Value));
         for (std::size_t k = 0; k < first.size(); ++k)

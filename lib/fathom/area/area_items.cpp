@@ -1,20 +1,13 @@
-#include "apps/surfaces/area_items.h"
+#include "fathom/area/area_items.h"
 
 #include <map>
 #include <utility>
 
-#include "apps/shell/values.h"
-#include "fathom/area/areas.h"
+#include "fathom/mesh/segmentation.h"
 #include "fathom/scene/scene_segments.h"
 
-namespace fathom::app {
+namespace fathom {
 namespace {
-
-constexpr std::pair<const char*, AreaItemKind> kinds[] = {
-    {"object", AreaItemKind::object},     {"face", AreaItemKind::face},
-    {"triangle", AreaItemKind::triangle}, {"material", AreaItemKind::material},
-    {"group", AreaItemKind::group},       {"part", AreaItemKind::part},
-    {"label", AreaItemKind::label}};
 
 AreaItems triangles_of(const Scene& scene, const TriangleSource& triangles) {
   AreaItems result;
@@ -75,13 +68,24 @@ AreaItems segments_of(const TriangleSource& triangles, Segmentation by) {
 
 }  // namespace
 
-std::string name_of(AreaItemKind kind) {
-  return kinds[static_cast<std::size_t>(kind)].first;
-}
-
-AreaItemKind parse_area_item_kind(const std::string& text) {
-  return parse_word<AreaItemKind>(
-      text, {kinds[0], kinds[1], kinds[2], kinds[3], kinds[4], kinds[5], kinds[6]});
+const char* name_of(AreaItemKind kind) {
+  switch (kind) {
+    case AreaItemKind::object:
+      return "object";
+    case AreaItemKind::face:
+      return "face";
+    case AreaItemKind::triangle:
+      return "triangle";
+    case AreaItemKind::material:
+      return "material";
+    case AreaItemKind::group:
+      return "group";
+    case AreaItemKind::part:
+      return "part";
+    case AreaItemKind::label:
+      break;
+  }
+  return "label";
 }
 
 AreaItems area_items(const Scene& scene, AreaItemKind kind) {
@@ -105,4 +109,11 @@ AreaItems area_items(const Scene& scene, AreaItemKind kind) {
   return segments_of(triangles, Segmentation::label);
 }
 
-}  // namespace fathom::app
+AreaOptions options_of(const AreaItems& items) {
+  AreaOptions options;
+  options.groups = items.of_triangle;
+  options.group_count = static_cast<std::uint32_t>(items.items.size());
+  return options;
+}
+
+}  // namespace fathom

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "fathom/area/areas.h"
+#include "fathom/area/plane/plane_areas.h"
+#include "fathom/camera/camera.h"
+#include "fathom/scene/triangle_source.h"
+
+/// The parts of triangles that a light sees, as exact numbers. What is irrational of an area is
+/// left to its caller: the length of a direction and the lengths of normals.
+namespace fathom::area {
+
+enum class LightKind : std::uint8_t { direction, point, camera };
+
+/// The part of a triangle that a light sees, exactly.
+struct SeenTriangle {
+  LitSide side = LitSide::edge;
+  /// The visible share of the triangle's area, and this share times 3β and 3γ of its centre, as in
+  /// SurfaceTerms.
+  Ratio share, beta, gamma;
+  /// From a camera, in pixels: the visible area, and the area with all other triangles removed.
+  Ratio visible, unoccluded;
+  ExactVector3 corner, to_second, to_third, normal;
+  /// |n·d| of a direction.
+  Dyadic facing;
+
+  /// The share times the centre.
+  [[nodiscard]] Ratio moment(std::size_t axis) const;
+};
+
+/// The visible parts of all triangles, from the cameras of a light.
+class SeenScene {
+ public:
+  /// `light` is the direction, or the point. A point has six cameras, other lights have one.
+  SeenScene(const TriangleSource& triangles, LightKind kind, const std::vector<Camera>& cameras,
+            const std::array<double, 3>& light, Cull cull);
+
+  /// Whether nothing is visible of a triangle, for certain.
+  [[nodiscard]] bool is_hidden(std::uint32_t number) const { return terms_[number].share.empty(); }
+  [[nodiscard]] SeenTriangle triangle(std::uint32_t number) const;
+
+  /// From a camera, terms whose sum is the area of the image in which something is visible.
+  [[nodiscard]] Terms image_terms() const;
+  /// Of some triangles, in ascending order, the visible area of each with all triangles but these
+  /// removed: share·|n·d| of a direction, pixels of a camera. No area is 0.
+  /// Needs    a direction or a camera.
+  [[nodiscard]] Terms alone(std::span<const std::uint32_t> numbers) const;
+
+ private:
+  void add(const ProjectedScene& scene);
+  void add(std::uint32_t number, const SurfaceTerms& some);
+  void add_image(const ProjectedScene& scene, bool is_mirrored);
+  /// The triangle's place and facing; nothing that depends on other triangles.
+  [[nodiscard]] SeenTriangle placed(std::uint32_t number) const;
+  [[nodiscard]] LitSide side_of(std::uint32_t number, SeenTriangle& seen) const;
+
+  const TriangleSource& triangles_;
+  LightKind kind_;
+  std::array<double, 3> light_;
+  WantedTerms wanted_;
+  std::deque<ProjectedScene> scenes_;
+  std::vector<SurfaceTerms> terms_;
+  /// From a camera.
+  std::vector<Ratio> unoccluded_;
+  /// The sign of n·d.
+  std::vector<Sign> facings_;
+};
+
+}  // namespace fathom::area
