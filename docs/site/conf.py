@@ -49,7 +49,7 @@ nitpick_ignore_regex = [
     ("py:class", r"((_files\.)?Path|Size|LensKeywords|Unpack|Rows|Ring|Number|Numbers|Cull|Normals|Up|Projection|Background|Mapping|"
                  r"Sequence|Iterable|Fraction|Any|Callable|Literal|optional|Union|Iterator|Answer|Arithmetic|Ties|Edges|Option|Precision|"
                  r"RayChannels|RayMode|RaysLike|EdgeRule|(sight\.)?SurfacePoints|Channels?|ColorMap|ColorScale|Compression|"
-                 r"DeepCompression|"
+                 r"DeepCompression|AreaCentroid|AreaItem|"
                  r"Engine|Frame|Measure|Mesh|Metrics|Model|NormalAxes|Storage)"),
     ("py:class", r"fathom\._\w+(\..*)?"),
     ("c:identifier", r"u?int\d+_t|size_t"),

@@ -288,6 +288,59 @@ FATHOM_API fathom_status fathom_hits_values(const fathom_hits* hits,
  * points have 3 numbers each and `stride` bytes from each to the next, 0: no gaps. */
 FATHOM_API fathom_status fathom_contains(const fathom_rays* rays, const double* points,
                                          size_t count, size_t stride, int threads, uint8_t* inside);
+/* --------------------------------------------------------------------------------------- areas */
+
+/* The items that are measured together. */
+typedef enum {
+  FATHOM_BY_OBJECT = 0,
+  FATHOM_BY_FACE = 1,
+  FATHOM_BY_TRIANGLE = 2,
+  FATHOM_BY_MATERIAL = 3,
+  FATHOM_BY_GROUP = 4,
+  FATHOM_BY_PART = 5,
+  FATHOM_BY_LABEL = 6
+} fathom_by;
+
+/* The areas of items under lights. The arrays have a value for each light and each item, one light
+ * after the other: visible[i * items + j] is item j under light i. NAN: not defined. Every number
+ * is exact and rounded once. Frame: the world; unit: scene units. */
+typedef struct {
+  size_t lights, items;
+  const double* visible;   /* area across the direction */
+  const double* projected; /* the same with everything else removed; of items other than triangles
+                            * NAN without fathom_area_options.alone */
+  const double* fraction;  /* visible / projected */
+  const double* lit;       /* visible area, measured on the surface */
+  const double* centroid;  /* 3 numbers each: of what is visible, on the surface */
+  const signed char* side; /* of triangles: 1 front, -1 back, 0 seen edge on; NULL otherwise */
+  const uint64_t* number;  /* of each item: of a triangle in the scene, of a face in its file */
+  const uint32_t* object;  /* of triangles and faces, their objects and faces; NULL otherwise */
+  const uint32_t* face;
+  const char* const* name; /* of each item: UTF-8, never NULL */
+} fathom_areas_result;
+
+typedef struct {
+  fathom_cull cull;
+  int threads;      /* number of threads; 0: all */
+  int alone;        /* not 0: measures each item with everything else removed, too */
+  int lit_centroid; /* not 0: weighs the centroids of groups by `lit` instead of `visible` */
+} fathom_area_options;
+
+/* Measures what is visible from directions, as from a distant sun, or against a wind
+ * (docs/coverage.md).
+ *
+ *   directions   3 numbers for each, towards the light; of any length, but not 0
+ *   options      NULL: all options are 0
+ *   areas        receives the result; free it with fathom_areas_free()
+ *
+ * FATHOM_USAGE for a direction that is 0 or not finite.
+ */
+FATHOM_API fathom_status fathom_areas(const fathom_scene* scene, size_t count,
+                                      const double* directions, fathom_by by,
+                                      const fathom_area_options* options,
+                                      const fathom_areas_result** areas);
+/* Frees a result and its arrays; NULL is allowed. */
+FATHOM_API void fathom_areas_free(const fathom_areas_result* areas);
 
 /* NOLINTEND(readability-identifier-naming) */
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "fathom/area/area_items.h"
+#include "fathom/area/areas.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_making.h"
 #include "fathom/camera/lens_numbers.h"
@@ -39,6 +42,18 @@ struct fathom_lens {
 };
 
 namespace {
+
+/// A result and the arrays that its pointers lead to.
+struct KeptAreas : fathom_areas_result {
+  KeptAreas() : fathom_areas_result{} {}
+
+  std::vector<double> of_visible, of_projected, of_fraction, of_lit, of_centroid;
+  std::vector<signed char> of_side;
+  std::vector<std::uint64_t> of_number;
+  std::vector<std::uint32_t> of_object, of_face;
+  std::vector<std::string> names;
+  std::vector<const char*> of_name;
+};
 
 Camera camera_of(const fathom_camera* given) {
   require(given, "camera: NULL");
@@ -146,6 +161,63 @@ Mesh mesh_of(const double* vertices, std::size_t vertex_count, const std::uint32
   }
   mesh.face_count = triangle_count;
   return mesh;
+}
+
+AreaOptions options_of(const AreaItems& items, const fathom_area_options* given) {
+  AreaOptions options = fathom::options_of(items);
+  if (!given) return options;
+  const bool known = given->cull == FATHOM_CULL_NONE || given->cull == FATHOM_CULL_BACK ||
+                     given->cull == FATHOM_CULL_FRONT;
+  require(known, "cull: expected FATHOM_CULL_NONE, FATHOM_CULL_BACK or FATHOM_CULL_FRONT");
+  require(given->threads >= 0, "threads: expected at least 0");
+  options.cull = given->cull == FATHOM_CULL_BACK    ? Cull::back
+                 : given->cull == FATHOM_CULL_FRONT ? Cull::front
+                                                    : Cull::none;
+  options.threads = given->threads;
+  options.alone = given->alone != 0;
+  options.centroid = given->lit_centroid != 0 ? AreaCentroid::lit : AreaCentroid::across;
+  return options;
+}
+
+void add_items(KeptAreas& kept, const AreaItems& items) {
+  for (const AreaItem& item : items.items) {
+    kept.of_number.push_back(item.number);
+    kept.names.push_back(item.name);
+    if (item.object) kept.of_object.push_back(*item.object);
+    if (item.face) kept.of_face.push_back(*item.face);
+  }
+  for (const std::string& name : kept.names) kept.of_name.push_back(name.c_str());
+}
+
+void add_areas(KeptAreas& kept, const std::vector<LitArea>& areas) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const LitArea& area : areas) {
+    kept.of_visible.push_back(area.visible.value_or(nan));
+    kept.of_projected.push_back(area.projected.value_or(nan));
+    kept.of_fraction.push_back(area.fraction.value_or(nan));
+    kept.of_lit.push_back(area.lit);
+    const std::array<double, 3> centre = area.centroid.value_or(std::array{nan, nan, nan});
+    kept.of_centroid.insert(kept.of_centroid.end(), centre.begin(), centre.end());
+    if (!area.side) continue;
+    kept.of_side.push_back(*area.side == LitSide::edge ? 0 : *area.side == LitSide::front ? 1 : -1);
+  }
+}
+
+/// Points the result to the arrays.
+void publish(KeptAreas& kept, std::size_t lights) {
+  const auto or_null = [](const auto& values) { return values.empty() ? nullptr : values.data(); };
+  kept.lights = lights;
+  kept.items = kept.names.size();
+  kept.visible = kept.of_visible.data();
+  kept.projected = kept.of_projected.data();
+  kept.fraction = kept.of_fraction.data();
+  kept.lit = kept.of_lit.data();
+  kept.centroid = kept.of_centroid.data();
+  kept.side = or_null(kept.of_side);
+  kept.number = kept.of_number.data();
+  kept.object = or_null(kept.of_object);
+  kept.face = or_null(kept.of_face);
+  kept.name = kept.of_name.data();
 }
 
 template <class T>
@@ -402,6 +474,32 @@ fathom_status fathom_verify(const fathom_map* map, const fathom_scene* scene,
                         choose_pixels(view.width, view.height, pixels), progress_of(options))
                      .differing;
   });
+}
+
+fathom_status fathom_areas(const fathom_scene* scene, size_t count, const double* directions,
+                           fathom_by by, const fathom_area_options* options,
+                           const fathom_areas_result** areas) {
+  return status_of([&] {
+    require(scene && areas, "scene and areas: NULL");
+    require(directions && count > 0, "directions: expected at least one");
+    require_count("count", count, 3 * sizeof(double));
+    const auto kind = static_cast<std::size_t>(by);
+    require(kind < all_area_item_kinds.size(), "by: expected FATHOM_BY_OBJECT, …");
+    const AreaItems items = area_items(scene->scene, all_area_item_kinds[kind]);
+    const AreaOptions asked = options_of(items, options);
+    auto kept = std::make_unique<KeptAreas>();
+    add_items(*kept, items);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double* const d = directions + 3 * i;
+      add_areas(*kept, areas_in_direction(scene->scene, {d[0], d[1], d[2]}, asked));
+    }
+    publish(*kept, count);
+    *areas = kept.release();
+  });
+}
+
+void fathom_areas_free(const fathom_areas_result* areas) {
+  answer_of([&] { delete static_cast<const KeptAreas*>(areas); });
 }
 
 }  // extern "C"

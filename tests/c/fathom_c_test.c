@@ -310,6 +310,53 @@ static void lenses_are_refused(void) {
   fathom_scene_free(scene);
 }
 
+/* A square of 4 at z = 1 hides half of a rectangle of 8 at z = 0. */
+static void areas_are_exact(void) {
+  static const double plates[] = {0, 0, 1, 2, 0, 1, 2, 2, 1, 0, 2, 1,
+                                  0, 0, 0, 4, 0, 0, 4, 2, 0, 0, 2, 0};
+  static const uint32_t corners[] = {0, 1, 2, 0, 2, 3};
+  const double directions[] = {0, 0, 5, 0, 0, -1, 1, 0, 0, 3, 0, 4};
+  fathom_area_options options = {FATHOM_CULL_NONE, 1, 1, 0};
+  const fathom_areas_result* areas = NULL;
+  fathom_scene* scene = NULL;
+  CHECK(fathom_scene_new(&scene) == FATHOM_OK);
+  CHECK(fathom_scene_add(scene, plates, 4, corners, 2, NULL, "upper", 0) == FATHOM_OK);
+  CHECK(fathom_scene_add(scene, plates + 12, 4, corners, 2, NULL, "lower", 0) == FATHOM_OK);
+  CHECK(fathom_areas(scene, 4, directions, FATHOM_BY_OBJECT, &options, &areas) == FATHOM_OK);
+  CHECK(areas->lights == 4 && areas->items == 2 && strcmp(areas->name[1], "lower") == 0);
+  CHECK(areas->visible[0] == 4 && areas->visible[1] == 4 && areas->fraction[1] == 0.5);
+  CHECK(areas->centroid[3] == 3 && areas->centroid[4] == 1 && areas->centroid[5] == 0);
+  CHECK(areas->visible[2] == 0 && areas->fraction[2] == 0 && areas->fraction[3] == 1);
+  CHECK(isnan(areas->centroid[6]) && areas->lit[3] == 8);
+  CHECK(areas->projected[4] == 0 && isnan(areas->fraction[4]));
+  CHECK(areas->projected[7] == 6.4 && areas->visible[7] == 4.4);
+  CHECK(areas->side == NULL && areas->object == NULL && areas->number[1] == 1);
+  fathom_areas_free(areas);
+  CHECK(fathom_areas(scene, 1, directions, FATHOM_BY_TRIANGLE, NULL, &areas) == FATHOM_OK);
+  CHECK(areas->items == 4 && areas->side[0] == 1 && areas->object[2] == 1 && areas->face[3] == 1);
+  fathom_areas_free(areas);
+  fathom_areas_free(NULL);
+  fathom_scene_free(scene);
+}
+
+static void areas_are_refused(void) {
+  const double zero[] = {0, 0, 1, 0, 0, 0};
+  fathom_area_options options = {FATHOM_CULL_NONE, -1, 0, 0};
+  const fathom_areas_result* areas = NULL;
+  fathom_scene* scene = make_scene(NULL, 0);
+  CHECK(fathom_areas(scene, 2, zero, FATHOM_BY_OBJECT, NULL, &areas) == FATHOM_USAGE &&
+        strstr(fathom_error(), "direction") != NULL && areas == NULL);
+  CHECK(fathom_areas(scene, 1, zero, (fathom_by)7, NULL, &areas) == FATHOM_USAGE);
+  CHECK(fathom_areas(scene, 1, zero, FATHOM_BY_OBJECT, &options, &areas) == FATHOM_USAGE &&
+        strstr(fathom_error(), "threads") != NULL);
+  CHECK(fathom_areas(scene, 0, zero, FATHOM_BY_OBJECT, NULL, &areas) == FATHOM_USAGE);
+  CHECK(fathom_areas(scene, SIZE_MAX, zero, FATHOM_BY_OBJECT, NULL, &areas) == FATHOM_USAGE);
+  CHECK(fathom_areas(NULL, 1, zero, FATHOM_BY_OBJECT, NULL, &areas) == FATHOM_USAGE);
+  CHECK(fathom_areas(scene, 1, NULL, FATHOM_BY_OBJECT, NULL, &areas) == FATHOM_USAGE);
+  CHECK(fathom_areas(scene, 1, zero, FATHOM_BY_OBJECT, NULL, NULL) == FATHOM_USAGE);
+  fathom_scene_free(scene);
+}
+
 int main(int count, char** arguments) {
   if (count != 3) {
     fprintf(stderr, "usage: fathom_c_test MESH FOLDER\n");
@@ -326,6 +373,8 @@ int main(int count, char** arguments) {
   a_lens_bends_rays();
   lenses_come_from_files(arguments[2]);
   lenses_are_refused();
+  areas_are_exact();
+  areas_are_refused();
   if (failures == 0) puts("all is well");
   return failures == 0 ? 0 : 1;
 }

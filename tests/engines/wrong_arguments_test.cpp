@@ -85,6 +85,9 @@ std::map<std::string, Door> doors_of_scenes() {
   };
   doors["visible_areas"] = [](const Scene& s, const Camera& c) { visible_areas(s, c, {}); };
   doors["areas_from_camera"] = [](const Scene& s, const Camera& c) { areas_from_camera(s, c); };
+  doors["background_from_camera"] = [](const Scene& s, const Camera& c) {
+    background_from_camera(s, c);
+  };
   doors["coplanar_pairs"] = [](const Scene& s, const Camera& c) { coplanar_pairs(s, c, 1, {}); };
   doors["pixel_coverage"] = [](const Scene& s, const Camera& c) {
     pixel_coverage({s, c}, std::vector<std::uint32_t>{0}, 2, 2);

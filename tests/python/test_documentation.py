@@ -13,8 +13,8 @@ import pytest
 import fathom
 
 source = pathlib.Path(os.environ["FATHOM_SOURCE"])
-modules = ["_importing", "camera", "clipping", "comparison", "compat", "deep", "depth_formats", "lens", "maps",
-           "pipeline", "questions", "rays", "rendering", "scanning", "scene", "studies", "validation"]
+modules = ["_importing", "camera", "clipping", "comparison", "compat", "deep", "depth_formats", "lens", "lit_areas",
+           "maps", "pipeline", "questions", "rays", "rendering", "scanning", "scene", "studies", "validation"]
 
 
 @pytest.mark.parametrize("name", ["fathom", *(f"fathom.{name}" for name in modules)])

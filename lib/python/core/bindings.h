@@ -15,6 +15,7 @@ void bind_render(Module& core);
 void bind_questions(Module& core);
 void bind_evaluation(Module& core);
 void bind_rays(Module& core);
+void bind_areas(Module& core);
 void bind_deep(Module& core);
 void bind_depth_formats(Module& core);
 void bind_clipping(Module& core);

@@ -103,6 +103,7 @@ PYBIND11_MODULE(_core, module) {
   bind_questions(core);
   bind_evaluation(core);
   bind_rays(core);
+  bind_areas(core);
   bind_deep(core);
   bind_depth_formats(core);
   bind_clipping(core);

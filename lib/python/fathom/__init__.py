@@ -19,6 +19,7 @@ from .deep import DeepMap, render_deep
 from .depth_formats import DepthFormat
 from .evaluation import evaluate
 from .lens import Lens
+from .lit_areas import Areas, areas
 from .maps import NO_SEGMENT, NO_SURFACE, Map, read_map
 from .questions import probe, verify, visible
 from .rays import Rays
@@ -31,6 +32,7 @@ from .validation import Validation, validate
 __all__ = [
     "NO_SEGMENT",
     "NO_SURFACE",
+    "Areas",
     "Camera",
     "DeepMap",
     "DepthFormat",
@@ -47,6 +49,7 @@ __all__ = [
     "Validation",
     "ViewWarning",
     "__version__",
+    "areas",
     "clip",
     "compare",
     "compat",

@@ -18,6 +18,9 @@ RayChannels = Union[Sequence[RayChannel], str]
 RayMode = Literal["nearest", "all"]
 #: Of sight: whether all points of edges hide what is behind them.
 EdgeRule = Literal["closed", "generic"]
+#: What areas() measures, and what weighs centroids.
+AreaItem = Literal["object", "face", "triangle", "material", "group", "part", "label"]
+AreaCentroid = Literal["across", "lit"]
 Cull = Literal["none", "back", "front"]
 Engine = Literal["fast", "reference"]
 Normals = Literal["file", "vertex", "place"]
