@@ -288,6 +288,7 @@ FATHOM_API fathom_status fathom_hits_values(const fathom_hits* hits,
  * points have 3 numbers each and `stride` bytes from each to the next, 0: no gaps. */
 FATHOM_API fathom_status fathom_contains(const fathom_rays* rays, const double* points,
                                          size_t count, size_t stride, int threads, uint8_t* inside);
+
 /* --------------------------------------------------------------------------------------- areas */
 
 /* The items that are measured together. */
