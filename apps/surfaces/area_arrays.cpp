@@ -1,23 +1,15 @@
 #include "apps/surfaces/area_arrays.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 #include <string_view>
 #include <utility>
 
 #include "apps/surfaces/light_columns.h"
-#include "fathom/files/byte_order.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::app {
 namespace {
-
-template <class T>
-void put(files::Bytes& bytes, T value) {
-  bytes.resize(bytes.size() + sizeof(T));
-  store(&bytes[bytes.size() - sizeof(T)], value, std::endian::little);
-}
 
 std::u32string characters_of(const std::string& text) {
   const std::string shown = text::printable(text);

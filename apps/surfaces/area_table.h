@@ -13,8 +13,8 @@ namespace fathom::app {
 
 enum class TableFormat { csv, json, npz };
 
-/// The format of a table by the suffix of its file: .csv, .npz and .json. Other names are names of CSV,
-/// or of JSON if that is asked for.
+/// The format of a table by the suffix of its file: .csv, .npz and .json. Other names are names of
+/// CSV, or of JSON if that is asked for.
 /// Fails    UsageError: another suffix, or .csv or .npz where JSON is asked for.
 TableFormat table_format_of(const std::string& file, bool wants_json);
 

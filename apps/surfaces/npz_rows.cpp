@@ -3,12 +3,10 @@
 #include <libdeflate.h>
 #include <unistd.h>
 
-#include <bit>
 #include <cerrno>
 #include <utility>
 
 #include "apps/shell/standard_streams.h"
-#include "fathom/files/byte_order.h"
 #include "fathom/image/files/npy_array.h"
 
 /// [ZIP] with the extra fields of ZIP64. All numbers are little endian.
@@ -19,12 +17,6 @@ constexpr std::uint32_t local_magic = 0x04034b50, entry_magic = 0x02014b50, end_
                         end64_magic = 0x06064b50, locator_magic = 0x07064b50;
 constexpr std::uint32_t in_extra_field = 0xFFFFFFFF;
 constexpr std::uint16_t version = 45, utf8_names = 0x800, no_date = 0x21;
-
-template <class T>
-void put(files::Bytes& bytes, T value) {
-  bytes.resize(bytes.size() + sizeof(T));
-  store(&bytes[bytes.size() - sizeof(T)], value, std::endian::little);
-}
 
 std::string file_of(const NpzRows::Array& array) {
   return array.name + ".npy";
