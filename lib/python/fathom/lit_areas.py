@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from fractions import Fraction
 from math import isqrt
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -138,7 +139,7 @@ class Areas:
     def to_dataframe(self) -> Any:
         """A pandas DataFrame with a row for each light and item, with the columns of `fathom areas`. Needs pandas."""
         try:
-            import pandas  # type: ignore[import-not-found,import-untyped,unused-ignore]
+            pandas = importlib.import_module("pandas")
         except ImportError:
             raise ImportError("to_dataframe() needs pandas: pip install pandas") from None
         return pandas.DataFrame(self._columns())
