@@ -262,6 +262,25 @@ def of_hits(ask):
 def contains(given):
     inside, points = (ctypes.c_uint8 * 2)(9, 9), (ctypes.c_double * 6)(0.1, 0.2, 0, 5e-324, 0.1, 4)
     return library.fathom_contains(given.rays, points, ctypes.c_size_t(2), ctypes.c_size_t(0), 0, inside), list(inside)
+class Areas(ctypes.Structure):
+    _fields_ = [("lights", ctypes.c_size_t), ("items", ctypes.c_size_t),
+                *((name, ctypes.POINTER(ctypes.c_double)) for name in ("visible", "projected", "fraction", "lit", "centroid"))]
+
+
+def areas_of(given):
+    directions = (ctypes.c_double * 6)(0.1, 0.2, -1, 0.1, 0.3, -0.7)
+    areas = ctypes.POINTER(Areas)()
+    assert library.fathom_areas(given.scene, ctypes.c_size_t(2), directions, 0, None, ctypes.byref(areas)) == 0
+    return areas
+
+
+def areas(given):
+    found = areas_of(given)
+    count = found.contents.lights * found.contents.items
+    values = [ctypes.string_at(getattr(found.contents, name), 8 * count) for name in ("visible", "lit")]
+    values.append(ctypes.string_at(found.contents.centroid, 24 * count))
+    library.fathom_areas_free(found)
+    return values
 
 
 def freed(make, free):
@@ -317,6 +336,8 @@ calls = {
     "fathom_hits_values": of_hits(lambda hits: values_of(lambda to: library.fathom_hits_values(hits, to),
                                                          library.fathom_hits_count(hits))),
     "fathom_contains": contains,
+    "fathom_areas": areas,
+    "fathom_areas_free": freed(areas_of, library.fathom_areas_free),
 }
 
 

@@ -7,6 +7,8 @@ import json
 import os
 import pathlib
 import re
+import sys
+import unittest.mock
 from types import SimpleNamespace
 
 import fathom
@@ -128,6 +130,16 @@ def judged(given):
     return fathom.testing.assert_depth(given.map["Z"], given.scene, given.camera, model="float32-ray")
 
 
+def lit(given, **more):
+    return fathom.areas(given.scene, directions=[(0.1, 0.2, -1), (0.1, 0.3, -0.7)], by="triangle", **more)
+
+
+def dataframe(given):
+    """With a dict in place of a DataFrame: pandas may be missing."""
+    with unittest.mock.patch.dict(sys.modules, pandas=SimpleNamespace(DataFrame=dict)):
+        return lit(given).to_dataframe()
+
+
 Camera, Map, Scene = fathom.Camera, fathom.Map, fathom.Scene
 RaycastingScene, RayMeshIntersector = fathom.compat.RaycastingScene, fathom.compat.RayMeshIntersector
 rays_of_six = [(0.1, 0.2, 0, 0.01, 0, 1.1), (0.1, 0.2, 5e-324, 0, 0, 5e-324), (0.3, 0, 1, 0.3, 0, 1)]
@@ -138,6 +150,9 @@ calls = {
     "validate": lambda g: fathom.validate(g.map["Z"], g.scene, g.camera),
     "verify": lambda g: fathom.verify(g.map, g.scene),
     "visible": lambda g: fathom.visible(g.scene, g.camera),
+    "areas": lambda g: {name: value for name, value in vars(lit(g)).items() if not name.startswith("_")},
+    "Areas.exact": lambda g: lit(g).exact(0, 0),
+    "Areas.to_dataframe": dataframe,
     "probe": lambda g: fathom.probe(g.scene, g.camera, 3, 2),
     "evaluate": lambda g: fathom.evaluate(g.other, g.scene, g.camera, within=[0.01, 0.1], points=500, keep_points=True),
     "compare": lambda g: fathom.compare(g.map["Z"], g.near_map, metrics="channel"),
@@ -253,7 +268,8 @@ calls = {
     "compat.Tensor.cpu": lambda g: open3d_scene(g).cast_rays(rays_of_six)["t_hit"].cpu(),
 }
 #: An object of each class whose properties are looked at.
-of_class = {"Camera": lambda g: g.camera, "DeepMap": lambda g: g.deep, "DepthFormat": lambda g: g.format,
+of_class = {"Areas": lambda g: fathom.areas(g.scene, camera=g.camera), "Camera": lambda g: g.camera, "DeepMap": lambda g: g.deep,
+            "DepthFormat": lambda g: g.format,
             "MapComparison": lambda g: fathom.compare(g.map, g.near_map, channel="Z"),
             "Map": lambda g: g.scene.render(g.camera, background=0.1), "Scene": lambda g: g.scene,
             "Rays": lambda g: fathom.Rays(*three_and_three),

@@ -9,8 +9,9 @@ from pages import as_shown, run_page
 
 source = pathlib.Path(os.environ["FATHOM_SOURCE"])
 pages = ["README.md", "lib/python/README.md",
-         *(f"docs/{name}.md" for name in ("areas-satellite", "areas-window", "coverage", "data-sets", "depth-formats", "evaluation", "farms", "index", "lenses",
-                                          "python", "rays", "reference/exit-statuses")),
+         *(f"docs/{name}.md" for name in ("areas-satellite", "areas-window", "coverage", "data-sets", "depth-formats",
+                                          "evaluation", "farms", "index", "lenses", "python", "rays",
+                                          "reference/exit-statuses")),
          *(f"docs/guides/{page.name}" for page in sorted((source / "docs/guides").glob("*.md")))]
 
 
