@@ -127,8 +127,8 @@ def test_exact_areas_are_fractions_where_they_are_rational():
 
 
 def test_areas_from_cameras_are_those_of_visible():
-    scene = fathom.Scene.read(source / "data/scenes/pair.json")
-    cameras = [fathom.Camera.frame(scene, azimuth, 12, size=(64, 48)) for azimuth in (30, 75)]
+    scene = fathom.Scene.read(source / "data/meshes/house.gltf")
+    cameras = [fathom.Camera.frame(scene, azimuth=azimuth, elevation=12, size=(64, 48)) for azimuth in (30, 75)]
     found = fathom.areas(scene, camera=cameras, alone=True)
     for i, camera in enumerate(cameras):
         objects = fathom.visible(scene, camera).objects
@@ -138,7 +138,7 @@ def test_areas_from_cameras_are_those_of_visible():
     assert found.background == pytest.approx(64 * 48 - found.visible.sum(axis=1), rel=1e-12)
     assert found.exact(1, 0).visible == pytest.approx(found.visible[1, 0], rel=1e-15)
     one = fathom.areas(scene, camera=cameras[1], by="triangle", threads=1)
-    assert one.lit.shape == (1, 12176)
+    assert one.lit.shape == (1, 32)
     np.testing.assert_array_equal(one.visible[0], fathom.visible(scene, cameras[1]).triangles.visible)
 
 
@@ -264,7 +264,7 @@ def test_a_year_of_hours():
     np.testing.assert_allclose(np.hypot(np.hypot(x, y), z), 1, rtol=1e-15)
     np.testing.assert_allclose(np.degrees(np.arctan2(x, y)) % 360, a, atol=1e-9)
     np.testing.assert_allclose(np.degrees(np.arcsin(z)), e, atol=1e-7)
-    assert 65.3 - 0.1 < e.max() < 65.34 and -65.34 < e.min() < -65.3 + 0.1
+    assert 65 < e.max() < 65.34 and -65.34 < e.min() < -65
     assert ((a >= 0) & (a < 360)).all()
 
 
