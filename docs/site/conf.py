@@ -51,7 +51,7 @@ nitpick_ignore_regex = [
                  r"RayChannels|RayMode|RaysLike|EdgeRule|(sight\.)?SurfacePoints|Channels?|ColorMap|ColorScale|Compression|"
                  r"DeepCompression|AreaCentroid|AreaItem|"
                  r"Engine|Frame|Measure|Mesh|Metrics|Model|NormalAxes|Storage)"),
-    ("py:class", r"fathom\._\w+(\..*)?"),
+    ("py:class", r"fathom\.(\w+\.)?_\w+(\..*)?"),
     ("c:identifier", r"u?int\d+_t|size_t"),
 ]
 

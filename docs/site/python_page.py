@@ -12,6 +12,7 @@ GROUPS = {
     "Rays": ["Rays", "compat.RaycastingScene", "compat.RayMeshIntersector", "compat.Hits", "compat.Tensor"],
     "Maps": ["Map", "read_map", "compare", "MapComparison", "NO_SURFACE"],
     "Questions": ["probe", "questions.CoveringTriangle", "visible", "questions.VisibleAreas", "questions.Areas",
+                  "areas", "Areas", "lit_areas.ExactArea",
                   "render_deep", "DeepMap", "verify", "questions.Verification", "questions.Disagreement"],
     "Evaluation": ["evaluate", "evaluation.Evaluation", "evaluation.Depth", "evaluation.Distances"],
     "Depth formats": ["DepthFormat"],
