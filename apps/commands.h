@@ -24,6 +24,9 @@ void add_coplanar(Command& program);
 /// `fathom sun`: directions towards the sun, for `areas`.
 void add_sun(Command& program);
 
+/// `fathom draw`: visible edges as SVG or PDF.
+void add_draw(Command& program);
+
 /// `fathom cast`: which triangles rays meet.
 void add_cast(Command& program);
 

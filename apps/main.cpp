@@ -43,9 +43,9 @@ std::vector<AddCommand> commands(const std::vector<std::string>& arguments) {
   const auto add_render_command = [arguments](Command& program) {
     add_render(program, render_exactly, by_textbook(arguments));
   };
-  return {add_render_command, add_probe,   add_info,    add_preview, add_compare, add_convert,
-          add_camera,         add_dataset, add_visible, add_areas,   add_sun,     add_evaluate,
-          add_coplanar,       add_cast,    add_depth};
+  return {add_render_command, add_probe,    add_info,    add_preview, add_compare, add_convert,
+          add_camera,         add_dataset,  add_visible, add_areas,   add_sun,     add_draw,
+          add_evaluate,       add_coplanar, add_cast,    add_depth};
 }
 
 }  // namespace

@@ -153,6 +153,7 @@ calls = {
     "areas": lambda g: {name: value for name, value in vars(lit(g)).items() if not name.startswith("_")},
     "Areas.exact": lambda g: lit(g).exact(0, 0),
     "Areas.to_dataframe": dataframe,
+    "draw": lambda g: g.written("w.svg", lambda file: fathom.draw(g.scene, g.camera, file)),
     "probe": lambda g: fathom.probe(g.scene, g.camera, 3, 2),
     "evaluate": lambda g: fathom.evaluate(g.other, g.scene, g.camera, within=[0.01, 0.1], points=500, keep_points=True),
     "compare": lambda g: fathom.compare(g.map["Z"], g.near_map, metrics="channel"),

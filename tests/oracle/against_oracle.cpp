@@ -13,22 +13,6 @@ namespace {
 
 using oracle::Q;
 
-oracle::RayCamera ray_camera(const Camera& c) {
-  oracle::RayCamera r{.perspective = is_perspective(c.projection),
-                      .fx = c.projection.fx,
-                      .fy = c.projection.fy,
-                      .cx = c.projection.cx,
-                      .cy = c.projection.cy,
-                      .skew = c.projection.skew,
-                      .pixel_centre = c.projection.pixel_centre};
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 4; ++k) r.world_to_camera[i][k] = c.world_to_camera[i][k];
-  }
-  r.near = c.near;
-  if (std::isfinite(c.far)) r.far = Q(c.far);
-  return r;
-}
-
 Q rational(const Dyadic& x) {
   Q q;
   mpq_set_z(q.get_mpq_t(), x.significand());
@@ -49,19 +33,6 @@ oracle::Vector world_point(const Object& object, const MeshPoint& p) {
     }
   }
   return world;
-}
-
-std::vector<oracle::Triangle> triangles_of(const Scene& scene) {
-  std::vector<oracle::Triangle> all;
-  for (const Object& object : scene.objects) {
-    const Mesh& mesh = scene.meshes[object.mesh];
-    for (const CornerIndices& corners : mesh.triangles) {
-      oracle::Triangle t;
-      for (std::size_t i = 0; i < 3; ++i) t[i] = world_point(object, mesh.vertices[corners[i]]);
-      all.push_back(t);
-    }
-  }
-  return all;
 }
 
 float nearest_root(const Q& q) {
@@ -175,6 +146,35 @@ Q rational(const Ratio& x) {
 
 oracle::Areas areas_at(const Scene& scene, const Camera& camera) {
   return {ray_camera(camera), triangles_of(scene)};
+}
+
+oracle::RayCamera ray_camera(const Camera& c) {
+  oracle::RayCamera r{.perspective = is_perspective(c.projection),
+                      .fx = c.projection.fx,
+                      .fy = c.projection.fy,
+                      .cx = c.projection.cx,
+                      .cy = c.projection.cy,
+                      .skew = c.projection.skew,
+                      .pixel_centre = c.projection.pixel_centre};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 4; ++k) r.world_to_camera[i][k] = c.world_to_camera[i][k];
+  }
+  r.near = c.near;
+  if (std::isfinite(c.far)) r.far = Q(c.far);
+  return r;
+}
+
+std::vector<oracle::Triangle> triangles_of(const Scene& scene) {
+  std::vector<oracle::Triangle> all;
+  for (const Object& object : scene.objects) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    for (const CornerIndices& corners : mesh.triangles) {
+      oracle::Triangle t;
+      for (std::size_t i = 0; i < 3; ++i) t[i] = world_point(object, mesh.vertices[corners[i]]);
+      all.push_back(t);
+    }
+  }
+  return all;
 }
 
 oracle::RayCaster cast_at(const Scene& scene, const Camera& camera) {

@@ -16,6 +16,10 @@
 
 namespace fathom::testing {
 
+/// Camera and triangles as the oracle takes them.
+oracle::RayCamera ray_camera(const Camera& camera);
+std::vector<oracle::Triangle> triangles_of(const Scene& scene);
+
 /// Rays through the pixels of `camera` at every triangle of the scene.
 oracle::RayCaster cast_at(const Scene& scene, const Camera& camera);
 

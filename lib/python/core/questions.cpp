@@ -5,6 +5,7 @@
 
 #include "bindings.h"
 #include "fathom/area/visible_areas.h"
+#include "fathom/drawing/drawing.h"
 #include "fathom/reference/pixel_hits.h"
 #include "fathom/reference/probe.h"
 #include "fathom/reference/verify.h"
@@ -76,6 +77,19 @@ py::tuple visible(const SharedScene& shared, const Camera& camera, const std::st
   return py::make_tuple(columns(areas.triangles), columns(areas.objects));
 }
 
+py::bytes draw_scene(const SharedScene& shared, const Camera& camera, const std::string& edges,
+                     double crease_angle, double stroke, const std::string& cull, int threads,
+                     bool as_pdf) {
+  const std::shared_ptr<const Scene> scene = shared.scene;
+  const EdgeOptions options{named_value("edges", all_edge_selections, edges), crease_angle,
+                            named_value("cull", all_culls, cull), threads};
+  const std::string file = run([&](const auto& progress) {
+    const Drawing drawing = draw(*scene, camera, options, progress);
+    return as_pdf ? pdf_of(drawing, {stroke}) : svg_of(drawing, {stroke});
+  });
+  return file;
+}
+
 py::tuple verify_map(const SharedMap& map, const SharedScene& shared, const Camera& camera,
                      const RenderOptions& asked, std::uint64_t count) {
   const std::shared_ptr<const Scene> scene = shared.scene;
@@ -97,6 +111,8 @@ void bind_questions(Module& core) {
   core.def("probe", &probe_pixel);
   core.def("hits_of_pixels", &hits_of_image);
   core.def("visible", &visible);
+  core.def("draw", &draw_scene);
+  core.attr("edge_selections") = names_of(all_edge_selections);
   core.def("verify", &verify_map);
 }
 

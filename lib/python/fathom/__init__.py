@@ -21,7 +21,7 @@ from .evaluation import evaluate
 from .lens import Lens
 from .lit_areas import Areas, areas
 from .maps import NO_SEGMENT, NO_SURFACE, Map, read_map
-from .questions import probe, verify, visible
+from .questions import draw, probe, verify, visible
 from .rays import Rays
 from .rendering import render
 from .scanning import scan
@@ -53,6 +53,7 @@ __all__ = [
     "clip",
     "compare",
     "compat",
+    "draw",
     "evaluate",
     "pipeline",
     "probe",

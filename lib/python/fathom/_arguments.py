@@ -95,6 +95,8 @@ def as_number(name: str, value: Any) -> float:
 
 #: The values of `cull`.
 culls = tuple(_core.culls)
+#: The values of `edges`.
+edge_selections = tuple(_core.edge_selections)
 #: The values of `frame`.
 point_frames = tuple(_core.point_frames)
 

@@ -23,6 +23,7 @@ point_frames: list[str]
 normal_axes: list[str]
 quantities: list[str]
 culls: list[str]
+edge_selections: list[str]
 contents: dict[str, str]
 png_scale: float
 engines: list[str]
@@ -309,6 +310,9 @@ def exact_light_area(
 def exact_camera_area(
     question: AreaQuestion, camera: Camera, item: int, alone: bool, cull: str, threads: int
 ) -> tuple[tuple[int, int, int, int] | None, tuple[int, int, int, int] | None]: ...
+def draw(
+    scene: Scene, camera: Camera, edges: str, crease_angle: float, stroke: float, cull: str, threads: int, as_pdf: bool
+) -> bytes: ...
 class Rays: ...
 
 def prepare_rays(scene: Scene, threads: int) -> Rays: ...

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+import os
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from . import _core
-from ._arguments import as_count, as_threads, camera_handle, culls, one_of, scene_handle
+from ._arguments import as_count, as_number, as_threads, camera_handle, culls, edge_selections, one_of, scene_handle
+from ._core import OutputError
+from ._files import make_folder_of, path_of
 from ._render import rendered, stored_type
 from .maps import Map
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from ._files import Path
     from .camera import Camera
-    from .names import Cull
+    from .names import Cull, EdgeSelection
     from .scene import Scene
 
 
@@ -97,6 +101,30 @@ def visible(scene: Scene, camera: Camera, *, cull: Cull = "none", threads: int =
     triangles, objects = _core.visible(scene_handle(scene), camera_handle(camera), one_of("cull", cull, culls),
                                        as_threads(threads))
     return VisibleAreas(Areas(*triangles), Areas(*objects))
+
+
+def draw(scene: Scene, camera: Camera, path: Path, *, edges: EdgeSelection = "creases", crease_angle: float = 30,
+         stroke: float = 1, cull: Cull = "none", threads: int = 0) -> None:
+    """Writes the visible edges as a drawing: a file .svg or .pdf with a layer for each object. Visibility is exact; ends of
+    lines are rounded once.
+
+    `edges` are outlines ("silhouettes"), also edges at which a surface turns by at least `crease_angle` degrees
+    ("creases"), or "all" edges of triangles. `stroke` is the width of the lines in pixels. Raises UsageError for a camera
+    with a lens that bends rays, OutputError if the file cannot be written.
+    """
+    file = path_of("path", path)
+    suffix = os.fsdecode(file)[-4:]
+    if suffix not in (".svg", ".pdf"):
+        raise ValueError(f"path: expected a name that ends in .svg or .pdf, found {file!r}")
+    drawing = _core.draw(scene_handle(scene), camera_handle(camera), one_of("edges", edges, edge_selections),
+                         as_number("crease_angle", crease_angle), as_number("stroke", stroke), one_of("cull", cull, culls),
+                         as_threads(threads), suffix == ".pdf")
+    make_folder_of(file)
+    try:
+        with open(file, "wb") as opened:
+            opened.write(drawing)
+    except OSError as error:
+        raise OutputError(f"{os.fsdecode(file)}: {error.strerror}") from None
 
 
 class Disagreement(NamedTuple):

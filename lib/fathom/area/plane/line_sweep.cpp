@@ -7,8 +7,8 @@
 namespace fathom::area {
 
 LineSweep::LineSweep(const PlaneMesh& mesh, const PlanePart& part,
-                     std::vector<std::uint32_t> triangles)
-    : mesh_(mesh), part_(part) {
+                     std::vector<std::uint32_t> triangles, std::uint32_t limit)
+    : mesh_(mesh), part_(part), limit_(limit) {
   add_sides();
   pieces_.reserve(triangles.size());
   for (const std::uint32_t triangle : triangles) {
@@ -96,19 +96,34 @@ LineSweep::Order LineSweep::order_of(std::uint32_t s, std::uint32_t t) {
             {}};
   }
   const HalfPlane half(local);
-  bool in_front = false, behind = false;
   TierCounts counts;
+  std::vector<Sign> signs;
   for (std::size_t k = 0; k < common.size(); ++k) {
     const OrientedLine &e = common[k], &f = common[(k + 1) % common.size()];
-    const Sign sign = oriented(sign_of_determinant(half, lines_[e.line], lines_[f.line], counts),
-                               e.reversed != f.reversed);
-    in_front |= sign == Sign::positive;
-    behind |= sign == Sign::negative;
+    signs.push_back(oriented(sign_of_determinant(half, lines_[e.line], lines_[f.line], counts),
+                             e.reversed != f.reversed));
   }
-  if (!in_front || !behind) return {in_front ? Sign::positive : Sign::negative, {}};
+  const bool in_front = std::ranges::find(signs, Sign::positive) != signs.end();
+  const bool behind = std::ranges::find(signs, Sign::negative) != signs.end();
+  if (!in_front || !behind) {
+    find_meetings(common, signs);
+    return {in_front ? Sign::positive : Sign::negative, {}};
+  }
   const OrientedLine line = lines_.add(local);
   changes_.push_back(line.line);
   return {Sign::zero, line};
+}
+
+/// signs[k] is the sign of an order's form where edges k and k + 1 meet. Where it is 0 at both ends
+/// of an edge, that is on the form's line.
+void LineSweep::find_meetings(const LinePolygon& common, const std::vector<Sign>& signs) {
+  for (std::size_t k = 0; k < common.size(); ++k) {
+    const std::size_t next = (k + 1) % common.size();
+    if (signs[k] != Sign::zero || signs[next] != Sign::zero) continue;
+    const auto side = std::ranges::find(sides_, common[next].line, &OrientedLine::line);
+    if (side != sides_.end())
+      meets_at_side_[static_cast<std::size_t>(side - sides_.begin())] = true;
+  }
 }
 
 /// What happens along one line.
@@ -120,7 +135,7 @@ class LineSweep::Walk {
         along_(along),
         order_(sweep.lines_, along, sweep.sides_) {}
 
-  void add_boundaries(std::vector<Boundary>& boundaries) {
+  void add_spans(std::vector<Span>& spans) {
     const auto part = extent_of(0, sweep_.sides_, 0, order_.end());
     if (!part) return;
     std::vector<std::uint32_t> ends{part->from, part->to};
@@ -142,21 +157,21 @@ class LineSweep::Walk {
     }
     std::sort(ends.begin(), ends.end());
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-    add_between(ends, boundaries);
+    add_between(ends, spans);
   }
 
  private:
-  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
   /// The part of the line between two places that lies in all half-planes, if it has a length.
   [[nodiscard]] std::optional<Extent> extent_of(std::uint32_t piece,
                                                 const std::vector<OrientedLine>& region,
                                                 std::uint32_t from, std::uint32_t to) const {
-    Extent extent{piece, from, to, true, true};
-    for (const OrientedLine& h : region) {
+    Extent extent{piece, from, to, true, true, none};
+    for (std::uint32_t k = 0; k < region.size(); ++k) {
+      const OrientedLine& h = region[k];
       if (h.line == along_) {
         // The inside of the line itself is on the left.
         (h.reversed ? extent.left : extent.right) = false;
+        if (extent.edge == none) extent.edge = k;
         continue;
       }
       const Sign turn = oriented(lines_.turn(along_, h.line), h.reversed);
@@ -183,19 +198,17 @@ class LineSweep::Walk {
     return lines_.determinant(along_, at, m) * lines_.turn(along_, at);
   }
 
-  void add_between(const std::vector<std::uint32_t>& ends,
-                   std::vector<Boundary>& boundaries) const {
-    std::uint32_t left = none, right = none, from = ends[0];
+  void add_between(const std::vector<std::uint32_t>& ends, std::vector<Span>& spans) const {
+    const Extent *left = nullptr, *right = nullptr;
+    std::uint32_t from = ends[0];
     const auto close = [&](std::uint32_t to) {
       if (left == right) return;
-      const HalfPlane &e = lines_[along_], &first = lines_[order_.line_at(from)],
-                      &last = lines_[order_.line_at(to)];
-      if (left != none) boundaries[left].push_back({&e, &first, &last, false});
-      if (right != none) boundaries[right].push_back({&e, &first, &last, true});
+      spans.push_back(
+          {along_, order_.line_at(from), order_.line_at(to), side_of(left), side_of(right)});
     };
     for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
-      const std::uint32_t next_left = front(ends[k], ends[k + 1], true),
-                          next_right = front(ends[k], ends[k + 1], false);
+      const Extent *next_left = front(ends[k], ends[k + 1], true),
+                   *next_right = front(ends[k], ends[k + 1], false);
       if (next_left == left && next_right == right) continue;
       close(ends[k]);
       left = next_left;
@@ -205,14 +218,18 @@ class LineSweep::Walk {
     close(ends.back());
   }
 
+  static Side side_of(const Extent* extent) {
+    return extent ? Side{extent->piece, extent->edge} : Side{};
+  }
+
   /// The piece that is visible on one side of the line, between neighbouring ends.
-  [[nodiscard]] std::uint32_t front(std::uint32_t from, std::uint32_t to, bool on_left) const {
-    std::uint32_t nearest = none;
+  [[nodiscard]] const Extent* front(std::uint32_t from, std::uint32_t to, bool on_left) const {
+    const Extent* nearest = nullptr;
     for (const Extent& extent : extents_) {
       if (!(on_left ? extent.left : extent.right)) continue;
       if (extent.from > from || extent.to < to) continue;
-      if (nearest == none || !is_in_front(nearest, extent.piece, from, to, on_left)) {
-        nearest = extent.piece;
+      if (!nearest || !is_in_front(nearest->piece, extent.piece, from, to, on_left)) {
+        nearest = &extent;
       }
     }
     return nearest;
@@ -255,10 +272,20 @@ bool LineSweep::meets_part(std::uint32_t line) const {
   return false;
 }
 
+std::vector<LineSweep::Span> LineSweep::spans() {
+  std::vector<Span> spans;
+  for (std::uint32_t along = 0; along < lines_.size(); ++along) {
+    if (meets_part(along)) Walk(*this, along).add_spans(spans);
+  }
+  return spans;
+}
+
 std::vector<Boundary> LineSweep::boundaries() {
   std::vector<Boundary> boundaries(pieces_.size());
-  for (std::uint32_t along = 0; along < lines_.size(); ++along) {
-    if (meets_part(along)) Walk(*this, along).add_boundaries(boundaries);
+  for (const Span& span : spans()) {
+    const HalfPlane &e = lines_[span.along], &from = lines_[span.from], &to = lines_[span.to];
+    if (span.left.piece != none) boundaries[span.left.piece].push_back({&e, &from, &to, false});
+    if (span.right.piece != none) boundaries[span.right.piece].push_back({&e, &from, &to, true});
   }
   return boundaries;
 }

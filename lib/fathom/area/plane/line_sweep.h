@@ -1,7 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -21,13 +22,35 @@ class LineSweep {
  public:
   /// More lines take longer than dividing the part along one of them.
   static constexpr std::uint32_t most_lines = 192;
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-  LineSweep(const PlaneMesh& mesh, const PlanePart& part, std::vector<std::uint32_t> triangles);
+  /// `limit` is the greatest number of lines.
+  LineSweep(const PlaneMesh& mesh, const PlanePart& part, std::vector<std::uint32_t> triangles,
+            std::uint32_t limit = most_lines);
   LineSweep(const LineSweep&) = delete;
   LineSweep& operator=(const LineSweep&) = delete;
 
-  /// Whether there are at most most_lines; if not, boundaries() must not be called.
-  [[nodiscard]] bool is_simple() const { return lines_.size() <= most_lines; }
+  /// Whether there are at most so many lines; if not, spans() and boundaries() must not be called.
+  [[nodiscard]] bool is_simple() const { return lines_.size() <= limit_; }
+
+  /// A side of a span: the visible piece, and which of its half-planes the line bounds, as their
+  /// order in the surface's region or corners. Both may be `none`.
+  struct Side {
+    std::uint32_t piece = none, edge = none;
+  };
+  /// A part of a line with different visible pieces on its two sides. `along`, `from` and `to` are
+  /// lines of lines(); the walk has the inside of `along` on its left.
+  struct Span {
+    std::uint32_t along, from, to;
+    Side left, right;
+  };
+  /// All such parts of all lines. Outside the part nothing is visible.
+  [[nodiscard]] std::vector<Span> spans();
+  [[nodiscard]] const PartLines& lines() const { return lines_; }
+  /// The lines u = 0, v = 0, u = width and v = height of the part.
+  [[nodiscard]] const LinePolygon& sides() const { return sides_; }
+  /// Whether two pieces are equally deep all along a side of the part where both are.
+  [[nodiscard]] bool pieces_meet_at_side(std::size_t side) const { return meets_at_side_[side]; }
   /// The boundaries of what is visible of each triangle, in the coordinates of the part, which
   /// begin at its left top corner. Their lines stay where they are as long as this lives.
   [[nodiscard]] std::vector<Boundary> boundaries();
@@ -54,6 +77,7 @@ class LineSweep {
   struct Extent {
     std::uint32_t piece, from, to;
     bool left, right;
+    std::uint32_t edge;
   };
   class Walk;
 
@@ -66,12 +90,15 @@ class LineSweep {
     return orders_[std::size_t{s} * pieces_.size() + t];
   }
   void find_orders();
+  void find_meetings(const LinePolygon& common, const std::vector<Sign>& signs);
   [[nodiscard]] bool meets_part(std::uint32_t line) const;
 
   const PlaneMesh& mesh_;
   PlanePart part_;
+  std::uint32_t limit_;
   PartLines lines_;
   LinePolygon sides_;
+  std::array<bool, 4> meets_at_side_{};
   std::vector<Piece> pieces_;
   /// Of the pieces s < t, at s·size + t.
   std::vector<Order> orders_;

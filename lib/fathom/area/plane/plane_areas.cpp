@@ -58,13 +58,11 @@ PlaneAreas::PlaneAreas(const PlaneMesh& mesh, const WantedTerms& wanted,
       resolved_(resolve(mesh, mesh.scene().image())),
       visibility_(mesh.size(), Visibility::hidden),
       place_(mesh.size(), 0) {
-  const PlanePart& image = mesh.scene().image();
   std::uint32_t places = 0;
   for (std::uint32_t i = 0; i < mesh.size(); ++i) {
     const PartFlags flags = resolved_.flags[i];
     if ((flags & (is_seen_somewhere | is_crowded_somewhere)) == 0) continue;
-    const bool is_whole =
-        flags == is_seen_somewhere && mesh.is_regular(i) && mesh.box(i).is_inside(image);
+    const bool is_whole = is_wholly_visible(mesh, resolved_, i);
     visibility_[i] = is_whole ? Visibility::whole : Visibility::partly;
     if (!is_whole) place_[i] = places++;
   }

@@ -57,6 +57,8 @@ class ProjectedScene {
   [[nodiscard]] const SurfaceRegion& kept_surface(std::uint32_t number) const {
     return by_forms_.at(number);
   }
+  /// The exact place of a vertex on the image, in homogeneous coordinates.
+  [[nodiscard]] ExactVector3 homogeneous(std::uint32_t vertex) const;
   /// The sign of the triangle's area on the image with its corners as the mesh has them, for
   /// W > 0; zero if it is seen edge on. Negative where the front is seen.
   [[nodiscard]] Sign orientation(std::uint32_t number) const;
@@ -74,7 +76,6 @@ class ProjectedScene {
   void add_part(const CoverageFrame& frame, const TriangleSource::Part& part,
                 VertexNumbers& numbers);
   void classify(const CoverageFrame& frame, std::uint32_t number);
-  [[nodiscard]] ExactVector3 homogeneous(std::uint32_t vertex) const;
   [[nodiscard]] Sign orientation_of(const CornerIndices& corners) const;
 
   bool is_perspective_;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <mutex>
 #include <numeric>
-#include <optional>
-#include <utility>
 
 #include "fathom/numeric/double_word.h"
 #include "fathom/threads/interruption.h"
@@ -36,18 +34,6 @@ std::optional<double> exact_middle(double from, double to) {
   const double middle = sum.hi / 2;
   if (sum.lo != 0 || !(from < middle && middle < to)) return std::nullopt;
   return middle;
-}
-
-/// Across the longer side.
-std::optional<std::pair<PlanePart, PlanePart>> halves(const PlanePart& part) {
-  PlanePart first = part, second = part;
-  const bool across = part.right - part.left >= part.bottom - part.top;
-  const auto middle =
-      across ? exact_middle(part.left, part.right) : exact_middle(part.top, part.bottom);
-  if (!middle) return std::nullopt;
-  (across ? first.right : first.bottom) = *middle;
-  (across ? second.left : second.top) = *middle;
-  return std::pair(first, second);
 }
 
 class Resolver {
@@ -148,6 +134,17 @@ void add(ResolvedParts& all, const ResolvedParts& some) {
 }
 
 }  // namespace
+
+std::optional<std::pair<PlanePart, PlanePart>> halves(const PlanePart& part) {
+  PlanePart first = part, second = part;
+  const bool across = part.right - part.left >= part.bottom - part.top;
+  const auto middle =
+      across ? exact_middle(part.left, part.right) : exact_middle(part.top, part.bottom);
+  if (!middle) return std::nullopt;
+  (across ? first.right : first.bottom) = *middle;
+  (across ? second.left : second.top) = *middle;
+  return std::pair(first, second);
+}
 
 ResolvedParts resolve(const PlaneMesh& mesh, const PlanePart& whole) {
   Work all{whole, {}};

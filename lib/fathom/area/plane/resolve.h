@@ -1,7 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "fathom/area/plane/sheets.h"
@@ -34,6 +35,15 @@ struct ResolvedParts {
   /// How many parts were looked at, and how many triangles in them.
   std::uint64_t parts = 0, triangles_in_parts = 0;
 };
+
+/// The halves of a part, across its longer side; nullopt where binary64 has no number between.
+std::optional<std::pair<PlanePart, PlanePart>> halves(const PlanePart& part);
+
+/// Whether all of a triangle is inside the image and visible.
+inline bool is_wholly_visible(const PlaneMesh& mesh, const ResolvedParts& parts, std::uint32_t i) {
+  return parts.flags[i] == is_seen_somewhere && mesh.is_regular(i) &&
+         mesh.box(i).is_inside(mesh.scene().image());
+}
 
 /// Divides the part of the mesh within `whole`. Each part ends as empty, as simple, where every
 /// triangle left is visible, or as crowded.
