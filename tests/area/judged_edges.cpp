@@ -57,6 +57,8 @@ struct Seen {
   std::uint32_t number;
   std::vector<Affine> inside;
   Affine over, under;
+  /// Two corners of a box around it, if all of it is in front of the camera.
+  std::optional<std::array<Point, 2>> box;
 
   [[nodiscard]] bool ends_at(const Affine& line) const {
     return std::any_of(inside.begin(), inside.end(),
@@ -80,6 +82,33 @@ struct Seen {
   }
 };
 
+/// Whether two triangles certainly have no area in common.
+bool are_apart(const Seen& s, const Seen& t) {
+  if (!s.box || !t.box) return false;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    if ((*s.box)[1][axis] <= (*t.box)[0][axis] || (*t.box)[1][axis] <= (*s.box)[0][axis])
+      return true;
+  }
+  return false;
+}
+
+std::optional<std::array<Point, 2>> box_of(const oracle::RayCamera& camera, const Triangle& t) {
+  const Q shift = camera.pixel_centre - Q(1, 2);
+  std::array<Point, 2> box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (camera.perspective && sgn(t[k][2]) <= 0) return std::nullopt;
+    const Q scale = camera.perspective ? Q(1 / t[k][2]) : Q(1);
+    const Q x = t[k][0] * scale, y = t[k][1] * scale;
+    const Point p{camera.fx * x + camera.skew * y + camera.cx - shift,
+                  camera.fy * y + camera.cy - shift};
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      if (k == 0 || p[axis] < box[0][axis]) box[0][axis] = p[axis];
+      if (k == 0 || p[axis] > box[1][axis]) box[1][axis] = p[axis];
+    }
+  }
+  return box;
+}
+
 Affine plus(const Affine& f, const Q& k, const Affine& g) {
   return {f[0] + k * g[0], f[1] + k * g[1], f[2] + k * g[2]};
 }
@@ -97,7 +126,7 @@ std::optional<Seen> seen(const JudgedScene& scene, std::uint32_t number) {
   // The weight of a corner times D·Δ: the volume of the ray and the other two, seen from its origin.
   std::array<Affine, 3> weights;
   for (std::size_t i = 0; i < 3; ++i) {
-    weights[i] = affine([&](const Point& p) {
+    weights[i] = affine([&](const Point& p) -> Q {
       const Ray ray = ray_at(camera, p);
       return det(ray.direction, minus(t[(i + 1) % 3], ray.origin),
                  minus(t[(i + 2) % 3], ray.origin));
@@ -108,7 +137,7 @@ std::optional<Seen> seen(const JudgedScene& scene, std::uint32_t number) {
   if (sgn(whole) == 0) return std::nullopt;
   const Q side = sgn(whole);
   const Affine nothing{0, 0, 0};
-  Seen result{number, {}, nothing, plus(nothing, side, sum)};
+  Seen result{number, {}, nothing, plus(nothing, side, sum), box_of(camera, t)};
   for (std::size_t i = 0; i < 3; ++i) {
     result.inside.push_back(plus(nothing, side, weights[i]));
     if (!camera.perspective) result.over = plus(result.over, side * t[i][2], weights[i]);
@@ -139,9 +168,9 @@ class Judge {
     for (const Seen& s : seen_) {
       for (const Affine& f : s.inside) add_line(f);
       for (const Seen& t : seen_) {
-        if (s.number >= t.number) continue;
+        if (s.number >= t.number || are_apart(s, t)) continue;
         // Affine: over or under is constant.
-        add_line(affine([&](const Point& p) {
+        add_line(affine([&](const Point& p) -> Q {
           return at(s.over, p) * at(t.under, p) - at(t.over, p) * at(s.under, p);
         }));
       }

@@ -88,6 +88,8 @@ void expect_merged(const std::vector<VisibleEdge>& edges) {
 void expect_as_judged(const Scene& scene, const Camera& camera) {
   const std::vector<JudgedEdge> pieces = testing::judged_edges(judged_scene(scene, camera));
   const std::vector<VisibleEdge> edges = edges_of(scene, camera);
+  // Only so few triangles may all be hidden, culled or seen edge on.
+  EXPECT_TRUE(TriangleSource(scene).count() <= 20 || pieces.size() > 3U);
   expect_judged(edges, pieces);
   expect_merged(edges);
   std::vector<JudgedEdge> outlines;
@@ -124,6 +126,179 @@ TEST(VisibleEdges, OfCrowdsAreJudged) {
     expect_as_judged(crowd.scene, testing::plain_camera(1, 1));
     expect_as_judged(crowd.scene, testing::plain_camera(3, 2));
   }
+}
+
+// Scenes of more triangles than a line sweep takes at once: parts, sheets and sides of parts. On an
+// image of 8×8 pixels, parts end at whole numbers.
+
+/// Adds triangles with corners at halves, in a slab of depths.
+void add_triangles(testing::CrowdBuilder& crowd, std::mt19937_64& random, int count, double size) {
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  for (int i = 0; i < count; ++i) {
+    const double u = below(17) / 2.0, v = below(17) / 2.0;
+    const auto corner = [&] {
+      return MeshPoint{u + size * (below(5) - 2) / 2, v + size * (below(5) - 2) / 2,
+                       4 + below(9) / 2.0};
+    };
+    const MeshPoint a = corner(), b = corner(), c = corner();
+    crowd.add(a, b, c);
+  }
+}
+
+/// A surface over a grid of whole numbers; `scale` grid lines of 8 are left out.
+void add_terrain(testing::CrowdBuilder& crowd, std::mt19937_64& random, int step, double depth) {
+  std::vector<double> heights(81);
+  for (double& height : heights) height = depth + static_cast<double>(random() % 3) / 2;
+  const auto at = [&](int x, int y) {
+    return MeshPoint{double(x), double(y), heights[static_cast<std::size_t>(9 * y + x)]};
+  };
+  for (int y = 0; y < 8; y += step) {
+    for (int x = 0; x < 8; x += step) {
+      crowd.add(at(x, y), at(x + step, y), at(x, y + step));
+      crowd.add(at(x + step, y), at(x + step, y + step), at(x, y + step));
+    }
+  }
+}
+
+/// The same scene in front of an eye, at the same places of the image.
+Scene in_perspective(Scene scene) {
+  for (MeshPoint& p : scene.meshes[0].vertices) p = {p.x * p.z, p.y * p.z, p.z};
+  return scene;
+}
+
+Camera eye(std::uint32_t size) {
+  Camera camera = testing::camera_of(size, size, 1);
+  camera.projection.cx = camera.projection.cy = 0;
+  return camera;
+}
+
+void expect_as_judged_by_both(const Scene& scene) {
+  expect_as_judged(scene, testing::plain_camera(8, 8));
+  expect_as_judged(in_perspective(scene), eye(8));
+}
+
+TEST(VisibleEdges, OfTerrainsAreJudged) {
+  std::mt19937_64 random(81);
+  for (int i = 0; i < 4 / std::min(testing::effort, 4) && !HasFailure(); ++i) {
+    SCOPED_TRACE(i);
+    testing::CrowdBuilder crowd;
+    add_terrain(crowd, random, i % 2 == 0 ? 1 : 2, 6);
+    add_triangles(crowd, random, i % 2 == 0 ? 3 : 12, 3);
+    expect_as_judged_by_both(crowd.scene());
+  }
+}
+
+TEST(VisibleEdges, OfManyTrianglesAreJudged) {
+  std::mt19937_64 random(82);
+  for (int i = 0; i < 4 / std::min(testing::effort, 4) && !HasFailure(); ++i) {
+    SCOPED_TRACE(i);
+    testing::CrowdBuilder crowd;
+    add_triangles(crowd, random, 50, 1);
+    expect_as_judged_by_both(crowd.scene());
+  }
+}
+
+/// Planes that cross exactly where the image is cut, behind triangles that make it be cut.
+TEST(VisibleEdges, OfPlanesThatCrossAtASideOfPartsAreJudged) {
+  std::mt19937_64 random(83);
+  testing::CrowdBuilder crowd;
+  for (const double slope : {1.0, -1.0}) {
+    const auto at = [&](double x, double y) { return MeshPoint{x, y, 20 + slope * (x - 4)}; };
+    crowd.add(at(-1, -1), at(19, -1), at(-1, 19));
+  }
+  add_triangles(crowd, random, 40, 1);
+  expect_as_judged_by_both(crowd.scene());
+}
+
+/// Closed boxes of which each face is divided into a grid: sheets, in parts that hold nothing else.
+Mesh divided_box(int cells) {
+  Mesh mesh;
+  const auto add_face = [&](std::size_t axis, double level) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    const auto columns = static_cast<std::uint32_t>(cells + 1);
+    for (std::uint32_t i = 0; i < columns * columns; ++i) {
+      std::array<double, 3> p{};
+      p[axis] = level;
+      p[(axis + 1) % 3] = 2.0 * (i % columns) / cells - 1;
+      p[(axis + 2) % 3] = 2.0 * (i / columns) / cells - 1;
+      mesh.vertices.push_back({p[0], p[1], p[2]});
+    }
+    for (std::uint32_t i = 0; i < columns * (columns - 1); ++i) {
+      if (i % columns == columns - 1) continue;
+      const std::uint32_t a = first + i, b = a + columns;
+      mesh.triangles.push_back({a, a + 1, b + 1});
+      mesh.triangles.push_back({a, b + 1, b});
+    }
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double level : {-1.0, 1.0}) add_face(axis, level);
+  }
+  mesh.face_count = mesh.triangles.size();
+  return mesh;
+}
+
+TEST(VisibleEdges, OfBoxesThatPenetrateEachOtherAreJudged) {
+  Scene scene;
+  scene.meshes = {divided_box(4), divided_box(1)};
+  scene.objects = {{.mesh = 0, .name = "one"}, {.mesh = 1, .name = "two"}};
+  scene.objects[1].placed_as_is = false;
+  scene.objects[1].world_from_mesh.rows = {
+      {{0.5, 0, 0.25, 0.75}, {0, 0.5, 0, -0.5}, {-0.25, 0, 0.5, -0.75}}};
+  Camera camera = testing::plain_camera(8, 8);
+  camera.projection.cx = camera.projection.cy = 4;
+  camera.world_to_camera = {{{2, 1, 0, 0}, {-0.5, 1, 2, 0}, {1, -2, 1, 8}}};
+  expect_as_judged(scene, camera);
+  camera.projection.model = ProjectionModel::perspective;
+  camera.projection.fx = camera.projection.fy = 8;
+  expect_as_judged(scene, camera);
+  camera.world_to_camera = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 4}}};
+  expect_as_judged(scene, camera);
+}
+
+TEST(VisibleEdges, CreasesAreEdgesThatTurnByTheAngle) {
+  const Scene scene = testing::two_spheres(6);
+  Camera camera = testing::camera_of(16, 16, 12);
+  camera.world_to_camera = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 4}}};
+  const std::vector<oracle::Triangle> triangles = testing::triangles_of(scene);
+  const auto normal_of = [&](std::uint32_t number) {
+    const auto& [a, b, c] = triangles[number];
+    oracle::Vector n;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+      n[k] = (b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]);
+    }
+    return n;
+  };
+  // cos 60° = 1/2; normals of a closed surface point outwards.
+  std::vector<VisibleEdge> expected;
+  for (const VisibleEdge& edge : edges_of(scene, camera)) {
+    if (edge.joined) {
+      const oracle::Vector m = normal_of(edge.owner), n = normal_of(edge.other);
+      Q product = 0, square = 1;
+      for (std::size_t k = 0; k < 3; ++k) product += m[k] * n[k];
+      for (const oracle::Vector& each : {m, n})
+        square *= each[0] * each[0] + each[1] * each[1] + each[2] * each[2];
+      if (sgn(product) > 0 && 4 * product * product > square) continue;
+    }
+    expected.push_back(edge);
+  }
+  const auto names = [](const std::vector<VisibleEdge>& edges) {
+    std::vector<EdgeName> all;
+    for (const VisibleEdge& edge : edges) all.push_back(edge.name);
+    return all;
+  };
+  const auto found = edges_of(scene, camera, {.edges = EdgeSelection::creases, .crease_angle = 60});
+  EXPECT_EQ(names(found), names(expected));
+  EXPECT_GT(found.size(), edges_of(scene, camera, {.edges = EdgeSelection::silhouettes}).size());
+  EXPECT_LT(found.size(), edges_of(scene, camera).size());
+}
+
+TEST(VisibleEdges, RefuseAnglesAndLenses) {
+  const Scene scene = testing::box_scene(1, 1, 1);
+  Camera camera = testing::camera_of(4, 4, 4);
+  EXPECT_THROW(edges_of(scene, camera, {.crease_angle = 180.5}), UsageError);
+  camera.projection.lens = Lens{.model = LensModel::opencv, .distortion = {0.1}};
+  EXPECT_THROW(edges_of(scene, camera), UsageError);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ Mesh rectangle(double left, double top, double right, double bottom, double z) {
 Scene two_squares() {
   Scene scene;
   scene.meshes = {rectangle(1, 2, 9, 8, 5), rectangle(4, 1, 6, 3, 4)};
-  scene.objects = {{.name = "back", .mesh = 0}, {.name = "front <&>", .mesh = 1}};
+  scene.objects = {{.mesh = 0, .name = "back"}, {.mesh = 1, .name = "front <&>"}};
   return scene;
 }
 
