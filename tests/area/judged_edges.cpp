@@ -123,7 +123,7 @@ std::optional<Seen> seen(const JudgedScene& scene, std::uint32_t number) {
       t[corner][i] = row[0] * x[0] + row[1] * x[1] + row[2] * x[2] + row[3];
     }
   }
-  // The weight of a corner times D·Δ: the volume of the ray and the other two, seen from its origin.
+  // The weight of a corner times D·Δ: the volume of the ray and the other two corners.
   std::array<Affine, 3> weights;
   for (std::size_t i = 0; i < 3; ++i) {
     weights[i] = affine([&](const Point& p) -> Q {

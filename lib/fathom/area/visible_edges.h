@@ -75,7 +75,7 @@ struct VisibleEdge {
 /// Exact    every decision and every place.
 /// Fails    InputError where scene or camera has a fault (find_fault); UsageError for a camera with
 ///          a lens that bends rays, or a crease angle outside 0 to 180.
-/// Source   [War69], [App67]; area/plane/
+/// Source   [War69]; area/plane/
 void visible_edges(const TriangleSource& triangles, const Camera& camera,
                    const EdgeOptions& options, const std::function<void(const VisibleEdge&)>& visit,
                    const std::function<void(double)>& progress = {});

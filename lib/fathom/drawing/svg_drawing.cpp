@@ -50,7 +50,8 @@ std::string svg_of(const Drawing& drawing, const DrawingStyle& style) {
   require_valid(style);
   const std::string width = std::to_string(drawing.width), height = std::to_string(drawing.height);
   std::string text = R"(<?xml version="1.0" encoding="UTF-8"?>
-<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" version="1.1" width=")" +
+<svg xmlns="http://www.w3.org/2000/svg" version="1.1"
+     xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" width=")" +
                      width + "\" height=\"" + height + "\" viewBox=\"0 0 " + width + " " + height +
                      "\">\n<g fill=\"none\" stroke=\"black\" stroke-linecap=\"round\" "
                      "stroke-linejoin=\"round\" stroke-width=\"";
