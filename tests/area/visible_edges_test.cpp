@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "fathom/failures/errors.h"
@@ -255,10 +256,37 @@ TEST(VisibleEdges, OfBoxesThatPenetrateEachOtherAreJudged) {
   expect_as_judged(scene, camera);
 }
 
+/// A rhombic dodecahedron: its faces meet at an angle of exactly 60 degrees between their normals.
+Scene dodecahedron() {
+  std::vector<MeshPoint> vertices;
+  std::vector<CornerIndices> triangles;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (int signs = 0; signs < 4; ++signs) {
+      const double s = signs % 2 == 0 ? 1 : -1, t = signs < 2 ? 1 : -1;
+      const auto at = [&](double x, double y, double z) {
+        std::array<double, 3> p{};
+        p[axis] = x;
+        p[(axis + 1) % 3] = y;
+        p[(axis + 2) % 3] = z;
+        return MeshPoint{p[0], p[1], p[2]};
+      };
+      const auto first = static_cast<std::uint32_t>(vertices.size());
+      vertices.insert(vertices.end(),
+                      {at(1, s, t), at(0, 2 * s, 0), at(-1, s, t), at(0, 0, 2 * t)});
+      const bool is_outward = s * t > 0;
+      triangles.push_back(is_outward ? CornerIndices{first, first + 1, first + 2}
+                                     : CornerIndices{first, first + 2, first + 1});
+      triangles.push_back(is_outward ? CornerIndices{first, first + 2, first + 3}
+                                     : CornerIndices{first, first + 3, first + 2});
+    }
+  }
+  return testing::scene_of(std::move(vertices), std::move(triangles));
+}
+
 TEST(VisibleEdges, CreasesAreEdgesThatTurnByTheAngle) {
-  const Scene scene = testing::two_spheres(6);
+  const Scene scene = dodecahedron();
   Camera camera = testing::camera_of(16, 16, 12);
-  camera.world_to_camera = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 4}}};
+  camera.world_to_camera = {{{3, 1, 0, 0}, {-1, 3, 1, 0}, {0.5, -1, 3, 16}}};
   const std::vector<oracle::Triangle> triangles = testing::triangles_of(scene);
   const auto normal_of = [&](std::uint32_t number) {
     const auto& [a, b, c] = triangles[number];
@@ -289,7 +317,16 @@ TEST(VisibleEdges, CreasesAreEdgesThatTurnByTheAngle) {
   };
   const auto found = edges_of(scene, camera, {.edges = EdgeSelection::creases, .crease_angle = 60});
   EXPECT_EQ(names(found), names(expected));
-  EXPECT_GT(found.size(), edges_of(scene, camera, {.edges = EdgeSelection::silhouettes}).size());
+  const std::size_t outlines =
+      edges_of(scene, camera, {.edges = EdgeSelection::silhouettes}).size();
+  EXPECT_GT(found.size(), outlines);
+  // The winding of a triangle does not matter.
+  Scene turned = scene;
+  for (std::size_t t = 0; t < turned.meshes[0].triangles.size(); t += 3)
+    std::swap(turned.meshes[0].triangles[t][0], turned.meshes[0].triangles[t][1]);
+  EXPECT_EQ(edges_of(turned, camera, {.crease_angle = 60}).size(), found.size());
+  const double next = std::nextafter(60, 180);
+  EXPECT_EQ(edges_of(scene, camera, {.crease_angle = next}).size(), outlines);
   EXPECT_LT(found.size(), edges_of(scene, camera).size());
 }
 
