@@ -90,8 +90,12 @@ MapVerification verify_map(const DepthMap& map, const std::string& name, const R
 
 }  // namespace
 
+bool adds_channels(const MapPlan& plan) {
+  return !plan.mattes.empty() || plan.samples || plan.depth_buffer;
+}
+
 bool has_additions(const MapPlan& plan) {
-  return !plan.mattes.empty() || plan.samples || plan.depth_buffer || plan.verified_pixels;
+  return adds_channels(plan) || plan.verified_pixels;
 }
 
 void add_planned(DepthMap& map, const MapPlan& plan, const std::string& name,

@@ -25,6 +25,8 @@ struct RenderedFrom {
   std::function<Mattes(const MatteKind&)> mattes;
 };
 
+/// Whether the plan adds channels to those that are rendered.
+bool adds_channels(const MapPlan& plan);
 /// Whether the plan has anything that add_planned() does, for which it needs the whole map.
 bool has_additions(const MapPlan& plan);
 

@@ -35,12 +35,9 @@ void check_size(const Camera& camera, const MapPlan& plan) {
                map + memory_to_encode(plan.format, plan.writing.compression, camera.height, map));
 }
 
-/// Lenses bend the edges of triangles, and additions to a map are computed on straight edges.
+/// Lenses bend the edges of triangles, and what is added to a map is computed on straight edges.
 void check_lens(const Camera& camera, const MapPlan& plan) {
-  if (plan.verified_pixels) {
-    require_straight(camera, "--verify is for maps without a lens; leave out --verify");
-  }
-  if (has_additions(plan)) require_straight(camera);
+  if (adds_channels(plan)) require_straight(camera);
 }
 
 }  // namespace

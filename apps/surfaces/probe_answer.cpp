@@ -2,10 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/shell/standard_streams.h"
+#include "apps/surfaces/probed_ray.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/rendering/deciders.h"
 #include "fathom/rendering/segment_channels.h"
@@ -23,22 +23,29 @@ std::string file_of(const Scene& scene, const CoveringTriangle& triangle) {
 }
 
 /// Why a triangle that covers the sample does not count (specification, section 5).
-std::string why_not_counted(const Probe& probe, const CoveringTriangle& triangle) {
-  if (triangle.depth.sign() != Sign::positive) return "behind the camera or in its plane (D <= 0)";
-  if (triangle.depth < Ratio(Dyadic(probe.camera.near))) return "nearer than near";
-  if (std::isfinite(probe.camera.far) && Ratio(Dyadic(probe.camera.far)) < triangle.depth) {
-    return "beyond far";
+std::string_view why_not_counted(const CoveringTriangle& triangle) {
+  switch (triangle.standing) {
+    case Standing::behind:
+      return "behind the camera or in its plane (D <= 0)";
+    case Standing::before_near:
+      return "nearer than near";
+    case Standing::beyond_far:
+      return "beyond far";
+    case Standing::culled:
+      return triangle.front_facing ? "culled: it is front-facing" : "culled: it is back-facing";
+    case Standing::counts:
+      break;
   }
-  return triangle.front_facing ? "culled: it is front-facing" : "culled: it is back-facing";
+  return "";
 }
 
 /// The rule that decided about triangle `i` of the list.
 std::string rule(const Probe& probe, std::size_t i) {
   const CoveringTriangle& triangle = probe.triangles[i];
-  if (!triangle.counts) return "does not count: " + why_not_counted(probe, triangle);
+  if (!triangle.counts) return fmt::format("does not count: {}", why_not_counted(triangle));
   if (i > 0) {
     const CoveringTriangle& visible = probe.triangles[0];
-    return visible.depth == triangle.depth
+    return triangle.as_near_as_first
                ? fmt::format("hidden: exactly as deep as triangle {}, whose number is lower",
                              visible.number)
                : fmt::format("hidden: deeper than triangle {}", visible.number);
@@ -46,9 +53,8 @@ std::string rule(const Probe& probe, std::size_t i) {
   if (probe.triangles.size() == 1 || !probe.triangles[1].counts) {
     return "visible: no other triangle counts here";
   }
-  return probe.triangles[1].depth == triangle.depth
-             ? "visible: the lowest number among equal depths"
-             : "visible: the least depth";
+  return probe.triangles[1].as_near_as_first ? "visible: the lowest number among equal depths"
+                                             : "visible: the least depth";
 }
 
 char sign_letter(Sign sign) {
@@ -132,7 +138,12 @@ Json to_json(const Probe& probe, const NamedSegments& segments, std::size_t i) {
         {"sign", static_cast<int>(triangle.edge_signs[edge])},
         {"left_or_top", triangle.left_or_top[edge]}};
   }
-  const float stored = round_to_binary32(triangle.depth);
+  const float stored = triangle.stored_depth;
+  Json depth{{"decimal", to_decimal(triangle.depth, 40)},
+             {"binary32", stored},
+             {"binary32_hex", fmt::format("{:a}", stored)}};
+  if (triangle.depth_is_exact) depth["exact"] = to_fraction(triangle.depth);
+  if (triangle.stored_distance) depth["distance_binary32"] = *triangle.stored_distance;
   Json answer{{"number", triangle.number},
               {"file", file_of(probe.scene, triangle)},
               {"object", triangle.origin.object},
@@ -144,11 +155,7 @@ Json to_json(const Probe& probe, const NamedSegments& segments, std::size_t i) {
                      {"front_facing", triangle.front_facing},
                      {"edges", edges},
                      {"decided_by", deciders_json(triangle)},
-                     {"depth",
-                      {{"exact", to_fraction(triangle.depth)},
-                       {"decimal", to_decimal(triangle.depth, 40)},
-                       {"binary32", stored},
-                       {"binary32_hex", fmt::format("{:a}", stored)}}},
+                     {"depth", depth},
                      {"counts", triangle.counts},
                      {"visible", i == 0 && triangle.counts},
                      {"rule", rule(probe, i)}});
@@ -169,9 +176,12 @@ std::string segments_text(const NamedSegments& segments, const TriangleOrigin& o
 }  // namespace
 
 std::string as_text(const Probe& probe) {
-  std::string text = fmt::format(
-      "pixel ({}, {}) of {}x{}: the sample is ({}.5, {}.5)\n{} covers it{}\n", probe.x, probe.y,
-      probe.camera.width, probe.camera.height, probe.x, probe.y,
+  std::string text = fmt::format("pixel ({}, {}) of {}x{}: the sample is ({}.5, {}.5)\n", probe.x,
+                                 probe.y, probe.camera.width, probe.camera.height, probe.x, probe.y);
+  const std::optional<ProbedRay> ray = ProbedRay::of(probe.camera, probe.x, probe.y);
+  if (ray) text += ray->text();
+  text += fmt::format(
+      "{} covers it{}\n",
       probe.triangles.empty()       ? "no triangle"
       : probe.triangles.size() == 1 ? "one triangle"
                                     : fmt::format("each of {} triangles", probe.triangles.size()),
@@ -188,12 +198,14 @@ std::string as_text(const Probe& probe) {
       text += fmt::format("  {}       ({}, {}, {})\n", "ABC"[corner], corners[corner].x,
                           corners[corner].y, corners[corner].z);
     }
-    const float stored = round_to_binary32(triangle.depth);
+    const float stored = triangle.stored_depth;
     text += fmt::format("  edges   {}\n", edge_text(triangle));
     text += fmt::format("  decided {}\n", deciders_text(triangle));
     text += fmt::format("  depth   {}\n", to_decimal(triangle.depth, 40));
-    text += fmt::format("  exactly {}\n", to_fraction(triangle.depth));
+    if (triangle.depth_is_exact) text += fmt::format("  exactly {}\n", to_fraction(triangle.depth));
     text += fmt::format("  stored  {} = {:a} (binary32, rounded once)\n", stored, stored);
+    if (const auto distance = triangle.stored_distance)
+      text += fmt::format("  distance {} = {:a} (binary32, rounded once)\n", *distance, *distance);
     text += fmt::format("  {}\n", rule(probe, i));
   }
   return text;
@@ -204,11 +216,12 @@ std::string as_json(const Probe& probe) {
   const NamedSegments segments(probe.scene);
   for (std::size_t i = 0; i < probe.triangles.size(); ++i)
     triangles.push_back(to_json(probe, segments, i));
-  const Json answer{{"pixel", {probe.x, probe.y}},
-                    {"sample", {probe.x + 0.5, probe.y + 0.5}},
-                    {"width", probe.camera.width},
-                    {"height", probe.camera.height},
-                    {"triangles", triangles}};
+  Json answer{{"pixel", {probe.x, probe.y}},
+              {"sample", {probe.x + 0.5, probe.y + 0.5}},
+              {"width", probe.camera.width},
+              {"height", probe.camera.height}};
+  if (const auto ray = ProbedRay::of(probe.camera, probe.x, probe.y)) answer["ray"] = ray->json();
+  answer["triangles"] = triangles;
   return json_answer(answer);
 }
 

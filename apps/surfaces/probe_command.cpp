@@ -39,7 +39,6 @@ int run_probe(const ProbeArguments& arguments, const Console& console) {
   const auto [x, y] = arguments.pixel;
   const Scene scene = arguments.scene.read(console, {.segments = true});
   const Camera camera = arguments.camera.get_one(scene, arguments.scene.limits, "probe", console);
-  require_straight(camera, "pixels are probed without a lens only");
   if (x >= camera.width || y >= camera.height) {
     throw UsageError(fmt::format("--pixel: {},{} is outside the image of {}x{} pixels", x, y,
                                  camera.width, camera.height));

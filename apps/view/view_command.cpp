@@ -136,6 +136,12 @@ int serve(const ViewArguments& arguments, std::vector<ViewedMap> maps, const Con
   return done;
 }
 
+/// Whether the camera has a table of directions that is only named.
+bool names_table(const Camera& camera) {
+  return camera.projection.lens && camera.projection.lens->directions &&
+         !camera.projection.lens->directions->is_read();
+}
+
 int run_view(const ViewArguments& arguments, const Console& console) {
   if (arguments.serve != !arguments.scene.empty()) {
     throw UsageError(arguments.serve
@@ -149,7 +155,11 @@ int run_view(const ViewArguments& arguments, const Console& console) {
       throw UsageError("--serve: " + viewed.name +
                        " carries no camera, so that no pixel of it can be probed");
     }
-    require_straight(*viewed.camera, "pixels are probed without a lens only");
+    if (names_table(*viewed.camera)) {
+      throw UsageError("--serve: " + viewed.name +
+                       " names the table of its camera and does not carry it; ask 'fathom probe "
+                       "--camera' instead");
+    }
   }
   return serve(arguments, std::move(maps), console);
 }

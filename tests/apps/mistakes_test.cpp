@@ -118,8 +118,6 @@ TEST_F(Mistakes, CommandsWithoutLensesNameTheOnesThatTakeThem) {
                                  "render' does"),
                       EndsWith("--ignore-distortion' leaves the lens out; see docs/lenses.md)\n")));
   }
-  EXPECT_THAT(refusal({"probe", "square.obj", "--camera", "lens.json", "--pixel", "3,3"}, 2),
-              StartsWith("the lens SIMPLE_RADIAL: pixels are probed without a lens only"));
   EXPECT_THAT(refusal({"visible", "square.obj", "--camera", "lens.json"}, 2),
               EndsWith("--ignore-distortion' leaves the lens out; see docs/lenses.md)\n"));
   folder_.write("k1.json", R"({"width": 8, "height": 6, "fx": 9, "fy": 9, "cx": 4, "cy": 3,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -91,7 +92,6 @@ class LensCaseMaker {
   void put_corners_on_a_ray(LensCase& c) {
     Camera& camera = c.view.camera;
     Projection& p = camera.projection;
-    if (c.numbers.division) return;
     for (const double below : c.numbers.below)
       if (below != 0) return;
     const double x = std::ldexp(this->below(9) - 4, -3), y = std::ldexp(this->below(9) - 4, -3);
@@ -103,6 +103,8 @@ class LensCaseMaker {
         x * factor + 2 * n.p1 * x * y + n.p2 * (q + 2 * x * x) + n.s1 * q + n.s2 * q * q;
     const double gy =
         y * factor + n.p1 * (q + 2 * y * y) + 2 * n.p2 * x * y + n.s3 * q + n.s4 * q * q;
+    // The direction of the ray.
+    const std::array d{x, y, n.division ? 1 + *n.division * q : 1.0};
     p.skew = 0;
     p.pixel_centre = 0.5;
     p.cx = this->below(6) + 0.5 - p.fx * gx;
@@ -111,13 +113,13 @@ class LensCaseMaker {
     for (Mesh& mesh : c.view.scene.meshes) {
       std::vector<MeshPoint> corners(mesh.vertices.begin(), mesh.vertices.end());
       for (std::size_t i = 0; i + 1 < corners.size(); i += 2) {
-        const double z = 1 + this->below(4);
+        const double t = 1 + this->below(4);
         const double across = std::ldexp(this->below(9) - 4, -1),
                      up = std::ldexp(this->below(9) - 4, -1);
         // Either the corner is on the ray, or the ray meets the middle between two corners.
         const double aside = this->below(2);
-        corners[i] = {x * z + aside * across, y * z + aside * up, z};
-        if (aside != 0) corners[i + 1] = {x * z - across, y * z - up, z};
+        corners[i] = {d[0] * t + aside * across, d[1] * t + aside * up, d[2] * t};
+        if (aside != 0) corners[i + 1] = {d[0] * t - across, d[1] * t - up, d[2] * t};
       }
       mesh.vertices = std::move(corners);
     }

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 
+#include "fathom/reference/reference.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "fathom/triangle/sampling.h"
 #include "tests/effort.h"
+#include "tests/inputs/lens_scenes.h"
 #include "tests/inputs/random_scenes.h"
+#include "tests/inputs/tables_of_directions.h"
 
 namespace fathom {
 namespace {
@@ -90,6 +93,52 @@ TEST(Probe, ShowsTrianglesThatDoNotCount) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].number, 1U);
   EXPECT_FALSE(found[0].counts);
+}
+
+/// The first triangle that counts is what the reference engine shows, with its values.
+void expect_shown(const DepthMap& map, std::size_t pixel,
+                  const std::vector<CoveringTriangle>& found) {
+  const bool shows = !found.empty() && found[0].counts;
+  ASSERT_EQ((*map.values<std::uint32_t>("id"))[pixel], shows ? found[0].number : no_surface);
+  if (!shows) return;
+  EXPECT_EQ((*map.values<float>("Z"))[pixel], found[0].stored_depth);
+  EXPECT_EQ(round_to_binary32(found[0].depth), found[0].stored_depth);
+  if (found[0].stored_distance)
+    EXPECT_EQ((*map.values<float>("distance"))[pixel], *found[0].stored_distance);
+  for (std::size_t i = 1; i < found.size(); ++i) {
+    if (found[i].counts && found[i].as_near_as_first)
+      EXPECT_LT(found[0].number, found[i].number);
+  }
+}
+
+TEST(Probe, ShowsUnderLensesWhatTheReferenceEngineShows) {
+  int shown = 0, ties = 0, not_counted = 0;
+  RenderOptions options;
+  options.channels = {Channel::Z, Channel::id, Channel::distance};
+  for (const LensModel model :
+       {LensModel::simple_radial, LensModel::opencv_14, LensModel::division, LensModel::table}) {
+    testing::LensCaseMaker maker(static_cast<std::uint64_t>(model), Kind::few_bits);
+    for (std::uint64_t i = 0; i < 40U / effort; ++i) {
+      testing::Case c = maker.make(model == LensModel::table ? LensModel::division : model).view;
+      if (model == LensModel::table)
+        c.camera = testing::with_table(c.camera, testing::DirectionMaker(i).numbers(30));
+      const DepthMap map = render_reference(c.scene, c.camera, options).map;
+      for (std::uint32_t y = 0; y < c.camera.height; ++y) {
+        for (std::uint32_t x = 0; x < c.camera.width; ++x) {
+          const auto found = probe(c.scene, c.camera, x, y);
+          expect_shown(map, std::size_t{y} * c.camera.width + x, found);
+          shown += !found.empty() && found[0].counts ? 1 : 0;
+          for (std::size_t k = 0; k < found.size(); ++k) {
+            not_counted += found[k].counts ? 0 : 1;
+            ties += k > 0 && found[k].as_near_as_first ? 1 : 0;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(shown, 200 / effort);
+  EXPECT_GT(not_counted, 0);
+  if (effort == 1) EXPECT_GT(ties, 0);
 }
 
 }  // namespace

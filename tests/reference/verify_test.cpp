@@ -14,7 +14,9 @@
 #include "fathom/scene/read_scene.h"
 #include "tests/effort.h"
 #include "tests/engines/expect_same_map.h"
+#include "tests/inputs/lens_scenes.h"
 #include "tests/inputs/random_scenes.h"
+#include "tests/inputs/tables_of_directions.h"
 #include "tests/places.h"
 
 namespace fathom {
@@ -114,6 +116,74 @@ TEST(Verify, AgreesWithBothEnginesOnRandomScenes) {
     }
   }
   EXPECT_GE(cases, 80);
+}
+
+std::vector<Channel> channels_of_lenses() {
+  std::vector<Channel> channels = every_channel;
+  std::erase(channels, Channel::A);
+  channels.push_back(Channel::valid);
+  return channels;
+}
+
+/// A random scene under each of some lens models, and one under a table.
+std::vector<testing::Case> lens_cases(std::uint64_t seed) {
+  std::vector<testing::Case> cases;
+  testing::LensCaseMaker maker(seed, Kind::few_bits);
+  for (const LensModel model : {LensModel::radial, LensModel::opencv, LensModel::division,
+                                LensModel::fisheye_stereographic}) {
+    cases.push_back(maker.make(model).view);
+  }
+  testing::Case with_table = cases.back();
+  with_table.camera =
+      testing::with_table(with_table.camera, testing::DirectionMaker(seed).numbers(30));
+  cases.push_back(with_table);
+  return cases;
+}
+
+TEST(Verify, AgreesUnderLenses) {
+  for (std::uint64_t seed = 0; seed < 60 / effort; ++seed) {
+    for (const testing::Case& c : lens_cases(seed)) {
+      SCOPED_TRACE(seed);
+      RenderOptions options;
+      options.channels = channels_of_lenses();
+      options.cull = seed % 5 == 0 ? Cull::back : Cull::none;
+      options.threads = 1 + static_cast<int>(seed % 3);
+      expect_verified(render_reference(c.scene, c.camera, options).map, c.scene, c.camera, options);
+    }
+  }
+}
+
+TEST(Verify, FindsOneBitUnderLenses) {
+  for (const testing::Case& c : lens_cases(7)) {
+    RenderOptions options;
+    options.channels = channels_of_lenses();
+    const DepthMap right = render_reference(c.scene, c.camera, options).map;
+    for (std::size_t k = 0; k < right.channels.size(); ++k) {
+      DepthMap wrong = right;
+      flip_last_bit(wrong.channels[k], 8);
+      const Verification v = verify(wrong, c.scene, c.camera, options, all_pixels(c.camera));
+      ASSERT_EQ(v.differing, 1U);
+      EXPECT_EQ(v.first->channel, right.channels[k].name);
+      EXPECT_EQ(v.first->x, 8 % c.camera.width);
+    }
+  }
+}
+
+/// A few pixels of a larger image: what is not chosen is not looked at.
+TEST(Verify, ChosenPixelsUnderALens) {
+  const Scene scene = two_squares();
+  Camera camera = camera_of(64, 48, 20);
+  camera.projection.lens = Lens{LensModel::simple_radial, {-0.1}};
+  RenderOptions options;
+  options.channels = channels_of_lenses();
+  DepthMap map = render_reference(scene, camera, options).map;
+  PixelChoice chosen(std::size_t{64} * 48, false);
+  for (std::size_t pixel = 3; pixel < chosen.size(); pixel += 97) chosen[pixel] = true;
+  EXPECT_EQ(verify(map, scene, camera, options, chosen).differing, 0U);
+  flip_last_bit(map.channels[0], 4);
+  EXPECT_EQ(verify(map, scene, camera, options, chosen).differing, 0U);
+  flip_last_bit(map.channels[0], 3 + 97 * 15);
+  EXPECT_EQ(verify(map, scene, camera, options, chosen).differing, 1U);
 }
 
 TEST(Verify, AgreesOnHardScenes) {

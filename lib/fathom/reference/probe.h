@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,11 @@
 #include "fathom/scene/scene.h"
 
 namespace fathom {
+
+/// Whether a triangle that covers a sample can be visible there (specification, section 5), or the
+/// first reason why not. Of a lens whose rays need not all go forwards, near and far bound the ray
+/// distance, and no triangle is `behind`.
+enum class Standing : std::uint8_t { counts, behind, before_near, beyond_far, culled };
 
 /// One triangle that covers a sample (specification, sections 4 and 5).
 struct CoveringTriangle {
@@ -32,21 +38,31 @@ struct CoveringTriangle {
   /// (deciders.h).
   [[nodiscard]] std::string_view facing_decided_by() const;
   [[nodiscard]] std::string_view edge_decided_by(std::size_t i) const;
-  /// Exact planar depth at the sample, in scene units.
+  /// Exact planar depth at the sample, in scene units. Along the ray of a lens it may be
+  /// irrational: then it is a number that differs from the exact one by at most 2⁻¹⁸⁰ of it.
   Ratio depth;
+  bool depth_is_exact = true;
+  /// The exact planar depth rounded once to binary32, as in channel Z.
+  float stored_depth = 0;
+  /// Of a lens whose rays need not all go forwards: the ray distance rounded once, as in channel
+  /// distance.
+  std::optional<float> stored_distance;
+  Standing standing = Standing::counts;
+  /// Whether it is exactly as near as the first triangle of the list.
+  bool as_near_as_first = false;
   /// Whether D > 0, near ≤ D ≤ far, and culling keeps it. Only such a triangle can be visible.
   bool counts = false;
 };
 
 /// Every triangle that covers the sample at the centre of pixel (x, y), column and row from the top
-/// left: nearest first, ties by number, and last those that do not count. `progress` is called as
-/// RenderOptions::progress.
+/// left: nearest first, ties by number, and last those that do not count. Empty where a lens gives
+/// the sample no ray. `progress` is called as RenderOptions::progress.
 ///
 /// Exact    everything: only triangles whose corners all lie on one side of the sample's column or
-///          row are left out by a bound; the signs of the edges of all
-///          others are those of dyadic numbers, whatever an interval says.
+///          row are left out by a bound, and of a lens none; the signs of the edges of all others
+///          are those of exact numbers, whatever an interval says.
 /// Cost     two bounded products for each vertex, by all threads of with_threads(), and exact
-///          numbers for the triangles whose box contains the sample.
+///          numbers for the triangles whose box contains the sample; of a lens, for all triangles.
 /// Fails    InputError where scene or camera has a fault (find_fault).
 std::vector<CoveringTriangle> probe(const Scene& scene, const Camera& camera, std::uint32_t x,
                                     std::uint32_t y, Cull cull = Cull::none,

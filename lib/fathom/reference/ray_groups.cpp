@@ -43,25 +43,30 @@ bool RayGroups::Directions::may_meet(const ProjectedTriangle& t) const {
   });
 }
 
-RayGroups::Directions RayGroups::around(const lens::Preimages& preimages, const PixelBox& area) {
+RayGroups::Directions RayGroups::around(const lens::Preimages& preimages, const PixelBox& area,
+                                        const std::vector<bool>* chosen) const {
   Directions all;
   for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
     for (std::uint32_t column = area.first_column; column <= area.last_column; ++column) {
+      if (chosen && !(*chosen)[std::size_t{row} * width_ + column]) continue;
       if (const auto d = preimages.of_pixel(column, row)) all.add({d->box(), false});
     }
   }
   return all;
 }
 
-RayGroups::RayGroups(const lens::Preimages& preimages, std::uint32_t width, std::uint32_t height)
+RayGroups::RayGroups(const lens::Preimages& preimages, std::uint32_t width, std::uint32_t height,
+                     const std::vector<bool>* chosen)
     : width_(width), height_(height) {
   Level level{(width - 1) / pixels + 1, (height - 1) / pixels + 1, {}};
   level.groups.resize(std::size_t{level.columns} * level.rows);
   parallel_for(std::size_t{0}, level.groups.size(), [&](std::size_t i) {
     const auto column = static_cast<std::uint32_t>(i % level.columns) * pixels;
     const auto row = static_cast<std::uint32_t>(i / level.columns) * pixels;
-    level.groups[i] = around(preimages, {column, std::min(column + pixels, width) - 1, row,
-                                         std::min(row + pixels, height) - 1});
+    level.groups[i] = around(
+        preimages,
+        {column, std::min(column + pixels, width) - 1, row, std::min(row + pixels, height) - 1},
+        chosen);
   });
   levels_.push_back(std::move(level));
   add_levels();

@@ -17,9 +17,12 @@ class RayGroups {
  public:
   static constexpr std::uint32_t pixels = 4;
 
-  RayGroups(const lens::Preimages& preimages, std::uint32_t width, std::uint32_t height);
+  /// `chosen` pixels are looked at, row by row; nullptr: all of them.
+  RayGroups(const lens::Preimages& preimages, std::uint32_t width, std::uint32_t height,
+            const std::vector<bool>* chosen);
 
-  /// A box that contains every pixel whose sample the triangle covers; empty if there is none.
+  /// A box that contains every pixel looked at whose sample the triangle covers; empty if there is
+  /// none.
   [[nodiscard]] PixelBox box_of(const triangle::ProjectedTriangle& t) const;
 
  private:
@@ -37,7 +40,8 @@ class RayGroups {
     std::vector<Directions> groups;
   };
 
-  [[nodiscard]] static Directions around(const lens::Preimages& preimages, const PixelBox& area);
+  [[nodiscard]] Directions around(const lens::Preimages& preimages, const PixelBox& area,
+                                  const std::vector<bool>* chosen) const;
   void add_levels();
   void extend(PixelBox& box, const triangle::ProjectedTriangle& t, std::size_t level,
               std::uint32_t column, std::uint32_t row) const;

@@ -1,15 +1,13 @@
 #include "fathom/reference/reference.h"
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <optional>
 
 #include "fathom/area/coverage_image.h"
-#include "fathom/lens/preimages.h"
-#include "fathom/numeric/quadratic_form.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/reference/ray_groups.h"
+#include "fathom/reference/ray_decisions.h"
+#include "fathom/reference/view.h"
 #include "fathom/rendering/map_of_camera.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
@@ -30,25 +28,6 @@ using namespace triangle;
 namespace {
 
 constexpr std::uint32_t rows_per_band = 16;
-
-/// How the samples of an image see.
-struct View {
-  explicit View(const Camera& the_camera) : camera(the_camera) {
-    if (!bends_rays(camera.projection)) return;
-    preimages.emplace(camera.projection, *camera.projection.lens);
-    groups.emplace(*preimages, camera.width, camera.height);
-  }
-
-  /// A box that contains every pixel whose sample the triangle covers.
-  [[nodiscard]] PixelBox box_of(const ProjectedTriangle& t) const {
-    return groups ? groups->box_of(t) : bounding_box(t, camera);
-  }
-
-  const Camera& camera;
-  /// Where the camera bends rays.
-  std::optional<lens::Preimages> preimages;
-  std::optional<RayGroups> groups;
-};
 
 /// A triangle that can be visible, with the pixels where it can be.
 struct Candidate {
@@ -71,70 +50,6 @@ ProjectedTriangle project(const Scene& scene, const Camera& camera, const Candid
                            camera, counts);
 }
 
-/// a·of_a − b·of_b. area/ has the same text; this one is the reference's own, as it decides ranges
-/// and the nearer of two surfaces for itself.
-LinearForm minus(const LinearForm& a, const Dyadic& of_a, const LinearForm& b, const Dyadic& of_b) {
-  ExactVector3 l;
-  for (std::size_t k = 0; k < 3; ++k) {
-    l[k] = of_a * a.coefficients()[k] - of_b * b.coefficients()[k];
-  }
-  return LinearForm(l);
-}
-
-/// near ≤ |T|·|d|/w ≤ far, of the ray distances of one triangle: signs of quadratic forms.
-class DistanceRange {
- public:
-  DistanceRange(const ProjectedTriangle& t, const Camera& camera) {
-    const QuadraticForm squared = (t.volume * t.volume) * squared_length();
-    const auto less = [&](double limit) {
-      QuadraticForm form = squared;
-      form -= (Dyadic(limit) * limit) * square_of(t.weight.coefficients());
-      return form;
-    };
-    if (camera.near > 0) above_near_ = less(camera.near);
-    if (camera.far < std::numeric_limits<double>::infinity()) above_far_ = less(camera.far);
-  }
-
-  bool contains(const Sample& s, TierCounts& counts) const {
-    if (!above_near_ && !above_far_) return true;
-    ++counts.exact;
-    if (above_near_ && s.direction()->sign_of(*above_near_) == Sign::negative) return false;
-    return !above_far_ || s.direction()->sign_of(*above_far_) != Sign::positive;
-  }
-
- private:
-  std::optional<QuadraticForm> above_near_, above_far_;
-};
-
-/// D > 0 and near ≤ D ≤ far (specification, section 5) as signs of forms, for one triangle: D = n/w
-/// with w > 0 at covered samples, so D ≥ near ⇔ n − near·w ≥ 0. Of a lens whose rays need not all
-/// go forwards, the ray distance takes the place of D.
-class DepthRange {
- public:
-  DepthRange(const ProjectedTriangle& t, const Camera& camera) : depth_(t.depth_numerator) {
-    if (counts_distance(camera.projection)) {
-      distance_.emplace(t, camera);
-      return;
-    }
-    if (camera.near > 0) above_near_ = minus(t.depth_numerator, 1.0, t.weight, camera.near);
-    if (camera.far < std::numeric_limits<double>::infinity()) {
-      above_far_ = minus(t.depth_numerator, 1.0, t.weight, camera.far);
-    }
-  }
-
-  bool contains(const Sample& s, TierCounts& counts) const {
-    if (distance_) return distance_->contains(s, counts);
-    if (s.sign_of(depth_, counts) != Sign::positive) return false;
-    if (above_near_ && s.sign_of(*above_near_, counts) == Sign::negative) return false;
-    return !above_far_ || s.sign_of(*above_far_, counts) != Sign::positive;
-  }
-
- private:
-  const LinearForm& depth_;
-  std::optional<LinearForm> above_near_, above_far_;
-  std::optional<DistanceRange> distance_;
-};
-
 /// An interval that contains D of `t` at s, or t along a ray.
 Interval enclose_depth(const ProjectedTriangle& t, const Sample& s) {
   const Interval numerator = s.direction() ? enclose(t.volume) : s.enclose(t.depth_numerator);
@@ -144,9 +59,7 @@ Interval enclose_depth(const ProjectedTriangle& t, const Sample& s) {
 /// Whether D of `a` at s, or t along a ray, is strictly less than D of `b`, exactly.
 bool is_less_deep(const ProjectedTriangle& a, const ProjectedTriangle& b, const Sample& s) {
   if (!s.direction()) return depth_at(a, s.point()) < depth_at(b, s.point());
-  // |T_a|/w_a < |T_b|/w_b
-  const LinearForm difference = minus(a.weight, b.volume, b.weight, a.volume);
-  return s.direction()->sign_of(difference.coefficients()) == Sign::positive;
+  return order_along(a, b, *s.direction()) == Sign::positive;
 }
 
 /// Whether D of `t` at s is strictly less than D of the nearest surface so far. Triangles come in

@@ -7,11 +7,14 @@
 #include <map>
 #include <mutex>
 #include <random>
+#include <utility>
 
 #include "fathom/area/coverage.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/reference/verify_rays.h"
 #include "fathom/reference/verify_samples.h"
+#include "fathom/reference/view.h"
 #include "fathom/rendering/map_of_camera.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
@@ -55,6 +58,7 @@ struct Frame {
   const TriangleSource& triangles;
   const Camera& camera;
   const RenderOptions& options;
+  const View& view;
 };
 
 ProjectedTriangle project(const Frame& frame, const Candidate& c) {
@@ -62,14 +66,36 @@ ProjectedTriangle project(const Frame& frame, const Candidate& c) {
   return triangle::project(frame.triangles.world_corners(c.number), c.number, frame.camera, counts);
 }
 
+/// Boxes around the triangles of a part of the scene.
+class PartBoxes {
+ public:
+  PartBoxes(const TriangleSource::Part& part, const View& view)
+      : part_(part), view_(view), straight_(part.object, part.mesh, view.camera) {}
+
+  /// A box that contains every chosen pixel whose sample the triangle covers.
+  PixelBox box(std::uint32_t triangle) {
+    if (!view_.groups) return straight_.box(triangle);
+    TierCounts counts;
+    const ProjectedTriangle t =
+        triangle::project(world_corners(part_.object, part_.mesh, triangle),
+                          part_.first_number + triangle, view_.camera, counts);
+    return t.orientation == Sign::zero ? PixelBox() : view_.box_of(t);
+  }
+
+ private:
+  const TriangleSource::Part& part_;
+  const View& view_;
+  TriangleBoxes straight_;
+};
+
 /// Adds the candidates of a part of the scene, in the order of their numbers.
-void find_candidates(const TriangleSource::Part& part, const Camera& camera,
-                     const ChosenRows& chosen, std::vector<Candidate>& all) {
+void find_candidates(const TriangleSource::Part& part, const View& view, const ChosenRows& chosen,
+                     std::vector<Candidate>& all) {
   const std::size_t count = part.mesh.triangles.size();
   std::vector<std::vector<Candidate>> found((count + triangles_per_chunk - 1) /
                                             triangles_per_chunk);
   parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
-    TriangleBoxes boxes(part.object, part.mesh, camera);
+    PartBoxes boxes(part, view);
     const std::size_t end = std::min(count, (k + 1) * triangles_per_chunk);
     for (std::size_t i = k * triangles_per_chunk; i < end; ++i) {
       const auto triangle = static_cast<std::uint32_t>(i);
@@ -85,7 +111,7 @@ void find_candidates(const TriangleSource::Part& part, const Camera& camera,
 std::vector<Candidate> find_candidates(const Frame& frame, const ChosenRows& chosen) {
   std::vector<Candidate> all;
   frame.triangles.for_each_part(triangles_of_file, [&](const TriangleSource::Part& part) {
-    find_candidates(part, frame.camera, chosen, all);
+    find_candidates(part, frame.view, chosen, all);
   });
   return all;
 }
@@ -125,6 +151,7 @@ class ExactRow {
 
   /// Several threads may compute different bands at the same time.
   void compute(const Band& band) {
+    if (frame_.view.preimages) return compute_along_rays(band);
     const std::size_t first = chosen_.start(band.first_row);
     std::vector<Visible> visible(chosen_.start(band.end_row) - first);
     for (const Candidate* c : band.candidates) draw(*c, band, first, visible);
@@ -140,6 +167,20 @@ class ExactRow {
     camera.width = static_cast<std::uint32_t>(pixels);
     camera.height = 1;
     return camera;
+  }
+
+  void compute_along_rays(const Band& band) {
+    ChosenRays rays(frame_.view, chosen_, band.first_row, band.end_row);
+    for (const Candidate* c : band.candidates) {
+      ProjectedTriangle t = project(frame_, *c);
+      if (is_kept(t, frame_.options.cull)) rays.draw(std::move(t), c->box);
+    }
+    rays.write(writer_, [this](std::size_t k, const std::string& why) { note_fault(k, why); });
+  }
+
+  void note_fault(std::size_t k, const std::string& why) {
+    const std::lock_guard lock(mutex_);
+    faults_[k] = why;
   }
 
   void draw(const Candidate& c, const Band& band, std::size_t first,
@@ -174,10 +215,8 @@ class ExactRow {
     for (const auto& [candidate, pixels] : shown) {
       const ProjectedTriangle triangle = project(frame_, *candidate);
       for (const auto& [k, row] : pixels) {
-        if (auto fault = writer_.write(k, triangle, centre_of_pixel(chosen_.column(k), row))) {
-          const std::lock_guard lock(mutex_);
-          faults_[k] = fault->why;
-        }
+        if (auto fault = writer_.write(k, triangle, centre_of_pixel(chosen_.column(k), row)))
+          note_fault(k, fault->why);
       }
     }
   }
@@ -329,8 +368,10 @@ Verification verify(const DepthMap& map, const TriangleSource& triangles, const 
     throw UsageError(Setting{"chosen"}, "expected one choice for each pixel of the map");
   }
   return with_threads(options.threads, [&] {
-    require_renderable(triangles, camera);
-    return verify_in_arena({map, triangles, camera, options}, chosen, progress);
+    require_renderable_by_rays(triangles, camera);
+    require_channels_of(camera, options);
+    const View view(camera, &chosen);
+    return verify_in_arena({map, triangles, camera, options, view}, chosen, progress);
   });
 }
 
