@@ -36,7 +36,7 @@ void drop_helpers(DepthMap& map, const DepthBufferPlan& plan) {
 /// Adds to the choice all pixels at which a bound nearly failed to settle a decision. Returns their
 /// number.
 std::uint64_t choose_nearly_unsettled(const RenderedFrom& from, PixelChoice& chosen) {
-  if (engine_for(from.camera, from.options) != Engine::fast) return 0;
+  if (from.options.engine != Engine::fast) return 0;
   RenderOptions options = from.options;
   options.fast.widening = 16;
   options.fast.find_doubtful = true;

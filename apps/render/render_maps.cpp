@@ -148,7 +148,7 @@ MapReport make_map(const RenderPass& pass, const RenderInput& scene, const Motio
                    const RenderContext& context, const Console& console) {
   const MapPlan& plan = pass.plan;
   const std::string& name = outputs.map_name(number, pass.outputs.front().number);
-  MapReport report{.map = name, .engine = engine_for(camera, plan.rendering)};
+  MapReport report{.map = name, .engine = plan.rendering.engine};
   const RenderOptions options = pass.rendering_for(camera);
   Stopwatch stopwatch;
   // The message about a depth that the file cannot hold names the map.

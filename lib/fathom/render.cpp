@@ -26,7 +26,7 @@ namespace {
 
 void describe(const Scene& scene, const Camera& camera, const RenderOptions& options,
               DepthMap& map) {
-  describe_map(scene, camera, name_of(engine_for(camera, options)), map);
+  describe_map(scene, camera, name_of(options.engine), map);
   if (options.cull != Cull::none) {
     map.texts[cull_text] = name_of(options.cull);
   }
@@ -100,10 +100,6 @@ Mattes mattes_by_segment(const Scene& scene, const Camera& camera, const RenderO
 
 }  // namespace
 
-Engine engine_for(const Camera& camera, const RenderOptions& options) {
-  return counts_distance(camera.projection) ? Engine::reference : options.engine;
-}
-
 Rendered render(const Scene& scene, const Camera& camera, const RenderOptions& options,
                 const RenderContext& context) {
   const StandardArithmetic standard;
@@ -116,7 +112,7 @@ void render_into(Rendered& rendered, const Scene& scene, const Camera& camera,
                  const RenderOptions& options, const RenderContext& context) {
   const StandardArithmetic standard;
   DepthMap before = std::exchange(rendered, {}).map;
-  Rendered now = engine_for(camera, options) == Engine::fast
+  Rendered now = options.engine == Engine::fast
                      ? render_fast(scene, camera, options, context, std::move(before))
                      : render_reference(scene, camera, options, context, std::move(before));
   finish_map(now.map, scene, camera, options, now.statistics);

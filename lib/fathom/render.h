@@ -20,9 +20,6 @@
 /// pipeline instead.
 namespace fathom {
 
-/// The engine that renders a map: both compute the same bits, and the fast engine has no lenses.
-Engine engine_for(const Camera& camera, const RenderOptions& options);
-
 /// Renders `scene` as seen by `camera`. The map contains the data for recomputing it: camera,
 /// sources, object names, engine.
 /// Exact    every value is the exact number of the specification rounded once (section 6).

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "fathom/failures/errors.h"
 #include "fathom/render.h"
@@ -12,6 +13,7 @@
 #include "tests/inputs/lens_scenes.h"
 #include "tests/inputs/soup.h"
 #include "tests/inputs/spheres.h"
+#include "tests/inputs/tables_of_directions.h"
 
 namespace fathom {
 namespace {
@@ -63,7 +65,9 @@ INSTANTIATE_TEST_SUITE_P(
     Fast, LensAdversaries,
     ::testing::Combine(::testing::Values(LensModel::simple_radial, LensModel::radial,
                                          LensModel::opencv, LensModel::full_opencv,
-                                         LensModel::opencv_14, LensModel::brown),
+                                         LensModel::opencv_14, LensModel::brown,
+                                         LensModel::simple_division, LensModel::division,
+                                         LensModel::fisheye_stereographic),
                        ::testing::Values(Kind::few_bits, Kind::neighbours, Kind::huge, Kind::tiny)),
     name_of_case);
 
@@ -81,6 +85,8 @@ std::vector<NamedLens> lenses() {
   narrow.max_radius = 0.8;
   Lens ends{LensModel::simple_pinhole};
   ends.max_radius = 0.75;
+  Lens angle{LensModel::fisheye_stereographic};
+  angle.max_radius = 1;
   return {{"barrel", {LensModel::simple_radial, {-0.25}}},
           {"pincushion", {LensModel::simple_radial, {0.2}}},
           {"folds", {LensModel::radial, {-0.4, 0.05}}},
@@ -90,7 +96,12 @@ std::vector<NamedLens> lenses() {
            opencv({-0.1, 0.02, 0.001, 0.002, 0.003, 0, 0, 0, 0.01, -0.002, 0.004, 0.001})},
           {"tilted", opencv({-0.1, 0.02, 0.001, 0.002, 0, 0, 0, 0, 0, 0, 0, 0, 0.05, -0.03})},
           {"narrow", narrow},
-          {"pinhole that ends", ends}};
+          {"pinhole that ends", ends},
+          {"stereographic", {LensModel::fisheye_stereographic}},
+          {"stereographic that ends", angle},
+          {"division", {LensModel::simple_division, {-0.25}}},
+          {"division to all sides", {LensModel::division, {-1.5}}},
+          {"division that ends", {LensModel::division, {0.5}}}};
 }
 
 Camera camera_with(const Lens& lens) {
@@ -161,7 +172,7 @@ TEST(FastLenses, MemoryOfOneFrameServesTheNext) {
   options.channels = lens_channels(testing::quick_channels);
   DepthMap before;
   const std::vector<NamedLens> all = lenses();
-  for (const std::size_t number : {0U, 3U, 7U}) {
+  for (const std::size_t number : {0U, 3U, 7U, 12U}) {
     const NamedLens& named = all[number];
     SCOPED_TRACE(named.name);
     for (const double z : {0.0, 0.5}) {
@@ -293,6 +304,103 @@ TEST(FastLenses, HardNumbers) {
       if (!std::isfinite(size) || !std::isfinite(x * 4 + size * 8)) continue;
       expect_same(around(x, 0, size), camera, options);
     }
+  }
+}
+
+class TableAdversaries : public ::testing::TestWithParam<Kind> {};
+
+// Some directions are those of corners, and of middles between two.
+TEST_P(TableAdversaries, AreTheSame) {
+  const Kind kind = GetParam();
+  RenderStatistics sum;
+  testing::for_each_adversary(26, [&](std::uint64_t seed) {
+    testing::CaseMaker cases(100 * seed + static_cast<std::uint64_t>(kind), kind);
+    testing::Case c = cases.make();
+    std::vector<double> numbers = testing::DirectionMaker(seed).numbers(30);
+    if (seed % 2 == 0) {
+      c.camera.world_to_camera = Camera().world_to_camera;
+      testing::aim_at_corners(c.scene, numbers);
+    }
+    const Camera camera = testing::with_table(c.camera, std::move(numbers));
+    RenderOptions options;
+    options.threads = 1;
+    options.channels =
+        lens_channels(seed % 10 == 0 ? testing::every_channel : testing::quick_channels);
+    options.cull = seed % 7 == 0 ? Cull::back : seed % 7 == 1 ? Cull::front : Cull::none;
+    add(sum, expect_same(c.scene, camera, options));
+  });
+  if (testing::effort > 1 || (kind != Kind::few_bits && kind != Kind::neighbours)) return;
+  EXPECT_GT(sum.edges.exact, 5U);
+  EXPECT_GT(sum.rounding.interval, 5U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fast, TableAdversaries,
+                         ::testing::Values(Kind::few_bits, Kind::neighbours, Kind::huge,
+                                           Kind::tiny));
+
+/// A panorama of all directions; that of a cylinder of a few degrees where `height` is 1.
+Camera panorama(std::uint32_t width, std::uint32_t height) {
+  std::vector<double> numbers;
+  for (std::uint32_t row = 0; row < height; ++row) {
+    const double up = height == 1 ? 0.125 : (0.5 - (row + 0.5) / height) * std::numbers::pi;
+    for (std::uint32_t column = 0; column < width; ++column) {
+      const double turn = ((column + 0.5) / width - 0.5) * 2 * std::numbers::pi;
+      numbers.insert(numbers.end(), {std::cos(up) * std::sin(turn), -std::sin(up),
+                                     std::cos(up) * std::cos(turn)});
+    }
+  }
+  Camera camera;
+  camera.width = width;
+  camera.height = height;
+  return testing::with_table(camera, std::move(numbers));
+}
+
+// Tiles of one view and of several; depths of all signs; ranges of distances.
+TEST(FastTables, PanoramasOfAnyNumberOfThreads) {
+  std::mt19937_64 random(4716);
+  int i = 0;
+  for (const auto& [width, height] : {std::pair(300U, 150U), std::pair(70U, 40U), std::pair(500U, 1U)}) {
+    for (int k = 0; k < 3; ++k, ++i) {
+      SCOPED_TRACE(i);
+      const Scene scene = k == 2 ? testing::two_spheres(8) : testing::soup(random, 60, k == 1);
+      Camera camera = panorama(width, height);
+      camera.world_to_camera[0][3] = k == 2 ? 0.125 : -1;
+      camera.world_to_camera[2][3] = k == 2 ? 0.25 : -2;
+      if (i % 3 != 0) camera.near = 1.5;
+      if (i % 3 == 2) camera.far = 2.5;
+      if (k == 1) camera.projection.lens->max_radius = 2;
+      RenderOptions options;
+      options.channels = lens_channels(i % 2 == 0 ? testing::every_channel : testing::quick_channels);
+      const DepthMap truth = render_reference(scene, camera, options).map;
+      options.threads = 1 + i % 3;
+      expect_same_map(render_fast(scene, camera, options).map, truth);
+      options.fast.early_rejection = options.fast.hierarchy = false;
+      options.fast.widening = 0x1p20;
+      expect_same_map(render_fast(scene, camera, options).map, truth);
+    }
+  }
+}
+
+// All in one place, on a line, with components that differ by hundreds of orders of magnitude, and
+// subnormal ones.
+TEST(FastTables, HardNumbers) {
+  const std::vector<std::vector<double>> tables{
+      {1, 1, 2, 1, 1, 2, 1, 1, 2, 1, 1, 2},
+      {0, 0, 1, 0x1p-1074, 0, 1, 0, 0x1p-1074, 1, -0x1p-1074, 0x1p-1074, 1},
+      {0x1p-1074, 0, 0x1p-1074, 0, 0, 0x1p-1074, 0x3p-1074, 0x1p-1073, 0x1p-1072, 0, 0, -0x1p-1074},
+      {0x1p1023, 0x1p1023, 0x1p1023, 0x1p1023, -0x1p1023, 0x1.fp1023, 1, 0, 0x1p1023, 0, 1, 0x1p1023},
+      {1, 0, 0x1p-300, 1, 0x1p-600, 0, 1, 0x1p-30, 0x1p-30, 1, 0, -0x1p-1074},
+      {1, 0x1p-52, 1, 1, 0, 1, 1, -0x1p-52, 1, 1, 0x1p-53, 1}};
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    SCOPED_TRACE(i);
+    Camera camera;
+    camera.width = camera.height = 2;
+    camera = testing::with_table(camera, tables[i]);
+    RenderOptions options;
+    options.channels = lens_channels(testing::every_channel);
+    expect_same(testing::box_scene(1, 1, 1), camera, options);
+    expect_same(around(1, 0, 1), camera, options);
+    expect_same(around(0, 0, 1), camera, options);
   }
 }
 

@@ -46,20 +46,6 @@ oracle::RayCaster cast_along(const Scene& scene, const Camera& camera) {
   });
 }
 
-/// Directions to the corners of a scene, and to points halfway between them, where they are
-/// binary64 numbers.
-void aim_at_corners(const Case& c, std::vector<double>& numbers) {
-  const std::vector<MeshPoint> corners(c.scene.meshes[0].vertices.begin(),
-                                       c.scene.meshes[0].vertices.end());
-  for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
-    const MeshPoint &a = corners[i], &b = corners[i + 1];
-    const double other = i % 2;
-    const double d[]{a.x + other * b.x, a.y + other * b.y, a.z + other * b.z};
-    if (d[0] == 0 && d[1] == 0 && d[2] == 0) continue;
-    std::copy_n(d, 3, &numbers[6 * i]);
-  }
-}
-
 class TableMaps : public ::testing::TestWithParam<Kind> {};
 
 TEST_P(TableMaps, EveryChannelOfEveryPixelAgreesWithRationalRays) {
@@ -73,7 +59,7 @@ TEST_P(TableMaps, EveryChannelOfEveryPixelAgreesWithRationalRays) {
     std::vector<double> numbers = directions.numbers(30);
     if (i % 2 == 0) {
       c.camera.world_to_camera = Camera().world_to_camera;
-      aim_at_corners(c, numbers);
+      testing::aim_at_corners(c.scene, numbers);
     }
     const Camera camera = with_table(c.camera, std::move(numbers));
     const auto [map, statistics, doubtful] = render(c.scene, camera, all_with_valid());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
+#include "fathom/scene/scene.h"
 
 namespace fathom::testing {
 
@@ -53,5 +55,20 @@ class DirectionMaker {
 
   std::mt19937_64 random_;
 };
+
+/// Directions to the corners of a scene, and to points halfway between them, where they are
+/// binary64 numbers: of every second pixel, as far as there are pixels.
+inline void aim_at_corners(const Scene& scene, std::vector<double>& numbers) {
+  const std::vector<MeshPoint> corners(scene.meshes[0].vertices.begin(),
+                                       scene.meshes[0].vertices.end());
+  for (std::size_t i = 0; i + 2 < corners.size() && 6 * i + 3 <= numbers.size(); ++i) {
+    const MeshPoint &a = corners[i], &b = corners[i + 1];
+    const double other = i % 2;
+    const double d[]{a.x + other * b.x, a.y + other * b.y, a.z + other * b.z};
+    if (d[0] == 0 && d[1] == 0 && d[2] == 0) continue;
+    if (!std::isfinite(d[0] + d[1] + d[2])) continue;
+    std::copy_n(d, 3, &numbers[6 * i]);
+  }
+}
 
 }  // namespace fathom::testing

@@ -25,11 +25,16 @@ std::optional<RationalDirection> divide(const DistortedPoint& y, const Dyadic& k
   return RationalDirection({y.a * y.c, y.b * y.c, c_squared + term}, c_squared);
 }
 
+/// Whether every angle is at most `radius`: the next number after π's nearest is above π.
+bool is_beyond_every_angle(double radius) {
+  return radius > std::numbers::pi;
+}
+
 /// Whether the angle between d and the z axis is at most `radius` > 0: the sign of z −
 /// |d|·cos(radius). The cosine of a rational number other than 0 is transcendental, so it is never
 /// 0.
 bool is_within_angle(const ExactVector3& d, double radius) {
-  if (radius > std::numbers::pi) return true;  // the next number after π's nearest is above π
+  if (is_beyond_every_angle(radius)) return true;
   const Dyadic squared_length = dot(d, d);
   for (long bits = 128;; bits *= 2) {
     const BigInterval length = sqrt(BigInterval(squared_length, bits));
@@ -99,6 +104,14 @@ std::optional<ExactDirection> Preimages::of_pixel(std::uint32_t column, std::uin
   RationalDirection direction = scaled_direction(*d);
   if (!is_within_angle(direction.vector(), lens_.max_radius)) return std::nullopt;
   return ExactDirection(std::move(direction));
+}
+
+std::optional<Interval> Preimages::cosine_of_end() const {
+  const StandardArithmetic standard;
+  if (entry_of(lens_.model).is_plane || is_beyond_every_angle(lens_.max_radius))
+    return std::nullopt;
+  constexpr long bits = 64;
+  return enclose(cos(BigInterval(Dyadic(lens_.max_radius), bits)).ends());
 }
 
 // K⁻¹ and the tilt are linear: three points show the matrix of both.

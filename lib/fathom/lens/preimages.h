@@ -44,6 +44,10 @@ class Preimages {
   /// the third component is not positive, the sample sees nothing.
   [[nodiscard]] std::array<ExactVector3, 3> plane_map() const;
 
+  /// An interval that contains cos(max_radius), of a model whose max_radius is an angle that leaves
+  /// rays out.
+  [[nodiscard]] std::optional<Interval> cosine_of_end() const;
+
   /// Q: rays of a model with a stage have |m|² ≤ Q, and max_radius may narrow that. +∞ if there is
   /// no bound, or no stage.
   [[nodiscard]] double disc() const { return stage_.disc; }

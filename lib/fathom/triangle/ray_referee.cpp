@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "fathom/numeric/quadratic_form.h"
+
 namespace fathom::triangle {
 namespace {
 
@@ -12,6 +14,20 @@ LinearForm difference(const LinearForm& a, const Dyadic& of_a, const LinearForm&
   for (std::size_t k = 0; k < 3; ++k)
     l[k] = of_a * a.coefficients()[k] - of_b * b.coefficients()[k];
   return LinearForm(l);
+}
+
+/// near ≤ |T|·|d|/w ≤ far, by the signs of differences of squares.
+bool is_distance_in_range(const ProjectedTriangle& t, const lens::ExactDirection& d,
+                          const Camera& camera) {
+  const QuadraticForm weight = square_of(t.weight.coefficients());
+  const auto from = [&](double limit) {
+    QuadraticForm form = (t.volume * t.volume) * squared_length();
+    form -= (Dyadic(limit) * limit) * weight;
+    return d.sign_of(form);
+  };
+  if (camera.near > 0 && from(camera.near) == Sign::negative) return false;
+  return camera.far == std::numeric_limits<double>::infinity() ||
+         from(camera.far) != Sign::positive;
 }
 
 }  // namespace
@@ -28,6 +44,7 @@ bool RayReferee::is_in_range(std::uint32_t number, const lens::ExactDirection& d
                              RenderStatistics& statistics) {
   ++statistics.range.exact;
   const ProjectedTriangle& t = projected(number);
+  if (counts_distance(camera_.projection)) return is_distance_in_range(t, d, camera_);
   const Sample s(d);
   TierCounts within;
   if (s.sign_of(t.depth_numerator, within) != Sign::positive) return false;

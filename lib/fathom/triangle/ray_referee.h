@@ -24,7 +24,8 @@ class RayReferee {
   }
 
   bool covers(std::uint32_t number, const lens::ExactDirection& d, RenderStatistics& statistics);
-  /// Whether D > 0 and near ≤ D ≤ far, where the triangle covers the sample.
+  /// Whether D > 0 and near ≤ D ≤ far, where the triangle covers the sample; of a camera whose
+  /// limits bound ray distances, whether those are between them.
   bool is_in_range(std::uint32_t number, const lens::ExactDirection& d,
                    RenderStatistics& statistics);
   /// Whether, at a sample that both cover, `a` hides `b`: it is nearer along the ray, or as near

@@ -7,6 +7,7 @@ RaySurface::RaySurface(const ProjectedTriangle& t, const Wanted& wanted)
   if (wanted.position) position_ = position_forms(t);
   if (wanted.barycentric) barycentric_ = {t.edges[1], t.edges[2]};
   if (wanted.distance) volume_ = t.volume;
+  if (wanted.depth) depth_ = t.depth_numerator;
 }
 
 bool RaySurface::write(std::size_t pixel, const RayBox& box,
@@ -24,6 +25,7 @@ bool RaySurface::write(std::size_t pixel, const RayBox& box,
     for (std::size_t k = 0; k < 2; ++k)
       if (!settle(values.barycentric[k], barycentric_[k])) return false;
   }
+  if (wanted_.depth && !settle(values.depth.binary32, depth_)) return false;
   if (wanted_.distance) {
     const auto settled = distance_in(box, volume_, weight_);
     if (!settled) return false;

@@ -9,19 +9,19 @@
 
 namespace fathom::triangle {
 
-/// A visible triangle of a camera that bends rays, prepared for many of its pixels: P, bary and
-/// distance in binary32, as far as binary64 settles them.
+/// A visible triangle of a camera that bends rays, prepared for many of its pixels: P, bary,
+/// distance and Z in binary32, as far as binary64 settles them.
 class RaySurface {
  public:
-  /// The channels that it writes, of those that were asked for.
+  /// The channels that it writes, of those that were asked for; Z where a caller sets that.
   struct Wanted {
     explicit Wanted(const rendering::ChannelValues& values)
         : position(values.position[0] != nullptr),
           barycentric(values.barycentric[0] != nullptr),
           distance(values.distance.binary32 != nullptr) {}
-    [[nodiscard]] bool any() const { return position || barycentric || distance; }
+    [[nodiscard]] bool any() const { return position || barycentric || distance || depth; }
 
-    bool position, barycentric, distance;
+    bool position, barycentric, distance, depth = false;
   };
 
   RaySurface(const ProjectedTriangle& triangle, const Wanted& wanted);
@@ -35,7 +35,7 @@ class RaySurface {
   Wanted wanted_;
   std::array<LinearForm, 3> position_;
   std::array<LinearForm, 2> barycentric_;
-  LinearForm weight_;
+  LinearForm depth_, weight_;
   Dyadic volume_;
 };
 

@@ -35,17 +35,6 @@ LensOutput::LensOutput(ChannelWriter& writer, std::uint32_t width)
       along_rays_(writer.values()),
       others_(has_triangle_channels(writer.values())) {}
 
-void LensOutput::write_valid(const PixelBox& area, const Places::OfTile& places) const {
-  std::uint32_t* const valid = writer_.values().valid;
-  if (valid == nullptr) return;
-  for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
-    for (std::uint32_t column = area.first_column; column <= area.last_column; ++column) {
-      const std::size_t i = Tile::index(column - area.first_column, row - area.first_row);
-      valid[std::size_t{row} * width_ + column] = places.x[i] == places.x[i] ? 1 : 0;
-    }
-  }
-}
-
 void LensOutput::copy_triangle_channels(std::size_t from, std::size_t to) const {
   const rendering::ChannelValues& values = writer_.values();
   const auto copy = [&](auto* channel) {
@@ -89,19 +78,26 @@ std::optional<EncodingFault> LensOutput::write_along_ray(const LensTile& tile, s
   return writer_.write(pixel, context.referee.projected(number), *ray);
 }
 
+// The place (x, y) is the direction x·right + y·down + forward.
 bool LensOutput::write_in_binary64(const LensTile& tile, std::size_t i, std::size_t pixel,
-                                   const LensContext& context) {
+                                   const RaySurface::Wanted& wanted, const LensContext& context) {
   std::optional<RaySurface>& surface = surfaces_[Tile::place_of(tile.tile().tags()[i])];
   if (!surface)
-    surface.emplace(context.referee.projected(tile.tile().surface_at(i).number()), along_rays_);
+    surface.emplace(context.referee.projected(tile.tile().surface_at(i).number()), wanted);
   const Places::OfTile& places = tile.places();
   const auto around = [&](double x) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     return Interval{std::nextafter(x - places.error, -infinity),
                     std::nextafter(x + places.error, infinity)};
   };
-  return surface->write(pixel, {around(places.x[i]), around(places.y[i]), {1, 1}},
-                        writer_.values());
+  RayBox box;
+  const auto set = [&box](const ViewAxes::Axis& axis, const Interval& interval) {
+    box[axis.of_camera] = axis.sign > 0 ? interval : Interval{-interval.upper, -interval.lower};
+  };
+  set(context.axes.right, around(places.x[i]));
+  set(context.axes.down, around(places.y[i]));
+  set(context.axes.forward, {1, 1});
+  return surface->write(pixel, box, writer_.values());
 }
 
 void LensOutput::write_others(const LensTile& tile, std::size_t i, std::size_t pixel,
@@ -120,22 +116,24 @@ void LensOutput::write_others(const LensTile& tile, std::size_t i, std::size_t p
 // that are not settled, computed along the exact ray.
 std::optional<EncodingFault> LensOutput::write(const LensTile& tile, const LensContext& context) {
   const PixelBox& area = tile.tile().area();
-  write_valid(area, tile.places());
   round_depths(tile, rounded_);
-  const bool has_depths = writer_.values().depth.binary32 != nullptr;
-  if (has_depths) write_depths(area);
+  const Depths depths = depths_of(tile, context);
+  if (depths == Depths::in_rows) write_depths(area);
+  RaySurface::Wanted wanted = along_rays_;
+  wanted.depth = depths == Depths::along_rays;
   first_pixel_.assign(tile.tile().end_of_places(), not_written);
   surfaces_.clear();
-  if (along_rays_.any()) surfaces_.resize(tile.tile().end_of_places());
+  if (wanted.any()) surfaces_.resize(tile.tile().end_of_places());
   std::optional<EncodingFault> fault;
   RenderStatistics& statistics = context.window.statistics;
   for (std::size_t word = 0; word < rounded_.surface.size(); ++word) {
-    for (const std::size_t k : EachBit(work_at(word, statistics))) {
+    for (const std::size_t k : EachBit(work_at(word, depths, statistics))) {
       const std::size_t i = 64 * word + k;
       const std::size_t pixel = (std::size_t{area.first_row} + Tile::row_of(i)) * width_ +
                                 area.first_column + Tile::column_of(i);
-      const bool is_open = needs_exact_rays_ || (has_depths && rounded_.is_open(i));
-      if (is_open || (along_rays_.any() && !write_in_binary64(tile, i, pixel, context))) {
+      const bool from_q = depths == Depths::in_rows || depths == Depths::by_sample;
+      const bool is_open = needs_exact_rays_ || (from_q && rounded_.is_open(i));
+      if (is_open || (wanted.any() && !write_in_binary64(tile, i, pixel, wanted, context))) {
         ++statistics.rounding.exact;
         context.window.note_doubt(area.first_column + Tile::column_of(i),
                                   area.first_row + Tile::row_of(i));
@@ -143,6 +141,8 @@ std::optional<EncodingFault> LensOutput::write(const LensTile& tile, const LensC
         if (found && (!fault || found->pixel < fault->pixel)) fault = std::move(found);
       } else {
         ++statistics.rounding.interval;
+        if (depths == Depths::by_sample)
+          writer_.values().depth.binary32[pixel] = rounded_.depths[i];
         if (others_) write_others(tile, i, pixel, context);
       }
     }
@@ -150,14 +150,22 @@ std::optional<EncodingFault> LensOutput::write(const LensTile& tile, const LensC
   return fault;
 }
 
-std::uint64_t LensOutput::work_at(std::size_t word, RenderStatistics& statistics) const {
+LensOutput::Depths LensOutput::depths_of(const LensTile& tile, const LensContext& context) const {
+  if (writer_.values().depth.binary32 == nullptr) return Depths::none;
+  if (!context.axes.is_of_camera()) return Depths::along_rays;
+  return tile.places().is_whole ? Depths::in_rows : Depths::by_sample;
+}
+
+std::uint64_t LensOutput::work_at(std::size_t word, Depths depths,
+                                  RenderStatistics& statistics) const {
   const std::uint64_t shown = rounded_.surface[word];
   const auto count = [](std::uint64_t bits) {
     return static_cast<std::uint64_t>(std::popcount(bits));
   };
   statistics.pixels_with_surface += count(shown);
-  if (needs_exact_rays_ || along_rays_.any() || others_) return shown;
-  const std::uint64_t open = writer_.values().depth.binary32 ? rounded_.open[word] : 0;
+  const bool by_sample = depths == Depths::by_sample || depths == Depths::along_rays;
+  if (needs_exact_rays_ || along_rays_.any() || others_ || by_sample) return shown;
+  const std::uint64_t open = depths == Depths::in_rows ? rounded_.open[word] : 0;
   statistics.rounding.interval += count(shown & ~open);
   return open;
 }

@@ -15,9 +15,7 @@ class LensOutput {
  public:
   LensOutput(triangle::ChannelWriter& writer, std::uint32_t width);
 
-  /// Writes `valid` for an area whose samples have no surface.
-  void write_valid(const PixelBox& area, const Places::OfTile& places) const;
-  /// Returns the fault of the first pixel in row order that has one.
+  /// Writes all that the tile shows but `valid`. Returns the fault of the first pixel in row order that has one.
   std::optional<triangle::EncodingFault> write(const LensTile& tile, const LensContext& context);
 
  private:
@@ -26,11 +24,19 @@ class LensOutput {
   std::optional<triangle::EncodingFault> write_along_ray(const LensTile& tile, std::size_t i,
                                                          std::size_t pixel,
                                                          const LensContext& context) const;
-  /// The samples of a word of bits for which there is more to do than to write depths.
-  std::uint64_t work_at(std::size_t word, RenderStatistics& statistics) const;
-  /// The other channels along rays; false if one of them is not settled.
+  /// How the depths of a tile are written.
+  enum class Depths : std::uint8_t {
+    none,
+    in_rows,    // rounded from q, with the background: of a tile that one view holds
+    by_sample,  // rounded from q, where there is a surface
+    along_rays  // with the other channels along rays: q is of another axis than Z
+  };
+  [[nodiscard]] Depths depths_of(const LensTile& tile, const LensContext& context) const;
+  /// The samples of a word of bits for which there is more to do than to write rows of depths.
+  std::uint64_t work_at(std::size_t word, Depths depths, RenderStatistics& statistics) const;
+  /// Channels along rays; false if one of them is not settled.
   bool write_in_binary64(const LensTile& tile, std::size_t i, std::size_t pixel,
-                         const LensContext& context);
+                         const triangle::RaySurface::Wanted& wanted, const LensContext& context);
   /// The channels that are the same wherever a surface is seen.
   void write_others(const LensTile& tile, std::size_t i, std::size_t pixel,
                     const LensContext& context);

@@ -20,6 +20,8 @@ struct LensContext {
   const DrawContext& window;
   triangle::RayReferee& referee;
   const lens::Preimages& preimages;
+  /// Those of the window.
+  const ViewAxes& axes;
 };
 
 /// Rectangles around the samples of some parts of a tile that have a ray, in the window, from the

@@ -6,33 +6,24 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <vector>
 
+#include "fathom/fast/lenses/certified_plane.h"
+#include "fathom/fast/lenses/direction_places.h"
+#include "fathom/fast/lenses/place_arithmetic.h"
 #include "fathom/fast/lenses/stage_lanes.h"
 #include "fathom/lens/stage_bounds.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/dyadic_interval.h"
 #include "fathom/numeric/rounding.h"
-#include "fathom/numeric/unit_roundoff.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::fast {
+using namespace place_arithmetic;
 using lens::PolynomialStage;
 using lens::StageBounds;
 
 namespace {
-
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double u = unit_roundoff<double>;
-/// Covers the roundings of a few operations on positive numbers.
-constexpr double up = 1 + 0x1p-40;
-
-double greatest_size(double a, double b) {
-  return std::max(std::abs(a), std::abs(b));
-}
-
-double size_of(const PlaneBox& box) {
-  return std::max(greatest_size(box.left, box.right), greatest_size(box.top, box.bottom));
-}
 
 /// A greater residual, relative to 1 + |m|, means that the search has failed.
 constexpr double loose_residual = 0x1p-36;
@@ -43,67 +34,6 @@ double greatest_image(const PolynomialStage& stage) {
   return stage.limit ? greatest_on_circle(stage.numbers, enclose(*stage.limit).upper)
                      : std::numeric_limits<double>::infinity();
 }
-
-/// The map from samples to y in binary64, with a bound on the errors of its components; the error
-/// is +∞ where no bound is known.
-class CertifiedPlane {
- public:
-  CertifiedPlane(const lens::Preimages& preimages, const Projection& projection,
-                 std::uint32_t width, std::uint32_t height);
-
-  [[nodiscard]] const PlaneForLanes& lanes() const { return lanes_; }
-  [[nodiscard]] double error() const { return error_; }
-  [[nodiscard]] std::array<double, 2> at(double column, double row) const {
-    const double x = column - lanes_.centre_u, y = row - lanes_.centre_v;
-    const auto value = [&](const std::array<double, 3>& g) { return g[0] * x + g[1] * y + g[2]; };
-    const double z = lanes_.is_affine ? 1 : value(lanes_.g[2]);
-    return {value(lanes_.g[0]) / z, value(lanes_.g[1]) / z};
-  }
-
- private:
-  PlaneForLanes lanes_;
-  double error_ = std::numeric_limits<double>::infinity();
-};
-
-// The origin is moved to a binary64 number, exactly; entries are divided by the last one and
-// rounded. Each term has roundings of its entry, of the difference of coordinates and of the
-// product, and two sums follow: 5u of the terms, 6u with those of second order. Of a quotient n/z
-// with z ≥ least_z, the error is at most (E_n + |n/z|·E_z)/least_z, and a rounding.
-CertifiedPlane::CertifiedPlane(const lens::Preimages& preimages, const Projection& projection,
-                               std::uint32_t width, std::uint32_t height) {
-  const auto [cx, cy] = principal_point(projection);
-  if (!std::isfinite(cx) || !std::isfinite(cy)) return;
-  const std::array<ExactVector3, 3> rows = preimages.plane_map();
-  const auto moved = [cx = cx, cy = cy](const ExactVector3& row) {
-    return row[0] * Dyadic(cx) + row[1] * Dyadic(cy) + row[2];
-  };
-  const Dyadic divisor = moved(rows[2]);
-  if (divisor.sign() != Sign::positive) return;
-  lanes_.centre_u = cx;
-  lanes_.centre_v = cy;
-  const double sizes[] = {greatest_size(cx, width - cx), greatest_size(cy, height - cy), 1};
-  std::array<double, 3> terms{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Dyadic exact[] = {rows[i][0], rows[i][1], moved(rows[i])};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double entry = lanes_.g[i][k] = round_to_binary64(Ratio(exact[k], divisor));
-      const double size = std::abs(entry);
-      if (!exact[k].is_zero() && !(size > 0x1p-900 && size < 0x1p900)) return;
-      terms[i] += std::abs(lanes_.g[i][k]) * sizes[k] * up;
-    }
-  }
-  lanes_.is_affine = lanes_.g[2][0] == 0 && lanes_.g[2][1] == 0;
-  const double least_z = lanes_.is_affine ? 1 : (2 - terms[2]) / up;
-  if (!(least_z > 0x1p-10)) return;
-  const double n = std::max(terms[0], terms[1]);
-  error_ = (6 * u * (n + n / least_z * terms[2]) / least_z + u * n / least_z) * up +
-           std::numeric_limits<double>::min();
-}
-
-/// Where the places of a tile are written.
-struct FoundPlaces {
-  std::span<double> x, y;
-};
 
 /// Finds the places of one tile.
 class TileSearch {
@@ -118,11 +48,10 @@ class TileSearch {
         places_(places) {}
 
   void find() {
-    const PolynomialStage* const stage = preimages_.stage();
-    if (stage == nullptr || !(plane_.error() < 1)) {
-      find_exactly(0, 0, TileShape::size, TileShape::size);
+    if (plane_.error() < 1) {
+      search(*preimages_.stage());
     } else {
-      search(*stage);
+      find_exactly(0, 0, TileShape::size, TileShape::size);
     }
   }
   /// The bound on the errors.
@@ -268,7 +197,7 @@ void TileSearch::store(const BlockSamples& samples, std::uint32_t column, std::u
 TileSearch::Certificate TileSearch::certificate_in(const PolynomialStage& stage,
                                                    const PlaneBox& box) const {
   // Between these sizes neither residuals nor products of places underflow or overflow.
-  const double size = size_of(box);
+  const double size = box.size();
   if (!(size > 0x1p-400 && size < 0x1p400)) return {};
   const double radius = 0x1p-28 * size;
   const StageBounds bounds =
@@ -358,45 +287,93 @@ void TileSearch::forget_beyond_image() {
   }
 }
 
+/// Places with an error or a coordinate of that size are in no image of the plane.
+constexpr double beyond_planes = 0x1p500;
+
+bool is_usable(const Places::View& view) {
+  return std::ranges::all_of(view.errors, [](double error) { return error < beyond_planes; }) &&
+         (view.box.is_empty() || view.box.size() < beyond_planes);
+}
+
 }  // namespace
 
-void PlaneBox::add(const PlaneBox& other) {
-  if (other.is_empty()) return;
-  if (is_empty()) {
-    *this = other;
-    return;
-  }
-  left = std::min(left, other.left);
-  right = std::max(right, other.right);
-  top = std::min(top, other.top);
-  bottom = std::max(bottom, other.bottom);
-}
+Places::View::View(const ViewAxes& the_axes, std::size_t tiles)
+    : axes(the_axes), errors(tiles), boxes(tiles) {}
 
 Places::Places(const Projection& projection, std::uint32_t width, std::uint32_t height)
     : projection_(projection),
       grid_(width, height),
       preimages_(projection, *projection.lens),
       x_(std::make_unique_for_overwrite<double[]>(samples())),
-      y_(std::make_unique_for_overwrite<double[]>(samples())),
-      errors_(grid_.count()),
-      boxes_(grid_.count()) {
-  const CertifiedPlane plane(preimages_, projection, width, height);
-  const double image = preimages_.stage() ? greatest_image(*preimages_.stage())
-                                          : std::numeric_limits<double>::infinity();
-  parallel_for(std::uint32_t{0}, grid_.count(), [&](std::uint32_t tile) {
-    const std::size_t first = std::size_t{tile} * TileShape::samples;
-    TileSearch search(
-        preimages_, plane, image, grid_, tile,
-        {{x_.get() + first, TileShape::samples}, {y_.get() + first, TileShape::samples}});
-    search.find();
-    errors_[tile] = search.error();
-    boxes_[tile] = search.box();
-  });
-  for (const PlaneBox& box : boxes_) box_.add(box);
-  are_usable_ = std::ranges::all_of(errors_, [](double error) { return error < 0x1p500; }) &&
-                (box_.is_empty() || size_of(box_) < 0x1p500);
+      y_(std::make_unique_for_overwrite<double[]>(samples())) {
+  preimages_.stage() ? find_in_plane() : find_in_views();
+  for (View& view : views_)
+    for (const PlaneBox& box : view.boxes) view.box.add(box);
+  are_usable_ = std::ranges::all_of(views_, is_usable);
+  std::erase_if(views_, [](const View& view) { return view.box.is_empty(); });
+  if (!views_.empty()) return;
   // Of an image without any ray.
-  if (box_.is_empty()) box_ = {0, 0, 0, 0};
+  views_.emplace_back(all_views.front(), grid_.count()).box = {0, 0, 0, 0};
+}
+
+FoundPlaces Places::room_of(std::uint32_t tile) {
+  const std::size_t first = std::size_t{tile} * TileShape::samples;
+  return {{x_.get() + first, TileShape::samples}, {y_.get() + first, TileShape::samples}};
+}
+
+void Places::find_in_plane() {
+  View& front = views_.emplace_back(all_views.front(), grid_.count());
+  const CertifiedPlane plane(preimages_, projection_, grid_.width, grid_.height);
+  const double image = greatest_image(*preimages_.stage());
+  parallel_for(std::uint32_t{0}, grid_.count(), [&](std::uint32_t tile) {
+    TileSearch search(preimages_, plane, image, grid_, tile, room_of(tile));
+    search.find();
+    front.errors[tile] = search.error();
+    front.boxes[tile] = search.box();
+  });
+}
+
+void Places::find_in_views() {
+  view_of_sample_ = std::make_unique<std::uint8_t[]>(samples());
+  for (const ViewAxes& axes : all_views) views_.emplace_back(axes, grid_.count());
+  const DirectionModel model(preimages_, projection_, grid_);
+  std::vector<std::array<std::uint32_t, all_views.size()>> counts(grid_.count());
+  parallel_for(std::uint32_t{0}, grid_.count(), [&](std::uint32_t tile) {
+    const auto found = find_places(
+        model, grid_, tile, room_of(tile),
+        {view_of_sample_.get() + std::size_t{tile} * TileShape::samples, TileShape::samples});
+    for (std::size_t v = 0; v < all_views.size(); ++v) {
+      views_[v].errors[tile] = found[v].error;
+      views_[v].boxes[tile] = found[v].box;
+      counts[tile][v] = found[v].count;
+    }
+  });
+  for (const auto& of_tile : counts)
+    for (std::size_t v = 0; v < all_views.size(); ++v) views_[v].count += of_tile[v];
+}
+
+bool Places::is_whole(const View& view, std::uint32_t tile) const {
+  return std::ranges::all_of(views_, [&](const View& other) {
+    return &other == &view || other.boxes[tile].is_empty();
+  });
+}
+
+Places::OfTile Places::of_tile(const View& view, std::uint32_t tile, Room& room) const {
+  const std::size_t first = std::size_t{tile} * TileShape::samples;
+  OfTile of_tile{{x_.get() + first, TileShape::samples},
+                 {y_.get() + first, TileShape::samples},
+                 view.errors[tile],
+                 view.boxes[tile],
+                 is_whole(view, tile)};
+  if (of_tile.is_whole || of_tile.box.is_empty()) return of_tile;
+  for (std::size_t i = 0; i < TileShape::samples; ++i) {
+    const bool is_here = all_views[view_of_sample_[first + i]] == view.axes;
+    room.x[i] = is_here ? of_tile.x[i] : no_number;
+    room.y[i] = is_here ? of_tile.y[i] : no_number;
+  }
+  of_tile.x = room.x;
+  of_tile.y = room.y;
+  return of_tile;
 }
 
 }  // namespace fathom::fast

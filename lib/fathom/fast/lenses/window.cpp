@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fathom/fast/lenses/lens_bounds.h"
+#include "fathom/fast/lenses/place_arithmetic.h"
 #include "fathom/numeric/unit_roundoff.h"
 
 namespace fathom::fast {
+using place_arithmetic::up;
+
 namespace {
 
 /// Pixels of a window; their coordinates have the bounds of images.
@@ -42,18 +46,71 @@ struct Axis {
   std::uint32_t pixels;
 };
 
+/// Pixels for a unit of the plane such that there are about as many as samples.
+double density_of(const Places::View& view) {
+  const double width = view.box.right - view.box.left, height = view.box.bottom - view.box.top;
+  const double extent = std::max(width, height), samples = static_cast<double>(view.count);
+  if (!(extent > 0)) return 1;
+  const double in_line = samples / extent, in_area = std::sqrt(samples / width / height);
+  return std::isfinite(in_area) ? std::min(in_line, in_area) : in_line;
+}
+
+/// Pixels for a unit of the plane, with the signs that keep orientations.
+struct Density {
+  Density(const Projection& lens, const Places::View& view) : u(lens.fx), v(lens.fy) {
+    if (!counts_distance(lens)) return;
+    const double density = density_of(view);
+    u = std::copysign(density, lens.fx);
+    v = std::copysign(density, lens.fy);
+  }
+  double u, v;
+};
+
+Pose pose_in(const ViewAxes& axes, const Pose& world_to_camera) {
+  Pose pose;
+  for (std::size_t row = 0; row < 3; ++row) {
+    const auto [of_camera, sign] = axes.all()[row];
+    for (std::size_t k = 0; k < 4; ++k) pose[row][k] = sign * world_to_camera[of_camera][k];
+  }
+  return pose;
+}
+
+/// The q of ray distances: of a depth D along a view's axis the distance is D·√(1 + a² + b²) at the
+/// place (a, b), between D and D·longest. Quotients are rounded, and moved by two numbers for that.
+DepthRange distance_range(const Camera& camera, const PlaneBox& box) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double down = 1 - 0x1p-40;
+  const double size = box.size();
+  const double longest = std::sqrt(1 + 2 * size * size) * up;
+  DepthRange range{-infinity, infinity, -infinity, infinity};
+  if (camera.far < infinity) {
+    range.inside_least = std::nextafter(longest / camera.far * up, infinity);
+    range.outside_least = std::nextafter(1 / camera.far * down, -infinity);
+  }
+  if (camera.near > 0) {
+    range.inside_greatest = std::nextafter(1 / camera.near * down, -infinity);
+    range.outside_greatest = std::nextafter(longest / camera.near * up, infinity);
+  }
+  return range;
+}
+
 }  // namespace
 
-Window::Window(const Camera& the_camera, const Places& places) : camera(the_camera) {
-  const PlaneBox& box = places.box();
-  const Projection& lens = the_camera.projection;
+Window::Window(const Camera& the_camera, const Places::View& view)
+    : camera(the_camera), axes(view.axes), range(depth_range(the_camera)) {
+  const PlaneBox& box = view.box;
   // Places err by a share of the greater coordinate.
-  const double size =
-      std::max({std::abs(box.left), std::abs(box.right), std::abs(box.top), std::abs(box.bottom)});
-  const Axis u(lens.fx, box.left, box.right, size), v(lens.fy, box.top, box.bottom, size);
+  const double size = box.size();
+  const Density density(the_camera.projection, view);
+  const Axis u(density.u, box.left, box.right, size), v(density.v, box.top, box.bottom, size);
   camera.width = u.pixels;
   camera.height = v.pixels;
   camera.projection = {.fx = u.scale, .fy = v.scale, .cx = u.shift, .cy = v.shift};
+  camera.world_to_camera = pose_in(axes, the_camera.world_to_camera);
+  if (!counts_distance(the_camera.projection)) return;
+  range = distance_range(the_camera, box);
+  camera.near = Camera().near;
+  camera.far = Camera().far;
 }
 
 // A product with a power of two is exact, the sum is rounded once: by u times less than the width

@@ -3,18 +3,23 @@
 #include <cstdint>
 
 #include "fathom/fast/lenses/places.h"
+#include "fathom/fast/setup/depth_range.h"
 #include "fathom/geometry/pixel_box.h"
 
 namespace fathom::fast {
 
-/// A camera with straight edges that stands where a camera with a lens stands, and sees all its
-/// rays: an image of the plane z = 1 by powers of two. What the fast engine knows of straight edges
-/// holds in it; the samples of the lens lie anywhere in it.
+/// A camera with straight edges that stands where a camera with a lens stands, and sees the rays of
+/// one of its views: an image of the view's plane at distance 1 by powers of two. What the fast
+/// engine knows of straight edges holds in it; the samples of the lens lie anywhere in it.
 struct Window {
   /// Needs    usable places.
-  Window(const Camera& camera, const Places& places);
+  Window(const Camera& camera, const Places::View& view);
 
   Camera camera;
+  ViewAxes axes;
+  /// The q that count in the window. Of a lens whose near and far bound ray distances, those that
+  /// count at all its samples, and those that count at none.
+  DepthRange range;
 };
 
 /// The samples of a tile in a window, from the centre of a pixel on: (x·scale_x + shift_x, …).

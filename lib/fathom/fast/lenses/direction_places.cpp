@@ -1,0 +1,223 @@
+#include "fathom/fast/lenses/direction_places.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "fathom/fast/lenses/place_arithmetic.h"
+#include "fathom/numeric/certified.h"
+
+// A place is a quotient of two components, which err by `error` each: with A, W the exact ones,
+// │a/w − A/W│ = │a·W − A·w│/(w·W) ≤ error·(1 + │a/w│)/W, W ≥ w − error, and a rounding. The
+// components of a table are exact, so that its places are quotients rounded once.
+namespace fathom::fast {
+using namespace place_arithmetic;
+
+namespace {
+
+/// Covers products that underflow.
+constexpr double underflow = std::numeric_limits<double>::min();
+/// Coordinates of a tile that is in one view: up to 76° from its axis.
+constexpr double most_in_one_view = 4;
+/// Places that err by more of their greater coordinate are found from the exact direction.
+constexpr double loose_error = 0x1p-30;
+
+double division_term(const Lens& lens) {
+  return lens.model == LensModel::fisheye_stereographic ? -0.25 : lens.distortion[0];
+}
+
+/// The same direction, scaled by a power of two so that its greatest component is about 1; smaller
+/// components may underflow, by at most `underflow`.
+ApproximateDirection scaled(const ApproximateDirection& direction) {
+  const auto& [x, y, z] = direction.d;
+  const double greatest = std::max({std::abs(x), std::abs(y), std::abs(z)});
+  const int power = -std::ilogb(greatest);
+  const auto times = [power](double a) {
+    return std::ldexp(std::ldexp(a, power / 2), power - power / 2);
+  };
+  return {{times(x), times(y), times(z)}, times(direction.error) + underflow};
+}
+
+}  // namespace
+
+// The sign of z − │d│·cos(max_radius). The length errs by √3·error at most, and by 4u of it in
+// computing.
+std::optional<bool> AngleLimit::keeps(const ApproximateDirection& direction) const {
+  if (!cosine_) return true;
+  const auto [d, error] = scaled(direction);
+  const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  const double cosine = cosine_->lower / 2 + cosine_->upper / 2;
+  const double value = d[2] - length * cosine;
+  const double doubt =
+      (3 * error + length * (cosine_->upper - cosine_->lower) + 8 * u * (length + 1)) * up;
+  if (value > doubt) return true;
+  if (value < -doubt) return false;
+  return std::nullopt;
+}
+
+DirectionModel::DirectionModel(const lens::Preimages& the_preimages, const Projection& projection,
+                               const TileGrid& grid)
+    : preimages_(the_preimages),
+      table_(projection.lens->directions.get()),
+      k_(division_term(*projection.lens)),
+      plane_(table_ ? CertifiedPlane()
+                    : CertifiedPlane(the_preimages, projection, grid.width, grid.height)),
+      limit_{the_preimages.cosine_of_end()} {}
+
+std::optional<ApproximateDirection> DirectionModel::at(std::uint32_t column,
+                                                       std::uint32_t row) const {
+  return table_ ? in_table(column, row) : divided(column, row);
+}
+
+std::optional<ApproximateDirection> DirectionModel::in_table(std::uint32_t column,
+                                                             std::uint32_t row) const {
+  const auto d = table_->at(column, row);
+  if (!d) return std::nullopt;
+  const ApproximateDirection direction{*d, 0};
+  const std::optional<bool> keeps = limit_.keeps(direction);
+  if (!keeps) return exactly_at(column, row);
+  return *keeps ? std::optional(direction) : std::nullopt;
+}
+
+// With x_d and y_d that err by e, x² + y² errs by 2e(│x│ + │y│) + 2e², and by 2u of it in
+// computing; the product with k and the sum with 1 are rounded once each. There is a ray where
+// k·r² < 1.
+std::optional<ApproximateDirection> DirectionModel::divided(std::uint32_t column,
+                                                            std::uint32_t row) const {
+  const double e = plane_.error();
+  if (!(e < 1)) return exactly_at(column, row);
+  const auto [x, y] = plane_.at(column + 0.5, row + 0.5);
+  const double squared = x * x + y * y;
+  const double bend = k_ * squared;
+  const double of_squared = 2 * e * (std::abs(x) + std::abs(y)) + 2 * e * e + 4 * u * squared + underflow;
+  const double of_z = (std::abs(k_) * of_squared + 2 * u * (1 + std::abs(bend)) + underflow) * up;
+  if (bend - of_z > 1) return std::nullopt;
+  if (!(bend + of_z < 1)) return exactly_at(column, row);
+  const ApproximateDirection direction{{x, y, 1 + bend}, std::max(e, of_z)};
+  const std::optional<bool> keeps = limit_.keeps(direction);
+  if (!keeps) return exactly_at(column, row);
+  return *keeps ? std::optional(direction) : std::nullopt;
+}
+
+std::optional<ApproximateDirection> DirectionModel::exactly_at(std::uint32_t column,
+                                                               std::uint32_t row) const {
+  const auto exact = preimages_.of_pixel(column, row);
+  if (!exact) return std::nullopt;
+  const ExactVector3& d = *exact->rational();
+  std::optional<long> top;
+  for (const Dyadic& component : d)
+    if (!component.is_zero()) top = std::max(top.value_or(component.top()), component.top());
+  ApproximateDirection direction{{}, underflow};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Interval around = enclose(d[k].scaled(-*top));
+    direction.d[k] = around.lower / 2 + around.upper / 2;
+    direction.error = std::max(direction.error, (around.upper - around.lower) * up + underflow);
+  }
+  return direction;
+}
+
+namespace {
+
+struct Place {
+  double x, y, error;
+};
+
+/// The place of a direction in a view; its error is +∞, or NaN, where none is known.
+Place place_in(const ViewAxes& view, const ApproximateDirection& direction) {
+  const double w = view.forward.of(direction.d);
+  const double least = w - direction.error;
+  Place place{view.right.of(direction.d) / w, view.down.of(direction.d) / w,
+              std::numeric_limits<double>::infinity()};
+  if (!(least > 0)) return place;
+  const double size = greatest_size(place.x, place.y);
+  const double by_components = direction.error == 0 ? 0 : direction.error * (1 + size) / least;
+  place.error = (by_components + u * size) * up + underflow;
+  return place;
+}
+
+bool is_tight(const Place& place) {
+  return place.error <= loose_error * greatest_size(place.x, place.y) + underflow;
+}
+
+/// The view along the greatest component.
+std::uint8_t view_along(const std::array<double, 3>& d) {
+  std::uint8_t along = 0;
+  for (std::uint8_t v = 1; v < all_views.size(); ++v)
+    if (all_views[v].forward.of(d) > all_views[along].forward.of(d)) along = v;
+  return along;
+}
+
+/// A bit for each view in which the direction is not far from the middle; the exact one is then in
+/// front of it, and its place below 9.
+unsigned views_with(const ApproximateDirection& direction) {
+  unsigned views = 0;
+  for (std::size_t v = 0; v < all_views.size(); ++v) {
+    const double w = all_views[v].forward.of(direction.d);
+    const double most = most_in_one_view * w;
+    if (w > 2 * direction.error && std::abs(all_views[v].right.of(direction.d)) <= most &&
+        std::abs(all_views[v].down.of(direction.d)) <= most)
+      views |= 1U << v;
+  }
+  return views;
+}
+
+/// The samples of a tile that have a ray, and the views that hold all of them.
+struct TileDirections {
+  TileDirections(const DirectionModel& model, const TileGrid& grid, const PixelBox& area) {
+    directions.reserve(TileShape::samples);
+    for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
+      for (std::uint32_t column = area.first_column; column <= area.last_column; ++column) {
+        if (column >= grid.width || row >= grid.height) continue;
+        const auto direction = model.at(column, row);
+        if (!direction) continue;
+        directions.push_back({column, row, *direction});
+        views &= views_with(*direction);
+      }
+    }
+  }
+
+  struct Sample {
+    std::uint32_t column, row;
+    ApproximateDirection direction;
+  };
+  std::vector<Sample> directions;
+  unsigned views = (1U << all_views.size()) - 1;
+};
+
+}  // namespace
+
+std::array<PlacesInView, all_views.size()> find_places(const DirectionModel& model,
+                                                       const TileGrid& grid, std::uint32_t tile,
+                                                       const FoundPlaces& places,
+                                                       std::span<std::uint8_t> views) {
+  const PixelBox area = grid.area(tile);
+  std::ranges::fill(places.x, no_number);
+  std::ranges::fill(places.y, no_number);
+  std::array<PlacesInView, all_views.size()> found;
+  const TileDirections all(model, grid, area);
+  for (const auto& [column, row, direction] : all.directions) {
+    const auto view_of = [&](const ApproximateDirection& d) {
+      return all.views != 0 ? static_cast<std::uint8_t>(std::countr_zero(all.views))
+                            : view_along(d.d);
+    };
+    std::uint8_t v = view_of(direction);
+    Place place = place_in(all_views[v], direction);
+    if (!is_tight(place)) {
+      const ApproximateDirection exact = *model.exactly_at(column, row);
+      v = view_of(exact);
+      place = place_in(all_views[v], exact);
+    }
+    const std::size_t i = TileShape::index(column - area.first_column, row - area.first_row);
+    places.x[i] = place.x;
+    places.y[i] = place.y;
+    views[i] = v;
+    PlacesInView& in_view = found[v];
+    in_view.error = std::max(in_view.error, place.error);
+    in_view.box.add({place.x, place.x, place.y, place.y});
+    ++in_view.count;
+  }
+  return found;
+}
+
+}  // namespace fathom::fast
