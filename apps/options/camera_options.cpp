@@ -57,8 +57,8 @@ Camera framing_camera(const Scene& scene, const View& view, const LensChoice& le
 }
 
 constexpr std::string_view takes_no_lens =
-    "this command takes no lens; 'fathom render' does, and so do info, preview and view of its "
-    "maps";
+    "this command takes no lens; 'fathom render' and 'fathom probe' do, and so do info, preview "
+    "and view of maps";
 
 std::vector<Camera> cameras_of_map(std::span<const std::byte> bytes, const std::string& file) {
   const std::optional<Camera> camera = camera_of(read_map_argument(bytes, file), file);

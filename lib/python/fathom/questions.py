@@ -34,7 +34,8 @@ class CoveringTriangle(NamedTuple):
     triangle: int
     face: int
     front_facing: bool
-    #: The exact planar depth at the centre, in scene units.
+    #: The exact planar depth at the centre, in scene units. Under a lens it may be irrational: then it is a fraction
+    #: that differs from the exact depth by at most 2**-180 of it.
     depth: Fraction
     #: Whether it can be visible: it is in front of the camera, within near and far, and not culled.
     counts: bool
@@ -47,7 +48,8 @@ class CoveringTriangle(NamedTuple):
 
 def probe(scene: Scene, camera: Camera, x: int, y: int, *, cull: Cull = "none") -> list[CoveringTriangle]:
     """Every triangle that covers the centre of the pixel in column `x` and row `y` from the top left: nearest first,
-    ties by number, and last the triangles that do not count. The first triangle that counts is visible.
+    ties by number, and last the triangles that do not count. The first triangle that counts is visible. Empty where a
+    lens gives the pixel no ray.
 
     >>> import fathom
     >>> scene = fathom.Scene()
