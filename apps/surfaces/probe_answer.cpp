@@ -176,16 +176,17 @@ std::string segments_text(const NamedSegments& segments, const TriangleOrigin& o
 }  // namespace
 
 std::string as_text(const Probe& probe) {
-  std::string text = fmt::format("pixel ({}, {}) of {}x{}: the sample is ({}.5, {}.5)\n", probe.x,
-                                 probe.y, probe.camera.width, probe.camera.height, probe.x, probe.y);
+  std::string text =
+      fmt::format("pixel ({}, {}) of {}x{}: the sample is ({}.5, {}.5)\n", probe.x, probe.y,
+                  probe.camera.width, probe.camera.height, probe.x, probe.y);
   const std::optional<ProbedRay> ray = ProbedRay::of(probe.camera, probe.x, probe.y);
   if (ray) text += ray->text();
-  text += fmt::format(
-      "{} covers it{}\n",
-      probe.triangles.empty()       ? "no triangle"
-      : probe.triangles.size() == 1 ? "one triangle"
-                                    : fmt::format("each of {} triangles", probe.triangles.size()),
-      probe.triangles.size() > 1 ? ", nearest first" : "");
+  text += fmt::format("{} covers it{}\n",
+                      probe.triangles.empty() ? "no triangle"
+                      : probe.triangles.size() == 1
+                          ? "one triangle"
+                          : fmt::format("each of {} triangles", probe.triangles.size()),
+                      probe.triangles.size() > 1 ? ", nearest first" : "");
   const NamedSegments segments(probe.scene);
   for (std::size_t i = 0; i < probe.triangles.size(); ++i) {
     const CoveringTriangle& triangle = probe.triangles[i];

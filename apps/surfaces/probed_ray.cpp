@@ -19,8 +19,7 @@ constexpr long bits = 128;
 /// The middles of the components over the greatest one.
 std::array<Ratio, 3> scaled(const std::array<DyadicInterval, 3>& enclosure) {
   std::array<Dyadic, 3> middle;
-  for (std::size_t k = 0; k < 3; ++k)
-    middle[k] = (enclosure[k].low + enclosure[k].high).scaled(-1);
+  for (std::size_t k = 0; k < 3; ++k) middle[k] = (enclosure[k].low + enclosure[k].high).scaled(-1);
   const Dyadic greatest = std::max({abs(middle[0]), abs(middle[1]), abs(middle[2])});
   return {Ratio(middle[0], greatest), Ratio(middle[1], greatest), Ratio(middle[2], greatest)};
 }

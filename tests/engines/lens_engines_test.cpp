@@ -345,8 +345,8 @@ Camera panorama(std::uint32_t width, std::uint32_t height) {
     const double up = height == 1 ? 0.125 : (0.5 - (row + 0.5) / height) * std::numbers::pi;
     for (std::uint32_t column = 0; column < width; ++column) {
       const double turn = ((column + 0.5) / width - 0.5) * 2 * std::numbers::pi;
-      numbers.insert(numbers.end(), {std::cos(up) * std::sin(turn), -std::sin(up),
-                                     std::cos(up) * std::cos(turn)});
+      numbers.insert(numbers.end(),
+                     {std::cos(up) * std::sin(turn), -std::sin(up), std::cos(up) * std::cos(turn)});
     }
   }
   Camera camera;
@@ -359,7 +359,8 @@ Camera panorama(std::uint32_t width, std::uint32_t height) {
 TEST(FastTables, PanoramasOfAnyNumberOfThreads) {
   std::mt19937_64 random(4716);
   int i = 0;
-  for (const auto& [width, height] : {std::pair(300U, 150U), std::pair(70U, 40U), std::pair(500U, 1U)}) {
+  for (const auto& [width, height] :
+       {std::pair(300U, 150U), std::pair(70U, 40U), std::pair(500U, 1U)}) {
     for (int k = 0; k < 3; ++k, ++i) {
       SCOPED_TRACE(i);
       const Scene scene = k == 2 ? testing::two_spheres(8) : testing::soup(random, 60, k == 1);
@@ -370,7 +371,8 @@ TEST(FastTables, PanoramasOfAnyNumberOfThreads) {
       if (i % 3 == 2) camera.far = 2.5;
       if (k == 1) camera.projection.lens->max_radius = 2;
       RenderOptions options;
-      options.channels = lens_channels(i % 2 == 0 ? testing::every_channel : testing::quick_channels);
+      options.channels =
+          lens_channels(i % 2 == 0 ? testing::every_channel : testing::quick_channels);
       const DepthMap truth = render_reference(scene, camera, options).map;
       options.threads = 1 + i % 3;
       expect_same_map(render_fast(scene, camera, options).map, truth);
@@ -388,7 +390,8 @@ TEST(FastTables, HardNumbers) {
       {1, 1, 2, 1, 1, 2, 1, 1, 2, 1, 1, 2},
       {0, 0, 1, 0x1p-1074, 0, 1, 0, 0x1p-1074, 1, -0x1p-1074, 0x1p-1074, 1},
       {0x1p-1074, 0, 0x1p-1074, 0, 0, 0x1p-1074, 0x3p-1074, 0x1p-1073, 0x1p-1072, 0, 0, -0x1p-1074},
-      {0x1p1023, 0x1p1023, 0x1p1023, 0x1p1023, -0x1p1023, 0x1.fp1023, 1, 0, 0x1p1023, 0, 1, 0x1p1023},
+      {0x1p1023, 0x1p1023, 0x1p1023, 0x1p1023, -0x1p1023, 0x1.fp1023, 1, 0, 0x1p1023, 0, 1,
+       0x1p1023},
       {1, 0, 0x1p-300, 1, 0x1p-600, 0, 1, 0x1p-30, 0x1p-30, 1, 0, -0x1p-1074},
       {1, 0x1p-52, 1, 1, 0, 1, 1, -0x1p-52, 1, 1, 0x1p-53, 1}};
   for (std::size_t i = 0; i < tables.size(); ++i) {

@@ -18,7 +18,9 @@
 #include "tests/engines/expect_same_map.h"
 #include "tests/inputs/adversarial_scenes.h"
 #include "tests/inputs/both_readings.h"
+#include "tests/inputs/lens_scenes.h"
 #include "tests/inputs/random_scenes.h"
+#include "tests/inputs/tables_of_directions.h"
 #include "tests/places.h"
 #include "tests/scratch_folder.h"
 
@@ -134,6 +136,49 @@ TEST(FastStream, Adversaries) {
       if (seed % 4 == 3) options.cull = Cull::back;
       expect_same_render(both, c.camera, options, limits[seed % limits.size()]);
     });
+  }
+}
+
+std::vector<Channel> channels_of_lenses() {
+  std::vector<Channel> channels = streamed_channels;
+  std::erase(channels, Channel::A);
+  channels.push_back(Channel::valid);
+  return channels;
+}
+
+TEST(FastStream, RandomScenesUnderLenses) {
+  const ScratchFolder folder;
+  std::uint64_t seed = 0;
+  for (const LensModel model :
+       {LensModel::opencv, LensModel::division, LensModel::fisheye_stereographic}) {
+    for (int i = 0; i < 60 / effort; ++i, ++seed) {
+      SCOPED_TRACE(seed);
+      testing::Case c = testing::LensCaseMaker(seed, Kind::few_bits).make(model).view;
+      if (i % 3 == 0)
+        c.camera = testing::with_table(c.camera, testing::DirectionMaker(seed).numbers(30));
+      const Both both({folder.write(std::to_string(seed) + ".ply", ply_of(c.scene.meshes.at(0)))});
+      RenderOptions options;
+      options.channels = channels_of_lenses();
+      options.cull = i % 5 == 0 ? Cull::back : Cull::none;
+      expect_same_render(both, c.camera, options, {.triangles_at_once = 1U + i % 3});
+    }
+  }
+}
+
+// Of several tiles, in one band and in several, and in one view and in several.
+TEST(FastStream, MeshesUnderLenses) {
+  const ScratchFolder folder;
+  Warnings warnings;
+  const Scene scene = read_scene({data / "meshes" / "spot.obj"}, {}, warnings);
+  const Both both({folder.write("spot.ply", ply_of(scene.meshes.at(0)))});
+  RenderOptions options;
+  options.channels = channels_of_lenses();
+  Camera camera = cameras_for(both.scene).front();
+  for (const Lens& lens :
+       {Lens{LensModel::opencv, {-0.2, 0.05, 0.001}}, Lens{LensModel::division, {-30}}}) {
+    camera.projection.lens = lens;
+    expect_same_render(both, camera, options, {});
+    expect_same_render(both, camera, options, {.triangles_at_once = 997, .tile_bytes = 0});
   }
 }
 

@@ -9,8 +9,10 @@
 #include "fathom/failures/errors.h"
 #include "fathom/fast/channels/fast_output.h"
 #include "fathom/fast/rounds/coverage_in_rounds.h"
+#include "fathom/fast/stream_lens.h"
 #include "fathom/fast/tiles/frame.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/rendering/map_of_camera.h"
 #include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
@@ -207,9 +209,13 @@ Rendered render_streamed(const StreamedScene& scene, const Camera& camera,
     throw UsageError(Setting{"triangles_at_once"}, "expected at least 1");
   }
   return with_threads(options.threads, [&] {
-    require_renderable(scene, camera);
-    return scene::explaining_faults(
-        scene, [&] { return render_in_arena(scene, camera, options, limits, context); });
+    require_renderable_by_rays(scene, camera);
+    require_channels_of(camera, options);
+    return scene::explaining_faults(scene, [&] {
+      return bends_rays(camera.projection)
+                 ? render_lens_streamed(scene, camera, options, limits, context)
+                 : render_in_arena(scene, camera, options, limits, context);
+    });
   });
 }
 

@@ -58,7 +58,7 @@ Standing standing_at(const Ratio& depth, const Camera& camera) {
   if (depth.sign() != Sign::positive) return Standing::behind;
   if (depth < Ratio(Dyadic(camera.near))) return Standing::before_near;
   return std::isfinite(camera.far) && Ratio(Dyadic(camera.far)) < depth ? Standing::beyond_far
-                                                                         : Standing::counts;
+                                                                        : Standing::counts;
 }
 
 /// Along a ray: signs of forms, each limit by itself.
@@ -74,7 +74,7 @@ Standing standing_along(const ProjectedTriangle& t, const lens::ExactDirection& 
   Camera without_far = camera;
   without_far.far = std::numeric_limits<double>::infinity();
   return DepthRange(t, without_far).contains(s, counts) ? Standing::beyond_far
-                                                         : Standing::before_near;
+                                                        : Standing::before_near;
 }
 
 void set_depth_along(const ProjectedTriangle& t, const lens::ExactDirection& d,

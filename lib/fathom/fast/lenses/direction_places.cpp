@@ -90,7 +90,8 @@ std::optional<ApproximateDirection> DirectionModel::divided(std::uint32_t column
   const auto [x, y] = plane_.at(column + 0.5, row + 0.5);
   const double squared = x * x + y * y;
   const double bend = k_ * squared;
-  const double of_squared = 2 * e * (std::abs(x) + std::abs(y)) + 2 * e * e + 4 * u * squared + underflow;
+  const double of_squared =
+      2 * e * (std::abs(x) + std::abs(y)) + 2 * e * e + 4 * u * squared + underflow;
   const double of_z = (std::abs(k_) * of_squared + 2 * u * (1 + std::abs(bend)) + underflow) * up;
   if (bend - of_z > 1) return std::nullopt;
   if (!(bend + of_z < 1)) return exactly_at(column, row);

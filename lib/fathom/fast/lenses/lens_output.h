@@ -15,7 +15,8 @@ class LensOutput {
  public:
   LensOutput(triangle::ChannelWriter& writer, std::uint32_t width);
 
-  /// Writes all that the tile shows but `valid`. Returns the fault of the first pixel in row order that has one.
+  /// Writes all that the tile shows but `valid`. Returns the fault of the first pixel in row order
+  /// that has one.
   std::optional<triangle::EncodingFault> write(const LensTile& tile, const LensContext& context);
 
  private:

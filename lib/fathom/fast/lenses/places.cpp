@@ -353,9 +353,8 @@ void Places::find_in_views() {
 }
 
 bool Places::is_whole(const View& view, std::uint32_t tile) const {
-  return std::ranges::all_of(views_, [&](const View& other) {
-    return &other == &view || other.boxes[tile].is_empty();
-  });
+  return std::ranges::all_of(
+      views_, [&](const View& other) { return &other == &view || other.boxes[tile].is_empty(); });
 }
 
 Places::OfTile Places::of_tile(const View& view, std::uint32_t tile, Room& room) const {

@@ -40,7 +40,8 @@ inline constexpr std::array<ViewAxes, 6> all_views{{
 /// The determinant of the rows of a view.
 constexpr double determinant_of(const ViewAxes& view) {
   std::array<std::array<double, 3>, 3> m{};
-  for (std::size_t row = 0; row < 3; ++row) m[row][view.all()[row].of_camera] = view.all()[row].sign;
+  for (std::size_t row = 0; row < 3; ++row)
+    m[row][view.all()[row].of_camera] = view.all()[row].sign;
   return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
          m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);

@@ -80,7 +80,8 @@ Pose pose_in(const ViewAxes& axes, const Pose& world_to_camera) {
 DepthRange distance_range(const Camera& camera, const PlaneBox& box) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double down = 1 - 0x1p-40;
-  const double size = box.size();
+  constexpr double error_of_places = 0x1p-29;  // of the greatest coordinate; more than they have
+  const double size = box.size() * (1 + error_of_places);
   const double longest = std::sqrt(1 + 2 * size * size) * up;
   DepthRange range{-infinity, infinity, -infinity, infinity};
   if (camera.far < infinity) {
