@@ -302,8 +302,8 @@ Camera camera_called_as(const std::string& map, const std::vector<Camera>& camer
     if (is_called_as(map, camera.name)) found.push_back(&camera);
   if (found.size() == 1) return *found.front();
   throw UsageError(fmt::format(
-      "--camera: {}, of which {} called as the map '{}'; expected a camera for each map, or file "
-      "names that are those of the images",
+      "--camera: {}, but {} named like the map '{}'; expected a camera for each map, or maps that "
+      "are named like the images",
       text::counted(cameras.size(), "camera"),
       found.empty() ? "none is" : std::to_string(found.size()) + " are", text::printable(map)));
 }

@@ -33,8 +33,8 @@ struct PixelHits {
 /// Exact    everything; depths are rounded once.
 /// Cost     as render_reference(), and an exact depth for each triangle at each pixel; 40 bytes for
 ///          each hit while hits are sorted.
-/// Fails    InputError if scene or camera has a fault (find_fault); UsageError if a lens bends rays,
-///          or as require_thread_count(). `progress` is called as in RenderContext.
+/// Fails    InputError if scene or camera has a fault (find_fault); UsageError if a lens bends
+///          rays, or as require_thread_count(). `progress` is called as in RenderContext.
 PixelHits hits_of_pixels(const Scene& scene, const Camera& camera, Cull cull = Cull::none,
                          int threads = 0, const std::function<void(double)>& progress = {});
 

@@ -77,7 +77,7 @@ TEST_F(ValidateProgram, FindsTheCameraOfAPathByTheNameOfTheMap) {
   const Outcome outcome = judged("map.exr");
   EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   EXPECT_THAT(judged("aside.exr").err,
-              HasSubstr("--camera: 2 cameras, of which none is called as the map 'aside.exr'"));
+              HasSubstr("--camera: 2 cameras, but none is named like the map 'aside.exr'"));
 }
 
 TEST_F(ValidateProgram, NamesAHalfPixelShiftAndListsItsWorstPixels) {
