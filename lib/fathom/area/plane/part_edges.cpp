@@ -12,7 +12,7 @@ namespace {
 
 /// A crowded part with more lines than LineSweep::most_lines is cut so often, if the halves have
 /// more than three quarters of its triangles each time.
-constexpr int cuts_in_vain = 6;
+constexpr int crowd_cuts_in_vain = 6;
 
 std::uint32_t edge_to(const PlaneMesh& mesh, std::uint32_t i, std::uint32_t mate) {
   for (std::uint32_t k = 0; k < 3; ++k) {
@@ -157,7 +157,7 @@ void PartEdges::add_clip(const VisibleClip& clip) {
 
 std::vector<VisibleEdge> PartEdges::partial_edges() {
   in_parallel(resolved_.crowded.size(),
-              [&](std::size_t k) { add_crowded(resolved_.crowded[k], cuts_in_vain); });
+              [&](std::size_t k) { add_crowded(resolved_.crowded[k], crowd_cuts_in_vain); });
   in_parallel(resolved_.clips.size(), [&](std::size_t k) { add_clip(resolved_.clips[k]); });
   std::vector<VisibleEdge> on_sides = edges_on_sides(mesh_, rule_, touched_, swept_, resolved_);
   std::move(on_sides.begin(), on_sides.end(), std::back_inserter(found_));
