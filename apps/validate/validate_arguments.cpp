@@ -90,7 +90,10 @@ void ValidateArguments::add_to(Command& command) {
   command.option("--channel", "NAME", channel, "Depth channel of --map (default: detected)");
   command.option("--png-scale", "N", into(png_scale, parse_scale),
                  "Codes per unit, if the integer map does not state them");
-  command.option("--camera", "FILE", camera, "Camera file (JSON)");
+  command.option(
+      "--camera", "FILE", camera,
+      "Camera file (JSON), or a map, which contains its camera; of a path, --map takes the "
+      "camera with its name (a.npy that of a.jpg)");
   command.option(
       "--model", "NAME", into(model, parse_model),
       "Model of the renderer (default with --map: auto, the best fit). With --against, judge the "

@@ -137,6 +137,18 @@ def test_names_of_contents_are_those_of_the_program(spot, camera):
         seen["camera-normal"]
 
 
+def test_names_of_contents_choose_a_channel(spot, camera, tmp_path):
+    seen = spot.render(camera, channels=("Z", "N"))
+    seen.write(tmp_path / "z.pfm", channel="depth")
+    assert np.array_equal(fathom.read_map(tmp_path / "z.pfm")["Z"], seen["Z"])
+    seen.write(tmp_path / "n.npy", channel="normal")
+    assert np.array_equal(np.load(tmp_path / "n.npy"), seen["N"])
+    assert np.array_equal(seen.stored_as("float64", channel="depth")["Z"], seen["Z"])
+    assert [each.truth_channel for each in fathom.compare(seen, seen, channel="depth").channels] == ["Z"]
+    with pytest.raises(ValueError, match="has no channel 'mask'"):
+        seen.write(tmp_path / "m.npy", channel="mask")
+
+
 @pytest.mark.parametrize("suffix", ["pfm", "npy"])
 def test_single_channels(map, tmp_path, suffix):
     file = tmp_path / f"map.{suffix}"
