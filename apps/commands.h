@@ -29,6 +29,8 @@ void add_draw(Command& program);
 
 /// `fathom cast`: which triangles rays meet.
 void add_cast(Command& program);
+/// `fathom sees`: which points see each other.
+void add_sees(Command& program);
 
 /// `fathom depth encode | decode | resolution | codes`: depth formats as a calculator.
 void add_depth(Command& program);

@@ -45,7 +45,7 @@ std::vector<AddCommand> commands(const std::vector<std::string>& arguments) {
   };
   return {add_render_command, add_probe,    add_info,    add_preview, add_compare, add_convert,
           add_camera,         add_dataset,  add_visible, add_areas,   add_sun,     add_draw,
-          add_evaluate,       add_coplanar, add_cast,    add_depth};
+          add_evaluate,       add_coplanar, add_cast,    add_sees,    add_depth};
 }
 
 }  // namespace

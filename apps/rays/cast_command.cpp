@@ -2,16 +2,14 @@
 
 #include <limits>
 #include <memory>
-#include <numeric>
-#include <optional>
 
 #include "apps/commands.h"
 #include "apps/options/scene_options.h"
+#include "apps/rays/column_output.h"
 #include "apps/rays/hit_columns.h"
 #include "apps/rays/ray_file.h"
 #include "apps/shell/console.h"
 #include "apps/shell/failures.h"
-#include "apps/shell/output_file.h"
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
 #include "fathom/rays/cast.h"
@@ -60,39 +58,6 @@ void take_segment(const std::string& text, RaySegment& segment) {
   if (segment.t_min > segment.t_max) throw UsageError("'" + text + "': TMIN is above TMAX");
 }
 
-/// The table of the answers, and how a file is to have it.
-class CastTable {
- public:
-  /// Refuses a name that is neither CSV nor NPZ, before any work.
-  explicit CastTable(const std::string& name) : name_(name) {
-    if (name.ends_with(".npz")) {
-      archive_.emplace(name);
-    } else if (name == "-" || name.ends_with(".csv")) {
-      text_.emplace(name);
-    } else {
-      throw UsageError("-o: '" + name + "' does not end in .csv or .npz");
-    }
-  }
-
-  [[nodiscard]] bool is_archive() const { return archive_.has_value(); }
-  void finish(const std::vector<Column>& columns) {
-    if (text_) return text_->finish(csv_of(columns));
-    archive_->write(npz_of(columns, name_));
-    archive_->commit();
-  }
-
- private:
-  std::string name_;
-  std::optional<OutputFile> archive_;
-  std::optional<TextOutput> text_;
-};
-
-std::vector<std::uint64_t> numbers_up_to(std::size_t count) {
-  std::vector<std::uint64_t> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), std::uint64_t{0});
-  return numbers;
-}
-
 std::vector<Column> columns_about_hits(const CastArguments& a, const RayScene& scene,
                                        const std::vector<Ray>& rays, const CastOptions& options,
                                        bool with_splits) {
@@ -129,7 +94,7 @@ std::vector<Column> columns_about_rays(RayQuestion mode, const RayScene& scene,
 }
 
 int run_cast(const CastArguments& a, const Console& console) {
-  CastTable table(a.output);
+  ColumnOutput table(a.output);
   const std::vector<Ray> rays = read_rays(a.rays);
   const Scene scene = a.scene.read(console);
   const RayScene prepared(scene, a.scene.threads);

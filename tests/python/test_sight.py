@@ -134,6 +134,20 @@ def test_cameras_see_what_fractions_see(soup, ends, near, far):
     assert some > 3
 
 
+def test_a_camera_sees_what_its_eye_sees(soup, ends):
+    scene, *_ = soup
+    _, on_surface, *_ = ends
+    places = np.random.default_rng(4).integers(-9, 10, (200, 3)) / 2
+    pose = np.eye(4)
+    eye = (1, -2, -9)
+    pose[:3, 3] = [-x for x in eye]
+    camera = fathom.Camera(4096, 4096, 64, 64, 2048, 2048, world_to_camera=pose, pixel_centre=0.5)
+    found = scene.seen_by(places, camera)[:, 0]
+    assert found.tolist() == scene.sees(eye, places).tolist() and 20 < found.sum() < 180
+    # Its own triangle may be seen edge on.
+    assert not (scene.seen_by(on_surface, camera)[:, 0] & ~scene.sees(eye, on_surface)).any()
+
+
 def test_surface_points_of_a_map_are_seen_by_its_camera(soup):
     scene, *_ = soup
     camera = fathom.Camera.look_at((9, 3, 20), size=(96, 72))

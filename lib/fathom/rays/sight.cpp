@@ -94,13 +94,16 @@ void require_points(const RayScene& scene, std::span<const SightPoint> points, c
   }
 }
 
-std::vector<SightEnd> ends_of(const RayScene& scene, std::span<const SightPoint> points) {
-  std::vector<SightEnd> ends;
-  ends.reserve(points.size());
-  for (const SightPoint& point : points) {
-    check_interruption();
-    ends.emplace_back(point, scene.triangles(), scene.tree().power());
-  }
+std::vector<SightEnd> ends_of(const RayScene& scene, std::span<const SightPoint> points,
+                              int threads) {
+  const auto end_of = [&](const SightPoint& point) {
+    return SightEnd(point, scene.triangles(), scene.tree().power());
+  };
+  std::vector<SightEnd> ends(points.size(), end_of(std::array<double, 3>{}));
+  run_with_threads(threads, [&] {
+    parallel_for(std::size_t{0}, points.size(),
+                 [&](std::size_t i) { ends[i] = end_of(points[i]); });
+  });
   return ends;
 }
 
@@ -129,12 +132,10 @@ std::vector<bool> sees(const RayScene& scene, std::span<const SightPoint> eyes,
     throw UsageError(Setting{"points"}, "expected as many as eyes, " + std::to_string(eyes.size()));
   require_points(scene, eyes, "eye");
   require_points(scene, points, "point");
-  return answers(points.size(), options.threads, [&](std::size_t i) {
-    const auto end = [&](const SightPoint& point) {
-      return SightEnd(point, scene.triangles(), scene.tree().power());
-    };
-    return sees(scene, end(eyes[i]), end(points[i]), options.edges);
-  });
+  const auto from = ends_of(scene, eyes, options.threads);
+  const auto to = ends_of(scene, points, options.threads);
+  return answers(points.size(), options.threads,
+                 [&](std::size_t i) { return sees(scene, from[i], to[i], options.edges); });
 }
 
 std::vector<bool> sees_each(const RayScene& scene, std::span<const SightPoint> eyes,
@@ -142,7 +143,8 @@ std::vector<bool> sees_each(const RayScene& scene, std::span<const SightPoint> e
   const StandardArithmetic standard;
   require_points(scene, eyes, "eye");
   require_points(scene, points, "point");
-  const std::vector<SightEnd> from = ends_of(scene, eyes), to = ends_of(scene, points);
+  const auto from = ends_of(scene, eyes, options.threads);
+  const auto to = ends_of(scene, points, options.threads);
   return answers(from.size() * to.size(), options.threads, [&](std::size_t i) {
     return sees(scene, from[i / to.size()], to[i % to.size()], options.edges);
   });
@@ -158,7 +160,7 @@ std::vector<bool> seen_by(const RayScene& scene, std::span<const SightPoint> poi
     require_straight(camera);
     sights.emplace_back(scene, camera, cull);
   }
-  const std::vector<SightEnd> ends = ends_of(scene, points);
+  const auto ends = ends_of(scene, points, threads);
   return answers(ends.size() * sights.size(), threads, [&](std::size_t i) {
     return sights[i % sights.size()].sees(ends[i / sights.size()]);
   });
