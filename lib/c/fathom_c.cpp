@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,6 +25,7 @@
 #include "fathom/scene/bounds.h"
 #include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
+#include "fathom/threads/threads.h"
 #include "lib/c/calls.h"
 #include "lib/c/fathom.h"
 
@@ -177,6 +179,21 @@ AreaOptions options_of(const AreaItems& items, const fathom_area_options* given)
   options.alone = given->alone != 0;
   options.centroid = given->lit_centroid != 0 ? AreaCentroid::lit : AreaCentroid::across;
   return options;
+}
+
+/// Several directions at the same time, each by one thread.
+std::vector<std::vector<LitArea>> areas_of(const Scene& scene, std::span<const double> directions,
+                                           AreaOptions options) {
+  std::vector<std::vector<LitArea>> areas(directions.size() / 3);
+  const int threads = options.threads;
+  if (areas.size() > 1) options.threads = 1;
+  with_threads(threads, [&] {
+    in_parallel(areas.size(), [&](std::size_t i) {
+      const double* const d = &directions[3 * i];
+      areas[i] = areas_in_direction(scene, {d[0], d[1], d[2]}, options);
+    });
+  });
+  return areas;
 }
 
 void add_items(KeptAreas& kept, const AreaItems& items) {
@@ -489,9 +506,9 @@ fathom_status fathom_areas(const fathom_scene* scene, size_t count, const double
     const AreaOptions asked = options_of(items, options);
     auto kept = std::make_unique<KeptAreas>();
     add_items(*kept, items);
-    for (std::size_t i = 0; i < count; ++i) {
-      const double* const d = directions + 3 * i;
-      add_areas(*kept, areas_in_direction(scene->scene, {d[0], d[1], d[2]}, asked));
+    for (const std::vector<LitArea>& light :
+         areas_of(scene->scene, {directions, 3 * count}, asked)) {
+      add_areas(*kept, light);
     }
     publish(*kept, count);
     *areas = kept.release();

@@ -100,6 +100,8 @@ def test_questions(vertices, faces, pose, mesh, triangle, x, y):
     camera = fathom.Camera(8, 6, 4, 4, 4, 3, pixel_centre=0.5)
     attempt(lambda: fathom.probe(scene, camera, x, y))
     attempt(lambda: fathom.visible(scene, camera))
+    attempt(lambda: fathom.areas(scene, directions=vertices, alone=True).exact(0, 0).fraction)
+    attempt(lambda: fathom.areas(scene, camera=camera, by="triangle").background)
     attempt(lambda: fathom.render_deep(scene, camera))
     attempt(lambda: fathom.Camera.frame(scene, size=(8, 6)))
     maps = attempt(lambda: scene.render(camera, channels=("Z", "id")))

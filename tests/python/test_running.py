@@ -25,7 +25,8 @@ camera = fathom.Camera.from_opencv(K, np.eye(4), (640, 480), pixel_centre=0.5)
 """
 
 
-@pytest.mark.parametrize("call", ["fathom.visible(scene, camera)", "scene.render(camera, channels=('A',))",
+@pytest.mark.parametrize("call", ["fathom.visible(scene, camera)", "fathom.areas(scene, directions=[(1, 2, 3)] * 9)",
+                                  "scene.render(camera, channels=('A',))",
                                   "scene.render(camera, engine='reference')",
                                   "scene.render([camera] * 4000)"])
 def test_ctrl_c_ends_a_call(call):
