@@ -219,7 +219,7 @@ void add_areas(Command& program) {
   Command& command = program.command(
       "areas", "Measure the areas that a sun, a lamp or a camera sees, exactly, without pixels",
       "  fathom areas house.obj --directions suns.csv --by face -o areas.csv\n"
-      "  fathom areas house.obj --directions suns.csv --alone --centroid lit -o areas.npz\n"
+      "  fathom areas house.obj --directions suns.csv --alone -o areas.npz\n"
       "  fathom areas room.json --points lamps.csv --by triangle --nonzero");
   arguments->scene.add_to(command);
   const Option directions = command.option(

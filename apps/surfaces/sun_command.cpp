@@ -82,10 +82,9 @@ int run_sun(const SunArguments& a, const Console&) {
 void add_sun(Command& program) {
   const auto arguments = std::make_shared<SunArguments>();
   Command& command = program.command(
-      "sun", "List directions towards the sun, for areas",
-      "  fathom sun --latitude 48.1 --longitude 11.6 --dates 2026-01-01:2026-12-31 -o suns.csv\n"
-      "  fathom sun --latitude 48.1 --longitude 11.6 --dates 2026-06-21 --every 15m --above 0 "
-      "--utc-offset +01:00\n"
+      "sun", "Print directions towards the sun, for areas",
+      "  fathom sun --latitude 48.1 --longitude 11.6 --dates 2026-01-01:2026-12-31\n"
+      "  fathom sun --latitude 48 --longitude 11 --dates 2026-06-21 --above 0 -o suns.csv\n"
       "\nEach line of the CSV table has the columns time, azimuth, elevation, x, y, z and name. "
       "The azimuth is in degrees clockwise from north, the elevation in degrees above the "
       "horizon; x is east, y north and z up. The positions follow the low-precision formula of "
