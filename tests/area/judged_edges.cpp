@@ -57,8 +57,8 @@ struct Seen {
   std::uint32_t number;
   std::vector<Affine> inside;
   Affine over, under;
-  /// Two corners of a box around it, if all of it is in front of the camera.
-  std::optional<std::array<Point, 2>> box;
+  /// Its corners, if all of it is in front of the camera.
+  std::optional<std::array<Point, 3>> corners;
 
   [[nodiscard]] bool ends_at(const Affine& line) const {
     return std::any_of(inside.begin(), inside.end(),
@@ -82,31 +82,28 @@ struct Seen {
   }
 };
 
-/// Whether two triangles certainly have no area in common.
+/// Whether two triangles certainly have no area in common: one is outside an edge of the other.
 bool are_apart(const Seen& s, const Seen& t) {
-  if (!s.box || !t.box) return false;
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    if ((*s.box)[1][axis] <= (*t.box)[0][axis] || (*t.box)[1][axis] <= (*s.box)[0][axis])
-      return true;
-  }
-  return false;
+  const auto is_outside = [](const Seen& of, const std::array<Point, 3>& corners) {
+    return std::any_of(of.inside.begin(), of.inside.begin() + 3, [&](const Affine& edge) {
+      return std::all_of(corners.begin(), corners.end(),
+                         [&](const Point& corner) { return sgn(at(edge, corner)) <= 0; });
+    });
+  };
+  return s.corners && t.corners && (is_outside(s, *t.corners) || is_outside(t, *s.corners));
 }
 
-std::optional<std::array<Point, 2>> box_of(const oracle::RayCamera& camera, const Triangle& t) {
+std::optional<std::array<Point, 3>> corners_of(const oracle::RayCamera& camera, const Triangle& t) {
   const Q shift = camera.pixel_centre - Q(1, 2);
-  std::array<Point, 2> box;
+  std::array<Point, 3> corners;
   for (std::size_t k = 0; k < 3; ++k) {
     if (camera.perspective && sgn(t[k][2]) <= 0) return std::nullopt;
     const Q scale = camera.perspective ? Q(1 / t[k][2]) : Q(1);
     const Q x = t[k][0] * scale, y = t[k][1] * scale;
-    const Point p{camera.fx * x + camera.skew * y + camera.cx - shift,
+    corners[k] = {camera.fx * x + camera.skew * y + camera.cx - shift,
                   camera.fy * y + camera.cy - shift};
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      if (k == 0 || p[axis] < box[0][axis]) box[0][axis] = p[axis];
-      if (k == 0 || p[axis] > box[1][axis]) box[1][axis] = p[axis];
-    }
   }
-  return box;
+  return corners;
 }
 
 Affine plus(const Affine& f, const Q& k, const Affine& g) {
@@ -137,7 +134,7 @@ std::optional<Seen> seen(const JudgedScene& scene, std::uint32_t number) {
   if (sgn(whole) == 0) return std::nullopt;
   const Q side = sgn(whole);
   const Affine nothing{0, 0, 0};
-  Seen result{number, {}, nothing, plus(nothing, side, sum), box_of(camera, t)};
+  Seen result{number, {}, nothing, plus(nothing, side, sum), corners_of(camera, t)};
   for (std::size_t i = 0; i < 3; ++i) {
     result.inside.push_back(plus(nothing, side, weights[i]));
     if (!camera.perspective) result.over = plus(result.over, side * t[i][2], weights[i]);

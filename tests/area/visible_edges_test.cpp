@@ -211,6 +211,34 @@ TEST(VisibleEdges, OfPlanesThatCrossAtASideOfPartsAreJudged) {
   expect_as_judged_by_both(crowd.scene());
 }
 
+/// A sheet that reaches beyond the image, with triangles in front of one corner: the image is cut,
+/// and parts elsewhere show nothing but the sheet.
+TEST(VisibleEdges, OfASheetInManyPartsAreJudged) {
+  std::mt19937_64 random(84);
+  for (const double tilt : {0.0, 0.125}) {
+    SCOPED_TRACE(tilt);
+    testing::CrowdBuilder crowd;
+    std::vector<double> depths(64);
+    for (double& depth : depths) depth = 12 + static_cast<double>(random() % 5) / 4;
+    const auto at = [&](int x, int y) {
+      return MeshPoint{x - 1.5 + tilt * y, y - 1.5 - tilt * x,
+                       depths[static_cast<std::size_t>(8 * y + x)]};
+    };
+    for (int y = 0; y < 7; ++y) {
+      for (int x = 0; x < 7; ++x) {
+        crowd.add(at(x, y), at(x + 1, y), at(x, y + 1));
+        crowd.add(at(x + 1, y), at(x + 1, y + 1), at(x, y + 1));
+      }
+    }
+    for (int k = 0; k < 34; ++k) {
+      const double u = k % 6 / 16.0, v = k / 6 / 16.0;
+      crowd.add({u, v, 4}, {u + 0.0625, v, 4}, {u, v + 0.0625, 4});
+    }
+    expect_as_judged(crowd.scene(), testing::plain_camera(4, 4));
+    expect_as_judged(in_perspective(crowd.scene()), eye(4));
+  }
+}
+
 /// Closed boxes of which each face is divided into a grid: sheets, in parts that hold nothing else.
 Mesh divided_box(int cells) {
   Mesh mesh;

@@ -57,7 +57,7 @@ def edges_of(ids):
 @pytest.mark.parametrize("orthographic", [False, True])
 def test_drawings_agree_with_the_map_of_ids(name, orthographic, tmp_path):
     scene = fathom.Scene.read(os.path.join(source, "data", name))
-    lens = {"orthographic": 7.0} if orthographic else {}
+    lens = {"projection": "orthographic"} if orthographic else {}
     camera = fathom.Camera.frame(scene, azimuth=25, elevation=35, size=(320, 240), **lens)
     fathom.draw(scene, camera, tmp_path / "all.svg", edges="all")
     drawn = pixels_of(lines_of((tmp_path / "all.svg").read_text()), (240, 320))
@@ -93,7 +93,7 @@ def test_standard_output_is_svg():
     (["-o", "drawing.png"], "-o: 'drawing.png' does not end in .svg or .pdf"),
     (["--crease-angle", "200"], "from 0 to 180 degrees"),
     (["--stroke", "0"], "above 0"),
-    (["--edges", "some"], "silhouettes, creases or all"),
+    (["--edges", "some"], "silhouettes, creases and all"),
 ])
 def test_the_command_refuses(arguments, told):
     ran = run(os.path.join(source, "data/meshes/cube.obj"), *arguments)
