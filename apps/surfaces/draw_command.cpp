@@ -66,11 +66,11 @@ int run_draw(const DrawArguments& arguments, const Console& console) {
 
 void add_draw(Command& program) {
   const auto arguments = std::make_shared<DrawArguments>();
-  Command& command = program.command(
-      "draw", "Draw the visible edges as SVG or PDF, with exact hidden lines",
-      "  fathom draw spot.obj --edges silhouettes -o spot.svg\n"
-      "  fathom draw house.json --camera camera.json -o house.pdf\n"
-      "  fathom draw part.obj --orthographic 4 --view 0,0 --up z -o front.svg");
+  Command& command =
+      program.command("draw", "Draw the visible edges as SVG or PDF, with exact hidden lines",
+                      "  fathom draw spot.obj --edges silhouettes -o spot.svg\n"
+                      "  fathom draw house.json --camera camera.json -o house.pdf\n"
+                      "  fathom draw part.obj --orthographic 4 --view 0,0 --up z -o front.svg");
   arguments->scene.add_to(command);
   arguments->camera.add_to(command);
   command.option("--edges", "KIND", into(arguments->edges.edges, parse_selection),

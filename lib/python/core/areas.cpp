@@ -51,9 +51,8 @@ py::tuple items_of(const SharedQuestion& question) {
   std::vector<std::uint64_t> numbers;
   std::vector<std::uint32_t> objects, faces;
   for (const AreaItem& item : question->items.items) {
-    names.append(py::reinterpret_steal<py::str>(
-        PyUnicode_DecodeUTF8(item.name.data(), static_cast<py::ssize_t>(item.name.size()),
-                             "backslashreplace")));
+    names.append(py::reinterpret_steal<py::str>(PyUnicode_DecodeUTF8(
+        item.name.data(), static_cast<py::ssize_t>(item.name.size()), "backslashreplace")));
     numbers.push_back(item.number);
     if (item.object) objects.push_back(*item.object);
     if (item.face) faces.push_back(*item.face);
@@ -107,10 +106,10 @@ class AreaArrays {
     const Shape shape{size(lights_), size(items_)};
     py::object sides = py::none();
     if (!sides_.empty()) sides = array_of(std::move(sides_), shape);
-    return py::make_tuple(
-        array_of(std::move(visible_), shape), array_of(std::move(projected_), shape),
-        array_of(std::move(fraction_), shape), array_of(std::move(lit_), shape),
-        array_of(std::move(centroid_), {size(lights_), size(items_), 3}), sides);
+    return py::make_tuple(array_of(std::move(visible_), shape),
+                          array_of(std::move(projected_), shape),
+                          array_of(std::move(fraction_), shape), array_of(std::move(lit_), shape),
+                          array_of(std::move(centroid_), {size(lights_), size(items_), 3}), sides);
   }
 
  private:
@@ -177,9 +176,8 @@ double background(const SharedQuestion& question, const Camera& camera, const st
   AreaOptions options;
   options.cull = named_value("cull", all_culls, cull);
   options.threads = threads;
-  return run([&](const auto&) {
-    return background_from_camera(*question->scene, camera, options);
-  });
+  return run(
+      [&](const auto&) { return background_from_camera(*question->scene, camera, options); });
 }
 
 /// Options that measure an item alone before rounding; its place among their areas.
