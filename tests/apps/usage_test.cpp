@@ -185,7 +185,7 @@ TEST(Help, OfTheProgramNamesEveryCommand) {
   const std::string help = run_fathom({"--help"}).out;
   for (const char* name :
        {"render", "probe", "info", "preview", "compare", "convert", "camera", "visible", "areas",
-        "sun", "evaluate", "coplanar", "cast", "sees", "depth"}) {
+        "sun", "draw", "evaluate", "coplanar", "cast", "sees", "depth"}) {
     EXPECT_THAT(help, HasSubstr(std::string("\n  ") + name));
   }
 }
