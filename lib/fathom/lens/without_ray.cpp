@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "fathom/camera/rounded_projection.h"
-#include "fathom/lens/preimages.h"
+#include "fathom/lens/stage.h"
+#include "fathom/lens/tilt.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::lens {
@@ -26,15 +27,61 @@ struct Rim {
   double radius;
 };
 
-std::optional<Rim> rim_of(const PolynomialStage& stage) {
-  if (!stage.limit) return std::nullopt;
-  const bool is_fold = std::isfinite(stage.disc) && *stage.limit == Dyadic(stage.disc);
-  return Rim{is_fold ? Reason::fold : Reason::max_radius, std::sqrt(enclose(*stage.limit).upper)};
+/// Of a stage on a circle.
+struct OnCircle {
+  /// The least eigenvalue of the symmetric part of the Jacobian; negative beyond a pole.
+  double growth = HUGE_VAL;
+  /// The least |S|.
+  double size = HUGE_VAL;
+};
+
+/// At 64 points: between two of them little changes, as the degree in the angle is low.
+OnCircle on_circle(const StageNumbers<double>& stage, double radius) {
+  OnCircle least;
+  if (!(horner(stage.denominator, radius * radius) > 0)) return {-1, 0};
+  const int points = is_radial(stage) ? 1 : 64;
+  for (int i = 0; i < points; ++i) {
+    const double angle = 2 * std::numbers::pi * i / points;
+    const double x = radius * std::cos(angle), y = radius * std::sin(angle);
+    const StageJacobian<double> J = stage_jacobian(stage, x, y);
+    const double growth = (J.xx + J.yy - std::hypot(J.xx - J.yy, J.xy + J.yx)) / 2;
+    const StagePoint<double> p = stage_value(stage, x, y);
+    least.growth = std::min(least.growth, growth);
+    least.size = std::min(least.size, std::hypot(p.x, p.y));
+  }
+  return least;
+}
+
+/// The radius between two, the second of which is beyond the fold, at which the fold is.
+double fold_between(const StageNumbers<double>& stage, double inner, double outer) {
+  for (int i = 0; i < 40; ++i) {
+    const double middle = inner + (outer - inner) / 2;
+    (on_circle(stage, middle).growth > 0 ? inner : outer) = middle;
+  }
+  return inner;
+}
+
+/// Goes outwards, in steps of 2 %, to the first circle that is irregular, or whose image is farther
+/// away than any sample. Nullopt if there is none.
+std::optional<Rim> rim_of(const StageNumbers<double>& stage, double farthest, double max_radius) {
+  constexpr int most_steps = 2000;  // 10¹⁵ times as far as the first one
+  double inner = 0, radius = farthest / 64;
+  for (int step = 0; step < most_steps && std::isfinite(radius); ++step, radius *= 1.02) {
+    const double outer = std::min(radius, max_radius);
+    const OnCircle least = on_circle(stage, outer);
+    if (!(least.growth > 0)) return Rim{Reason::fold, fold_between(stage, inner, outer)};
+    if (least.size >= farthest) return std::nullopt;
+    if (radius >= max_radius) return Rim{Reason::max_radius, max_radius};
+    inner = outer;
+  }
+  return std::nullopt;
 }
 
 // At the angle θ from the axis tan θ = r/(1 + k·r²): r is the lesser root of a quadratic equation.
 // Angles that a model does not reach have none.
-std::optional<Rim> rim_of_division(double k, double max_radius) {
+std::optional<Rim> rim_of_division(const Lens& lens) {
+  const double k = lens.model == LensModel::fisheye_stereographic ? -0.25 : lens.distortion[0];
+  const double max_radius = lens.max_radius;
   const double end = k > 0 ? 1 / std::sqrt(k) : HUGE_VAL;
   const double cosine = std::cos(max_radius), sine = std::sin(max_radius);
   const double root = cosine * cosine - 4 * k * sine * sine;
@@ -45,41 +92,48 @@ std::optional<Rim> rim_of_division(double k, double max_radius) {
   return std::isfinite(end) ? std::optional(Rim{Reason::end_of_model, end}) : std::nullopt;
 }
 
-std::optional<Rim> rim_of(const Preimages& preimages, const Lens& lens) {
-  if (const PolynomialStage* const stage = preimages.stage()) return rim_of(*stage);
-  const bool is_division = lens.model != LensModel::fisheye_stereographic;
-  return rim_of_division(is_division ? lens.distortion[0] : -0.25, lens.max_radius);
-}
-
 /// From the plane before the stage to the image.
 class Forward {
  public:
-  Forward(const Projection& projection, const PolynomialStage* stage)
-      : to_image_(projection), stage_(stage) {
-    if (const std::optional<Tilt> tilt = Tilt::of(*projection.lens)) {
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t k = 0; k < 3; ++k) tilt_[i][k] = enclose(tilt->matrix()[i][k]).lower;
-    }
+  /// `stage`: none of the models of division.
+  Forward(const Projection& projection, const StageNumbers<double>* stage)
+      : to_image_(projection), stage_(stage), tilt_(Tilt::of(*projection.lens)) {
+    if (!tilt_) return;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k) matrix_[i][k] = enclose(tilt_->matrix()[i][k]).lower;
   }
 
   /// Nullopt where the tilted sensor does not show the point, or its place is beyond binary64.
   [[nodiscard]] std::optional<Place> of(Place m) const {
     if (stage_ != nullptr) {
-      const StagePoint<double> p = stage_value(stage_->numbers, m.x, m.y);
+      const StagePoint<double> p = stage_value(*stage_, m.x, m.y);
       m = {p.x, p.y};
     }
     std::array<double, 3> tilted{};
     for (std::size_t i = 0; i < 3; ++i)
-      tilted[i] = tilt_[i][0] * m.x + tilt_[i][1] * m.y + tilt_[i][2];
+      tilted[i] = matrix_[i][0] * m.x + matrix_[i][1] * m.y + matrix_[i][2];
     const auto [x, y] = to_image_.image_of(tilted);
     if (!(tilted[2] > 0) || !std::isfinite(x) || !std::isfinite(y)) return std::nullopt;
     return Place{x, y};
   }
 
+  /// The distance from the axis of a place of the image behind the stage; +∞ if the tilted sensor
+  /// has no such place.
+  [[nodiscard]] double distance_from_axis(double u, double v) const {
+    const auto [x, y] = to_image_.plane_point_at(u, v);
+    if (!std::isfinite(x) || !std::isfinite(y)) return HUGE_VAL;
+    if (!tilt_) return std::hypot(x, y);
+    const auto p = tilt_->undone({x, y, 1.0});
+    if (!p) return HUGE_VAL;
+    const auto number = [](const Dyadic& d) { return enclose(d).lower; };
+    return std::hypot(number(p->a), number(p->b)) / number(p->c);
+  }
+
  private:
   RoundedProjection to_image_;
-  const PolynomialStage* stage_;
-  std::array<std::array<double, 3>, 3> tilt_{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const StageNumbers<double>* stage_;
+  std::optional<Tilt> tilt_;
+  std::array<std::array<double, 3>, 3> matrix_{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };
 
 /// The image of the circle of this radius; empty if a part of it is not known. Between its corners
@@ -138,10 +192,18 @@ std::optional<WithoutRay> find_samples_without_ray(const Projection& projection,
   const StandardArithmetic standard;
   if (!projection.lens || is_pinhole(*projection.lens)) return std::nullopt;
   if (projection.lens->directions) return of_table(*projection.lens->directions);
-  const Preimages preimages(projection, *projection.lens);
-  const std::optional<Rim> rim = rim_of(preimages, *projection.lens);
+  const Lens& lens = *projection.lens;
+  const bool is_plane = entry_of(lens.model).is_plane;
+  const StageNumbers<double> stage = stage_of(is_plane ? lens : Lens());
+  const Forward forward(projection, is_plane ? &stage : nullptr);
+  double farthest = 0;
+  for (const double u : {0.0, static_cast<double>(width)})
+    for (const double v : {0.0, static_cast<double>(height)})
+      farthest = std::max(farthest, forward.distance_from_axis(u, v));
+  const std::optional<Rim> rim =
+      is_plane ? rim_of(stage, farthest, lens.max_radius) : rim_of_division(lens);
   if (!rim) return std::nullopt;
-  const Polygon seen = image_of_circle(Forward(projection, preimages.stage()), rim->radius);
+  const Polygon seen = image_of_circle(forward, rim->radius);
   if (seen.empty()) return std::nullopt;
   const double all = static_cast<double>(width) * height;
   const double missing = all - area_within(seen, width, height);

@@ -49,8 +49,7 @@ struct ViewWarning {
 /// (unless fx or fy mirrors it back) or skewed; a principal point of a perspective camera outside
 /// the middle half of the image, or in the middle of an image with exchanged width and height;
 /// pixels without a ray, because the lens ends there.
-/// Cost     negligible; of a lens, milliseconds to find its end, and of a table, one look at each
-///          pixel.
+/// Cost     negligible; of a lens about a millisecond, and of a table one look at each pixel.
 /// Fails    never; a camera with a fault (find_fault) gets no warning.
 std::vector<ViewWarning> warnings_of_camera(const Camera& camera);
 
