@@ -68,7 +68,7 @@ void expect_as_by_cgal(const Scene& from, const Scene& to, std::uint32_t points)
     const double expected = test::squared_distance(from, point, to);
     const PlacedPoint p = placed(point, from_source, from_placed);
     ASSERT_EQ(round_to_binary64(nearest.squared_distance(p)), expected)
-        << "triangle " << point.triangle << " at " << point.u << ", " << point.v;
+        << "triangle " << point.triangle << " at " << point.v << ", " << point.w;
   }
 }
 
@@ -111,11 +111,11 @@ TEST(SurfacePoints, StandInProportionToArea) {
   std::vector<int> counts(source.count());
   for (const SurfacePoint& point : surface_points(placed, count)) {
     ++counts[point.triangle];
-    ASSERT_GE(point.u, 0);
     ASSERT_GE(point.v, 0);
-    ASSERT_LE(point.u + point.v, 1);
-    ASSERT_EQ(point.u * 0x1p25, std::floor(point.u * 0x1p25));
+    ASSERT_GE(point.w, 0);
+    ASSERT_LE(point.v + point.w, 1);
     ASSERT_EQ(point.v * 0x1p25, std::floor(point.v * 0x1p25));
+    ASSERT_EQ(point.w * 0x1p25, std::floor(point.w * 0x1p25));
   }
   std::vector<double> areas;
   double sum = 0;
@@ -139,7 +139,7 @@ TEST(SurfacePoints, StandEverywhereInATriangle) {
   constexpr std::uint32_t count = 4000;
   std::array<int, 4> quarters{};
   for (const SurfacePoint& p : surface_points(PlacedTriangles(source, 1), count))
-    ++quarters[p.u > 0.5 ? 0 : p.v > 0.5 ? 1 : p.u + p.v < 0.5 ? 2 : 3];
+    ++quarters[p.v > 0.5 ? 0 : p.w > 0.5 ? 1 : p.v + p.w < 0.5 ? 2 : 3];
   for (const int quarter : quarters) EXPECT_NEAR(quarter, count / 4, 10);
 }
 

@@ -1,9 +1,8 @@
-#include "fathom/evaluation/point_sight.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "fathom/rays/sight.h"
 #include "tests/effort.h"
 #include "tests/evaluation/rational_judge.h"
 #include "tests/evaluation/scenes.h"
@@ -32,21 +31,27 @@ Camera some_camera(std::mt19937& random, int size) {
   return camera;
 }
 
+/// A scene that is prepared.
 class Checked {
  public:
-  Checked(const Scene& scene, long power)
-      : source_(scene), placed_(source_, power), tree_(placed_) {}
+  explicit Checked(const Scene& scene) : scene_(scene) {}
 
-  [[nodiscard]] bool sees(const SurfacePoint& point, const Camera& camera, Cull cull) const {
-    return PointSight(source_, placed_, tree_, camera, cull)
-        .sees(point.triangle, placed(point, source_, placed_));
+  [[nodiscard]] bool sees(const SightPoint& point, const Camera& camera, Cull cull) const {
+    return seen_by(scene_, std::array{point}, std::array{camera}, cull, 1).front();
   }
 
  private:
-  TriangleSource source_;
-  PlacedTriangles placed_;
-  BoxTree tree_;
+  RayScene scene_;
 };
+
+/// A place near a soup of that size, or far away.
+SightPoint some_place(std::mt19937& random, int size, double factor) {
+  const double step = factor * (random() % 8 == 0 ? 0x1p20 : 0.5);
+  std::array<double, 3> place;
+  for (double& x : place)
+    x = step * (static_cast<int>(random() % static_cast<unsigned>(4 * size + 1)) - 2 * size);
+  return place;
+}
 
 SurfacePoint some_point(std::mt19937& random, std::uint32_t triangles) {
   // Corners, the middle of edges and of the triangle, where much meets; and any place.
@@ -54,6 +59,16 @@ SurfacePoint some_point(std::mt19937& random, std::uint32_t triangles) {
   const double u = std::floor(grid * (random() % 1001) / 1000) / grid;
   const double v = std::floor((grid - grid * u) * (random() % 1001) / 1000) / grid;
   return {static_cast<std::uint32_t>(random() % triangles), u, v};
+}
+
+std::string text_of(const SightPoint& point) {
+  const auto text = [](double a, double b, double c) {
+    return std::to_string(a) + ", " + std::to_string(b) + ", " + std::to_string(c);
+  };
+  if (const auto* const place = std::get_if<std::array<double, 3>>(&point))
+    return "at " + text((*place)[0], (*place)[1], (*place)[2]);
+  const auto& on_surface = std::get<SurfacePoint>(point);
+  return "triangle, v, w: " + text(on_surface.triangle, on_surface.v, on_surface.w);
 }
 
 void expect_as_by_rationals(double factor, unsigned seed, int rounds) {
@@ -65,7 +80,7 @@ void expect_as_by_rationals(double factor, unsigned seed, int rounds) {
     const std::uint32_t triangles = 1 + random() % 20;
     const Scene scene =
         test::scaled(test::whole_soup(random, size, static_cast<int>(triangles)), factor);
-    const Checked checked(scene, power_of_unit(scene) + static_cast<long>(random() % 3));
+    const RayScene prepared(scene, 1);
     for (int view = 0; view < 4; ++view) {
       Camera camera = some_camera(random, size);
       for (auto& row : camera.world_to_camera) row[3] *= factor;
@@ -77,12 +92,16 @@ void expect_as_by_rationals(double factor, unsigned seed, int rounds) {
         camera.projection.skew /= factor;
       }
       const Cull cull = culls[random() % 3];
+      std::vector<SightPoint> points;
       for (int i = 0; i < 20; ++i) {
-        const SurfacePoint point = some_point(random, triangles);
-        const bool expected = test::is_seen(scene, point, camera, cull);
-        ASSERT_EQ(checked.sees(point, camera, cull), expected)
-            << "round " << round << ", triangle " << point.triangle << " at " << point.u << ", "
-            << point.v;
+        const bool on_surface = random() % 4 != 0;
+        points.push_back(on_surface ? SightPoint(some_point(random, triangles))
+                                    : some_place(random, size, factor));
+      }
+      const auto found = seen_by(prepared, points, std::array{camera}, cull, 1);
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const bool expected = test::is_seen(scene, points[i], camera, cull);
+        ASSERT_EQ(found[i], expected) << "round " << round << ", " << text_of(points[i]);
         seen += expected;
         ++all;
       }
@@ -116,7 +135,7 @@ Scene two_walls() {
 
 TEST(PointSight, OfAPointBehindTheRimOfAWall) {
   const Scene scene = two_walls();
-  const Checked checked(scene, power_of_unit(scene));
+  const Checked checked(scene);
   const Camera camera = testing::camera_of(100, 100, 25);
   // The wall in front hides x and y up to 2 of the one behind; its rim belongs to it.
   const auto at = [](double x, double y) {
@@ -126,12 +145,12 @@ TEST(PointSight, OfAPointBehindTheRimOfAWall) {
   EXPECT_FALSE(checked.sees(at(1, 0), camera, Cull::none));
   EXPECT_FALSE(checked.sees(at(2, 0), camera, Cull::none));
   EXPECT_TRUE(checked.sees(at(2 + 0x1p-20, 0), camera, Cull::none));
-  EXPECT_TRUE(checked.sees({0, 0.25, 0.25}, camera, Cull::none));
+  EXPECT_TRUE(checked.sees(SurfacePoint{0, 0.25, 0.25}, camera, Cull::none));
 }
 
 TEST(PointSight, EndsAtTheRimOfTheImage) {
   const Scene scene = two_walls();
-  const Checked checked(scene, power_of_unit(scene));
+  const Checked checked(scene);
   // The image ends at x/z = 0.75.
   Camera camera = testing::camera_of(100, 100, 50 / 0.75);
   camera.projection.fx = camera.projection.fy = 64;
@@ -145,10 +164,10 @@ TEST(PointSight, EndsAtTheRimOfTheImage) {
 TEST(PointSight, OfTwoSurfacesInOnePlace) {
   Scene scene = two_walls();
   scene.meshes[0].triangles.push_back({4, 5, 6});
-  const Checked checked(scene, power_of_unit(scene));
+  const Checked checked(scene);
   const Camera camera = testing::camera_of(100, 100, 12);
-  EXPECT_TRUE(checked.sees({2, 0.25, 0.125}, camera, Cull::none));
-  EXPECT_TRUE(checked.sees({4, 0.25, 0.125}, camera, Cull::none));
+  EXPECT_TRUE(checked.sees(SurfacePoint{2, 0.25, 0.125}, camera, Cull::none));
+  EXPECT_TRUE(checked.sees(SurfacePoint{4, 0.25, 0.125}, camera, Cull::none));
 }
 
 }  // namespace

@@ -51,9 +51,13 @@ std::vector<Corners> triangles_of(const Scene& scene) {
 Vector3 place_of(const Corners& corners, const SurfacePoint& point) {
   Vector3 place;
   for (std::size_t k = 0; k < 3; ++k)
-    place[k] = corners[0][k] + Rational(point.u) * (corners[1][k] - corners[0][k]) +
-               Rational(point.v) * (corners[2][k] - corners[0][k]);
+    place[k] = corners[0][k] + Rational(point.v) * (corners[1][k] - corners[0][k]) +
+               Rational(point.w) * (corners[2][k] - corners[0][k]);
   return place;
+}
+
+Vector3 exactly(const std::array<double, 3>& v) {
+  return {Rational(v[0]), Rational(v[1]), Rational(v[2])};
 }
 
 Vector3 in_camera(const Camera& camera, const Vector3& X) {
@@ -144,13 +148,16 @@ double rounded(const Rational& x) {
 
 }  // namespace
 
-bool is_seen(const Scene& scene, const SurfacePoint& point, const Camera& camera, Cull cull) {
+bool is_seen(const Scene& scene, const SightPoint& point, const Camera& camera, Cull cull) {
   std::vector<Corners> triangles = triangles_of(scene);
-  const Vector3 p = in_camera(camera, place_of(triangles[point.triangle], point));
+  const auto* const on_surface = std::get_if<SurfacePoint>(&point);
+  const Vector3 place = on_surface ? place_of(triangles[on_surface->triangle], *on_surface)
+                                   : exactly(std::get<std::array<double, 3>>(point));
+  const Vector3 p = in_camera(camera, place);
   for (Corners& corners : triangles)
     for (Vector3& corner : corners) corner = in_camera(camera, corner);
   if (!is_in_range(camera, p[2]) || !is_in_image(camera, p)) return false;
-  if (!is_kept(plane_of(camera, triangles[point.triangle]), cull)) return false;
+  if (on_surface && !is_kept(plane_of(camera, triangles[on_surface->triangle]), cull)) return false;
   for (const Corners& corners : triangles) {
     const Plane plane = plane_of(camera, corners);
     if (!is_kept(plane, cull)) continue;

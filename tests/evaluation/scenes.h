@@ -26,7 +26,11 @@ inline Scene whole_soup(std::mt19937& random, int size, int triangles) {
     const double nx = (B.y - A.y) * (C.z - A.z) - (B.z - A.z) * (C.y - A.y);
     const double ny = (B.z - A.z) * (C.x - A.x) - (B.x - A.x) * (C.z - A.z);
     const double nz = (B.x - A.x) * (C.y - A.y) - (B.y - A.y) * (C.x - A.x);
-    if (nx == 0 && ny == 0 && nz == 0) continue;
+    if (nx == 0 && ny == 0 && nz == 0) {
+      // Three points may lie in a line.
+      if (n == 3) vertices[a] = {coordinate(), coordinate(), coordinate()};
+      continue;
+    }
     list.push_back({a, b, c});
   }
   return testing::scene_of(std::move(vertices), std::move(list));

@@ -72,6 +72,7 @@ int main() {
   print("greatest_relative_error_of_q", fast::resolve_bounds::greatest_relative_error);
 
   print("ray_products", rays::bounds::of_products);
+  print("ray_direction", rays::bounds::of_direction);
   print("ray_origin", rays::bounds::of_origin);
   print("ray_corners", rays::bounds::of_corners);
   print("ray_size_room", rays::bounds::size_room);

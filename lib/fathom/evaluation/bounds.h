@@ -21,9 +21,4 @@ inline constexpr double difference_error = 0x1p-48;
 /// a triangle (evaluation_place, evaluation_plane).
 inline constexpr double distance_error = 0x1p-44;
 
-/// Of the tests of a line of sight and a box, over the greatest coordinate and its square
-/// (evaluation_line).
-inline constexpr double line_margin = 0x1p-46;
-inline constexpr double cross_margin = 0x1p-43;
-
 }  // namespace fathom::evaluation::bounds

@@ -5,8 +5,9 @@
 #include "fathom/evaluation/box_tree.h"
 #include "fathom/evaluation/nearest_surface.h"
 #include "fathom/evaluation/placed_cloud.h"
-#include "fathom/evaluation/point_sight.h"
 #include "fathom/failures/errors.h"
+#include "fathom/rays/camera_sight.h"
+#include "fathom/rays/ray_tree.h"
 
 namespace fathom::evaluation {
 namespace {
@@ -22,8 +23,9 @@ class Surface : public Shape {
     } catch (const InputError& error) {
       throw InputError(std::string(name) + ": " + error.what());
     }
-    for (const Camera& camera : cameras)
-      sights_.emplace_back(source_, triangles_, tree_, camera, options.cull);
+    if (cameras.empty()) return;
+    rays_.emplace(scene, options.threads);
+    for (const Camera& camera : cameras) sights_.emplace_back(*rays_, camera, options.cull);
   }
 
   [[nodiscard]] std::uint32_t points() const override {
@@ -36,12 +38,12 @@ class Surface : public Shape {
     return placed(points_[number], source_, triangles_);
   }
 
-  [[nodiscard]] bool is_seen(std::uint32_t number, const PlacedPoint& placed,
-                             std::size_t& last_camera) const override {
+  [[nodiscard]] bool is_seen(std::uint32_t number, std::size_t& last_camera) const override {
     if (sights_.empty()) return true;
+    const rays::SightEnd end(points_[number], source_, rays_->tree().power());
     for (std::size_t i = 0; i < sights_.size(); ++i) {
       const std::size_t camera = (last_camera + i) % sights_.size();
-      if (!sights_[camera].sees(points_[number].triangle, placed)) continue;
+      if (!sights_[camera].sees(end)) continue;
       last_camera = camera;
       return true;
     }
@@ -60,7 +62,9 @@ class Surface : public Shape {
   BoxTree tree_;
   NearestSurface nearest_{source_, triangles_, tree_};
   std::vector<SurfacePoint> points_;
-  std::vector<PointSight> sights_;
+  /// Where cameras are given.
+  std::optional<RayScene> rays_;
+  std::vector<rays::CameraSight> sights_;
 };
 
 PlacedCloud thinned_cloud(const Scene& scene, long power, std::optional<double> density) {
@@ -82,9 +86,7 @@ class Cloud : public Shape {
   [[nodiscard]] PlacedPoint point(std::uint32_t number) const override {
     return {points_.world(number), points_[number]};
   }
-  [[nodiscard]] bool is_seen(std::uint32_t, const PlacedPoint&, std::size_t&) const override {
-    return true;
-  }
+  [[nodiscard]] bool is_seen(std::uint32_t, std::size_t&) const override { return true; }
   [[nodiscard]] Ratio squared_distance(const PlacedPoint& p) const override {
     return nearest_.squared_distance(p);
   }
@@ -101,6 +103,9 @@ class Cloud : public Shape {
 /// of the area.
 constexpr double bytes_of_triangle = sizeof(PlacedTriangles::Corners) + sizeof(std::uint32_t) +
                                      sizeof(BoxTree::Node) + sizeof(double);
+/// Of a triangle where cameras are given: its part of a tree of rays, and its corners and box while
+/// that is built.
+constexpr double bytes_of_seen_triangle = 106 + sizeof(PlacedTriangles::Corners) + 28;
 /// Of a point of a cloud: itself, its place in the tree's order, at most half a node.
 constexpr double bytes_of_cloud_point =
     sizeof(Vector) + sizeof(std::uint32_t) + sizeof(BoxTree::Node) / 2.0;
@@ -117,10 +122,11 @@ std::unique_ptr<const Shape> shape_of(const Scene& scene, const char* name, long
   return std::make_unique<Surface>(scene, name, power, cameras, options);
 }
 
-double bytes_of_shape(const Scene& scene, std::optional<double> density,
+double bytes_of_shape(const Scene& scene, std::optional<double> density, bool with_sight,
                       const SurfaceComparisonOptions& options) {
   if (!is_cloud(scene)) {
-    return static_cast<double>(triangle_count(scene)) * bytes_of_triangle +
+    return static_cast<double>(triangle_count(scene)) *
+               (bytes_of_triangle + (with_sight ? bytes_of_seen_triangle : 0)) +
            options.points * static_cast<double>(sizeof(SurfacePoint));
   }
   return static_cast<double>(point_count(scene)) *

@@ -29,10 +29,9 @@ class Shape {
   /// memory holds what the last one needed.
   [[nodiscard]] virtual std::uint32_t number_at(std::uint32_t place) const = 0;
   [[nodiscard]] virtual PlacedPoint point(std::uint32_t number) const = 0;
-  /// Whether a camera sees the point, which is `placed`. `last_camera`, 0 at first, is the camera
-  /// to ask first: neighbours are mostly seen by the same one.
-  [[nodiscard]] virtual bool is_seen(std::uint32_t number, const PlacedPoint& placed,
-                                     std::size_t& last_camera) const = 0;
+  /// Whether a camera sees the point. `last_camera`, 0 at first, is the camera to ask first:
+  /// neighbours are mostly seen by the same one.
+  [[nodiscard]] virtual bool is_seen(std::uint32_t number, std::size_t& last_camera) const = 0;
   /// The square of the distance from the nearest point of the shape, exactly; scene units.
   [[nodiscard]] virtual Ratio squared_distance(const PlacedPoint& p) const = 0;
   /// The points of a cloud before it was thinned; 0 for a surface.
@@ -47,8 +46,8 @@ std::unique_ptr<const Shape> shape_of(const Scene& scene, const char* name, long
                                       std::optional<double> density,
                                       const SurfaceComparisonOptions& options);
 
-/// How much memory a shape takes, in bytes.
-double bytes_of_shape(const Scene& scene, std::optional<double> density,
+/// How much memory a shape takes, in bytes; `with_sight`: with what cameras see of it.
+double bytes_of_shape(const Scene& scene, std::optional<double> density, bool with_sight,
                       const SurfaceComparisonOptions& options);
 
 }  // namespace fathom::evaluation

@@ -87,8 +87,8 @@ Distances distances_of(const Shape& from, const Shape& to, const SurfaceComparis
     std::size_t last_camera = 0;
     for (std::uint32_t place = first; place < end; ++place) {
       const std::uint32_t i = from.number_at(place);
+      if (!from.is_seen(i, last_camera)) continue;
       const PlacedPoint p = from.point(i);
-      if (!from.is_seen(i, p, last_camera)) continue;
       distances.list[i] = limits.of(to.squared_distance(p));
       if (options.keep_points) distances.places[i] = rounded(p.exact);
     }
@@ -172,15 +172,15 @@ double points_of(const Scene& scene, const SurfaceComparisonOptions& options) {
   return is_cloud(scene) ? static_cast<double>(point_count(scene)) : options.points;
 }
 
-void require_room(const Scene& reconstruction, const Scene& truth,
+void require_room(const Scene& reconstruction, const Scene& truth, bool with_sight,
                   const SurfaceComparisonOptions& options) {
   const double of_made = points_of(reconstruction, options), of_real = points_of(truth, options);
   const double points = std::max(of_made, of_real);
   const double kept = options.keep_points ? (of_made + of_real) * bytes_of_kept_point : 0;
   require_memory("comparing " + text::counted(static_cast<std::uint64_t>(points), "point") +
                      " of each surface",
-                 bytes_of_shape(reconstruction, options.density, options) +
-                     bytes_of_shape(truth, options.truth_density, options) +
+                 bytes_of_shape(reconstruction, options.density, with_sight, options) +
+                     bytes_of_shape(truth, options.truth_density, with_sight, options) +
                      points * bytes_of_point + kept,
                  available_memory());
 }
@@ -216,7 +216,7 @@ SurfaceComparison compare_in_arena(const Scene& reconstruction, const Scene& tru
                                    const std::vector<Camera>& cameras,
                                    const SurfaceComparisonOptions& options,
                                    const std::function<void(double)>& progress) {
-  require_room(reconstruction, truth, options);
+  require_room(reconstruction, truth, !cameras.empty(), options);
   const long power = std::max(power_of_unit(reconstruction), power_of_unit(truth));
   const auto made =
       shape_of(reconstruction, "the reconstruction", power, cameras, options.density, options);

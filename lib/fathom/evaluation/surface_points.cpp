@@ -56,15 +56,15 @@ std::vector<SurfacePoint> surface_points(const PlacedTriangles& triangles, std::
 PlacedPoint placed(const SurfacePoint& point, const TriangleSource& source,
                    const PlacedTriangles& triangles) {
   const std::array<WorldPoint, 3> world = source.world_corners(point.triangle);
-  const Dyadic u(point.u), v(point.v);
+  const Dyadic v(point.v), w(point.w);
   const auto exact = [&](Dyadic WorldPoint::*k) {
-    return world[0].*k + u * (world[1].*k - world[0].*k) + v * (world[2].*k - world[0].*k);
+    return world[0].*k + v * (world[1].*k - world[0].*k) + w * (world[2].*k - world[0].*k);
   };
   PlacedPoint result{{exact(&WorldPoint::x), exact(&WorldPoint::y), exact(&WorldPoint::z)}, {}};
   const PlacedTriangles::Corners& near = triangles[point.triangle];
   for (std::size_t k = 0; k < 3; ++k) {
     result.near[k] =
-        near[0][k] + point.u * (near[1][k] - near[0][k]) + point.v * (near[2][k] - near[0][k]);
+        near[0][k] + point.v * (near[1][k] - near[0][k]) + point.w * (near[2][k] - near[0][k]);
   }
   return result;
 }

@@ -5,19 +5,14 @@
 
 #include "fathom/evaluation/box_tree.h"
 #include "fathom/geometry/frames.h"
+#include "fathom/rays/sight.h"
 
 namespace fathom::evaluation {
 
-/// The point A + u·(B − A) + v·(C − A) of a triangle ABC, exactly, with u, v ≥ 0 and u + v ≤ 1,
-/// which are multiples of 2⁻²⁵.
-struct SurfacePoint {
-  std::uint32_t triangle = 0;
-  double u = 0, v = 0;
-};
-
 /// `count` points of a surface, as many on one part as on another of the same area, without chance:
 /// they stand at equal distances in the running sum of the triangles' areas, and within their
-/// triangles where the R₂ sequence puts them. They depend on the surface and `count` only.
+/// triangles where the R₂ sequence puts them. Weights are at least 0, with a sum of at most 1, and
+/// multiples of 2⁻²⁵. They depend on the surface and `count` only.
 /// Exact    a point is on its triangle; the areas by which they are dealt out are rounded
 /// Fails    InputError where the triangles have no area that binary64 can tell from 0
 /// Source   [Rob18]
