@@ -84,7 +84,7 @@ void add_sun(Command& program) {
   Command& command = program.command(
       "sun", "Print directions towards the sun, for areas",
       "  fathom sun --latitude 48.1 --longitude 11.6 --dates 2026-01-01:2026-12-31\n"
-      "  fathom sun --latitude 48 --longitude 11 --dates 2026-06-21 --above 0 -o suns.csv\n"
+      "  fathom sun --latitude 48 --longitude 11 --dates 2026-06-21 -o suns.csv\n"
       "\nEach line of the CSV table has the columns time, azimuth, elevation, x, y, z and name. "
       "The azimuth is in degrees clockwise from north, the elevation in degrees above the "
       "horizon; x is east, y north and z up. The positions follow the low-precision formula of "
