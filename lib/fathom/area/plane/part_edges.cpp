@@ -21,18 +21,6 @@ std::uint32_t edge_to(const PlaneMesh& mesh, std::uint32_t i, std::uint32_t mate
   return EdgeSide::none;
 }
 
-/// False only if the segment between two points is certainly on no side of a part.
-bool may_lie_on_side(const BoundedPoint& p, const BoundedPoint& q, const PlanePart& part) {
-  const PlaneBox a(p), b(q);
-  const auto both = [](double a_low, double a_high, double b_low, double b_high, double at) {
-    return a_low <= at && at <= a_high && b_low <= at && at <= b_high;
-  };
-  return both(a.left, a.right, b.left, b.right, part.left) ||
-         both(a.left, a.right, b.left, b.right, part.right) ||
-         both(a.top, a.bottom, b.top, b.bottom, part.top) ||
-         both(a.top, a.bottom, b.top, b.bottom, part.bottom);
-}
-
 bool is_on_rim(const PartSide& side, const PlanePart& image) {
   return side.is_upright ? side.at == image.left || side.at == image.right
                          : side.at == image.top || side.at == image.bottom;
@@ -97,7 +85,9 @@ void PartEdges::divide(const CrowdedPart& crowded, int cuts) {
 }
 
 // Where an edge of a sheet is not certainly outside the part, its other triangle is in the sheet,
-// too (SheetFinder). It is a clip of the same part, or wholly inside.
+// too (SheetFinder). It is a clip of the same part, or wholly inside. An edge on a side of the part
+// has its neighbour in another part, where the neighbour or a triangle that ends there is visible:
+// one of the two parts notes the side.
 bool PartEdges::has_edge(const VisibleClip& clip, std::uint32_t mate) const {
   return clip.triangle < mate || mesh_.box(mate).is_inside(clip.part);
 }
@@ -113,8 +103,7 @@ std::array<bool, 3> PartEdges::edges_of_clip(const VisibleClip& clip,
     const std::uint32_t mate = mesh_.mate(i, k);
     if (mate == PlaneMesh::none || misses(clip.part, from, to)) continue;
     if (is_whole(i) && is_whole(mate)) continue;
-    const bool may_be_on_side = may_lie_on_side(from, to, clip.part);
-    if (!has_edge(clip, mate) && !may_be_on_side) continue;
+    if (!has_edge(clip, mate)) continue;
     if (rule_.leaves_out(i, mate)) continue;
     if (PlaneBox(from, to).is_inside(clip.part)) {
       whole.push_back(rule_.whole_edge(i, k));
@@ -145,7 +134,6 @@ void PartEdges::add_clip(const VisibleClip& clip) {
         continue;
       }
       const std::uint32_t mate = mesh_.mate(i, k);
-      if (!has_edge(clip, mate)) continue;
       auto edge = rule_.edge({i, k}, {mate, edge_to(mesh_, mate, i)},
                              place_of(sweep, clip.part, span.along, span.from),
                              place_of(sweep, clip.part, span.along, span.to));
