@@ -139,10 +139,11 @@ Json to_json(const Probe& probe, const NamedSegments& segments, std::size_t i) {
         {"left_or_top", triangle.left_or_top[edge]}};
   }
   const float stored = triangle.stored_depth;
-  Json depth{{"decimal", to_decimal(triangle.depth, 40)},
-             {"binary32", stored},
-             {"binary32_hex", fmt::format("{:a}", stored)}};
+  Json depth = Json::object();
   if (triangle.depth_is_exact) depth["exact"] = to_fraction(triangle.depth);
+  depth.update(Json{{"decimal", to_decimal(triangle.depth, 40)},
+                    {"binary32", stored},
+                    {"binary32_hex", fmt::format("{:a}", stored)}});
   if (triangle.stored_distance) depth["distance_binary32"] = *triangle.stored_distance;
   Json answer{{"number", triangle.number},
               {"file", file_of(probe.scene, triangle)},
