@@ -244,6 +244,9 @@ calls = {
     "Scene.occluded": lambda g: g.scene.occluded((0.1, 0.2, 0), [(0.01, 0, 1.1), (0, 0, 5e-324)]),
     "Scene.count": lambda g: g.scene.count((0.1, 0.2, 0), [(0.01, 0, 1.1), (0, 0, 5e-324)]),
     "Scene.contains": lambda g: g.scene.contains([(0.1, 0.2, 0), (5e-324, 0.3, 4.1)]),
+    "Scene.sees": lambda g: [g.scene.sees((0.1, 0.2, 0), points, edges=edges) for edges in ("closed", "generic")
+                             for points in (fathom.SurfacePoints([0, 1], [(0.1, 5e-324), (0.3, 0.2)]), (0, 5e-324, 9.1))],
+    "Scene.seen_by": lambda g: g.scene.seen_by([(0, 0.1, 5e-324), (5e-324, 0.3, 4.1)], g.camera),
     "Validation.report": lambda g: g.validation.report(),
     "Rays.from_camera": lambda g: [g.scene.cast(fathom.Rays.from_camera(g.camera), channels=("t", "id", "P")),
                                    g.scene.cast(fathom.Rays.from_camera(g.camera), mode="all")],
