@@ -115,7 +115,7 @@ TEST_F(Mistakes, CommandsWithoutLensesNameTheOnesThatTakeThem) {
            {"convert", "map.exr", "--camera", "lens.json", "-o", "cloud.ply"}}) {
     EXPECT_THAT(refusal(arguments, 2),
                 AllOf(StartsWith("the lens SIMPLE_RADIAL: this command takes no lens; 'fathom "
-                                 "render' does"),
+                                 "render' and 'fathom probe' do"),
                       EndsWith("--ignore-distortion' leaves the lens out; see docs/lenses.md)\n")));
   }
   EXPECT_THAT(refusal({"visible", "square.obj", "--camera", "lens.json"}, 2),
