@@ -195,11 +195,11 @@ PICTURES = {"conventions-axes.svg": axes_picture, "conventions-pixels.svg": pixe
             "conventions-depth.svg": depth_picture}
 
 
-def main():
+def main(pictures):
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent / "images"
-    for name, draw in PICTURES.items():
+    for name, draw in pictures.items():
         (folder / name).write_text(draw(), encoding="utf-8")
 
 
 if __name__ == "__main__":
-    main()
+    main(PICTURES)

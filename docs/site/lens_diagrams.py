@@ -8,10 +8,8 @@ picture to this program.
 """
 
 import math
-import pathlib
-import sys
 
-from diagrams import drawing, text
+from diagrams import drawing, main, text
 
 # The image that each lens draws, in pixels; its principal point is the middle.
 WIDTH, HEIGHT = 240, 180
@@ -113,11 +111,5 @@ def models_picture():
 PICTURES = {"lenses-models.svg": models_picture}
 
 
-def main():
-    folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent / "images"
-    for name, draw in PICTURES.items():
-        (folder / name).write_text(draw(), encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    main(PICTURES)
