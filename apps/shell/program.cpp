@@ -35,7 +35,7 @@ constexpr const char* examples =
 std::string documents_text() {
   const std::string folder = FATHOM_DOCUMENTS;
   if (folder.empty()) return "";
-  return "\n\nDocumentation: " + folder + "/docs/index.md\nMeshes and scenes to try: " + folder +
+  return "\n\nDocumentation: " + folder + "/docs/index.md\n\nMeshes and scenes to try: " + folder +
          "/examples";
 }
 
