@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from . import _core
-from ._arguments import as_array, as_finite, as_threads, culls, in_words, one_of
+from ._arguments import as_array, as_finite, as_threads, camera_handle, culls, in_words, one_of
 from ._rays import rows_of_three
 from ._render import several_cameras
-from .camera import Camera, camera_handle
+from .camera import Camera
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
