@@ -4,13 +4,14 @@ import importlib
 import inspect
 import pkgutil
 import re
+import types
 import zlib
 
 import numpy as np
 import pytest
 
 import fathom
-from fathom import pipeline, questions, studies
+from fathom import compat, pipeline, questions, studies
 
 returned_by_the_core = {"ChannelComparison", "DepthMetrics", "DifferenceSummary", "DisparityMetrics", "Estimate", "Finding"}
 
@@ -41,6 +42,11 @@ def shown():
     areas = fathom.visible(world, camera)
     checked = fathom.verify(maps, world, pixels=4)
     drawn = pipeline.render(world, camera, shading="none")
+    lit = fathom.areas(world, directions=[(0, 0, -1)], by="triangle")
+    casting = compat.RaycastingScene()
+    casting.add_triangles([(-4, -4, 3), (4, -4, 5), (0, 4, 4)], [(0, 1, 2)])
+    hits = casting.cast_rays([(0, 0, 0, 0, 0, 1)])
+    mesh = types.SimpleNamespace(vertices=[(-4, -4, 3), (4, -4, 5), (0, 4, 4)], faces=[(0, 1, 2)])
     return {type(each).__name__: each for each in (
         world, world.objects[0], world.origin(0), camera, fathom.Lens(), maps, compared, compared.channels[0],
         compared.channels[0].absolute, compared.channels[0].depth_metrics, disparities.channels[0].disparity_metrics,
@@ -48,6 +54,8 @@ def shown():
         areas.triangles, checked, questions.Disagreement(1, 2, "Z", "1", "2"), fathom.probe(world, camera, 32, 24)[0],
         fathom.render_deep(world, camera), fathom.DepthFormat("standard", "unorm24", near=1, far=9),
         studies.run("depth-resolution", near=0.1, far=10, samples=2), studies.names()["depth-resolution"], drawn,
+        lit, lit.exact(0, 0), fathom.Rays([(0, 0, 0)], [(0, 0, 1)]), fathom.SurfacePoints([0], [(0.25, 0.5)]), casting, hits,
+        hits["t_hit"], compat.RayMeshIntersector(mesh),
         *fathom.clip([[(0, 0), (4, 0), (0, 4)]], [[(0, 0), (2, 0), (2, 2), (0, 2)]]))}
 
 

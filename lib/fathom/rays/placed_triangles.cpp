@@ -24,9 +24,10 @@ long greatest_top(const Point& p, long greatest) {
   return greatest;
 }
 
-/// By vertex: whether a triangle has it. A vertex without a triangle may be anywhere.
-std::vector<bool> corners_among_vertices(const Mesh& mesh) {
-  std::vector<bool> are_corners(mesh.vertices.size());
+/// By vertex: whether a triangle has it, or the mesh is a cloud of points. Beside triangles, a
+/// vertex without one may be anywhere.
+std::vector<bool> vertices_that_count(const Mesh& mesh) {
+  std::vector<bool> are_corners(mesh.vertices.size(), mesh.triangles.empty());
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t corner : triangle) are_corners[corner] = true;
   return are_corners;
@@ -40,9 +41,9 @@ constexpr long least_power = -1100;
 long power_of_unit(const TriangleSource& triangles) {
   long power = least_power;
   triangles.for_each_part(0, [&](const TriangleSource::Part& part) {
-    const std::vector<bool> are_corners = corners_among_vertices(part.mesh);
-    for (std::size_t i = 0; i < are_corners.size(); ++i) {
-      if (!are_corners[i]) continue;
+    const std::vector<bool> counts = vertices_that_count(part.mesh);
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      if (!counts[i]) continue;
       const MeshPoint& p = part.mesh.vertices[i];
       power = part.object.placed_as_is ? greatest_top(p, power)
                                        : greatest_top(part.object.world_from_mesh(p), power);

@@ -10,8 +10,8 @@ namespace fathom::rays {
 
 using Vector = std::array<double, 3>;
 
-/// Powers of two to measure in: every corner of the scene has coordinates of less than 2 to this
-/// power, exactly.
+/// Powers of two to measure in: every corner of a triangle, and every point of a mesh without
+/// triangles, has coordinates of less than 2 to this power, exactly.
 long power_of_unit(const TriangleSource& triangles);
 
 /// A point of an object's mesh in the world, in units of 2 to the power of `power`. Of a point that

@@ -85,6 +85,9 @@ class RaycastingScene:
         self._threads = as_count("nthreads", nthreads, 0, 2**31 - 1)
         self._scene = Scene()
 
+    def __repr__(self) -> str:
+        return f"RaycastingScene({self._scene!r})"
+
     def add_triangles(
         self, vertex_positions: npt.ArrayLike | Mesh | None = None, triangle_indices: npt.ArrayLike | None = None, *,
         mesh: Mesh | None = None,
@@ -271,6 +274,9 @@ class RayMeshIntersector:
     def __init__(self, mesh: Any, scale_to_box: bool = True) -> None:
         self.mesh = mesh  # which needs no scaling
         self._known: tuple[npt.NDArray[Any], npt.NDArray[Any], Scene] | None = None
+
+    def __repr__(self) -> str:
+        return f"RayMeshIntersector({self._scene()!r})"
 
     def intersects_id(
         self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike, *, return_locations: bool = False,
