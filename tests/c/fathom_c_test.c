@@ -300,8 +300,7 @@ static void lenses_are_refused(void) {
   CHECK(fathom_render(scene, &bent, "Z,A", NULL, &map) == FATHOM_USAGE &&
         strstr(fathom_error(), "the lens RADIAL: channel A") != NULL && map == NULL);
   CHECK(fathom_render(scene, &bent, "Z", NULL, &map) == FATHOM_OK);
-  CHECK(fathom_verify(map, scene, &bent, NULL, 9, &differing) == FATHOM_USAGE && differing == 7 &&
-        strstr(fathom_error(), "the lens RADIAL") != NULL);
+  CHECK(fathom_verify(map, scene, &bent, NULL, 9, &differing) == FATHOM_OK && differing == 0);
   bent.fy = 41;
   CHECK(fathom_camera_check(&bent) == FATHOM_INPUT &&
         strstr(fathom_error(), "RADIAL has one focal length") != NULL);

@@ -70,8 +70,8 @@ def test_short_option_shows_one_screen(name):
 
 
 # First words of the commands' descriptions. A new one is added here if it is a verb in the imperative.
-VERBS = {"Check", "Clip", "Compare", "Compute", "Convert", "Count", "Draw", "Encode", "Explain", "Find", "Follow", "Import",
-         "Make", "Measure", "Print", "Rasterize", "Render", "Run", "Show", "Trace", "Write"}
+VERBS = {"Check", "Clip", "Compare", "Compute", "Convert", "Count", "Decide", "Draw", "Encode", "Explain", "Find", "Follow",
+         "Import", "Make", "Measure", "Print", "Rasterize", "Render", "Run", "Show", "Trace", "Write"}
 
 
 @pytest.mark.parametrize("name", names)
