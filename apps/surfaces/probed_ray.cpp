@@ -8,6 +8,7 @@
 
 #include "fathom/lens/no_ray.h"
 #include "fathom/lens/preimages.h"
+#include "fathom/numeric/rounding.h"
 
 namespace fathom::app {
 namespace {

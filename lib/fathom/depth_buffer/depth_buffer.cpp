@@ -15,7 +15,6 @@ namespace fathom {
 using namespace area;
 using namespace depth_buffer;
 using namespace rendering;
-using namespace triangle;
 
 DepthFormat depth_format_of(const Camera& camera, Mapping mapping, Storage storage, double c) {
   const StandardArithmetic standard;

@@ -42,10 +42,9 @@ class Gathered {
     const auto is_hidden = [&](const TileEntry& entry) {
       return std::bit_cast<float>(entry.nearness & nearness_of_q) < farthest;
     };
-    const auto hidden =
-        std::ranges::partition(entries_, [&](const TileEntry& entry) { return !is_hidden(entry); });
-    for (const TileEntry& entry : hidden) word_of(entry) = 0;
-    entries_.erase(hidden.begin(), hidden.end());
+    for (const TileEntry& entry : entries_)
+      if (is_hidden(entry)) word_of(entry) = 0;
+    std::erase_if(entries_, is_hidden);
   }
 
  private:

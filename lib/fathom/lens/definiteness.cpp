@@ -21,18 +21,18 @@ PlaneFunction determinant_of(const StageNumbers<ExactPolynomial>& n, const Exact
   const std::array<ExactPolynomial, 2> p{n.p2, n.p1};
   const std::array<ExactPolynomial, 2> g{twice(n.p2) + n.s1 + twice(q * n.s2),
                                          twice(n.p1) + n.s3 + twice(q * n.s4)};
-  const ExactPolynomial D2 = D * D, D3 = D2 * D;
+  const ExactPolynomial square = D * D, cube = square * D;
   // D·A = N + u·m, D²·(A + 2qL' + 2g·m) = slope + v·m
   std::array<ExactPolynomial, 2> u, v;
   for (std::size_t i = 0; i < 2; ++i) {
     u[i] = twice(D * p[i]);
-    v[i] = twice(D2 * (p[i] + g[i]));
+    v[i] = twice(square * (p[i] + g[i]));
   }
   return {N * slope,
           {N * v[0] + slope * u[0], N * v[1] + slope * u[1]},
-          u[0] * v[0] - D3 * g[1] * g[1],
-          u[0] * v[1] + u[1] * v[0] + twice(D3 * g[0] * g[1]),
-          u[1] * v[1] - D3 * g[0] * g[0]};
+          u[0] * v[0] - cube * g[1] * g[1],
+          u[0] * v[1] + u[1] * v[0] + twice(cube * g[0] * g[1]),
+          u[1] * v[1] - cube * g[0] * g[0]};
 }
 
 /// r·∂/∂r of a function of degree `degree` in m beside its coefficients.

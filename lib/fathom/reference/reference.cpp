@@ -120,9 +120,9 @@ class Band {
         if (!nearest.triangle) continue;
         ++statistics.pixels_with_surface;
         const std::size_t pixel = static_cast<std::size_t>(row) * width_ + column;
-        const auto fault =
-            rays_.empty() ? writer.write(pixel, *nearest.triangle, centre_of_pixel(column, row))
-                          : writer.write(pixel, *nearest.triangle, *rays_[index(row, column)]);
+        auto fault = rays_.empty()
+                         ? writer.write(pixel, *nearest.triangle, centre_of_pixel(column, row))
+                         : writer.write(pixel, *nearest.triangle, *rays_[index(row, column)]);
         if (fault) return fault;
       }
     }

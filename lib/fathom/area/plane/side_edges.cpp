@@ -150,7 +150,7 @@ ImagePlace place_of(const LineSweep& sweep, const PlanePart& part, std::uint32_t
 }
 
 std::vector<VisibleEdge> edges_on_sides(const PlaneMesh& mesh, const EdgeRule& rule,
-                                        std::vector<PartSide> sides,
+                                        const std::vector<PartSide>& sides,
                                         std::span<const CrowdedPart> crowded,
                                         const ResolvedParts& resolved) {
   SideEdges found(mesh, rule, resolved, sides);

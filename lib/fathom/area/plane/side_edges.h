@@ -16,6 +16,7 @@ namespace fathom::area {
 struct PartSide {
   bool is_upright = false;
   double at = 0;
+  // NOLINTNEXTLINE(modernize-use-nullptr): it has no pointer
   friend auto operator<=>(const PartSide&, const PartSide&) = default;
 };
 /// Of the side of that number in LineSweep::sides().
@@ -28,7 +29,7 @@ ImagePlace place_of(const LineSweep& sweep, const PlanePart& part, std::uint32_t
 /// The edges on some sides, from all parts that have triangles. Edges between triangles that are
 /// `whole` are left out.
 std::vector<VisibleEdge> edges_on_sides(const PlaneMesh& mesh, const EdgeRule& rule,
-                                        std::vector<PartSide> sides,
+                                        const std::vector<PartSide>& sides,
                                         std::span<const CrowdedPart> crowded,
                                         const ResolvedParts& resolved);
 

@@ -85,7 +85,8 @@ HWY_INLINE void for_rows(const TileBox& box, const BitsOfRows& bits_of_rows, con
   for (int top = box.top; top <= box.bottom; top += static_cast<int>(hn::Lanes(du))) {
     hn::Store(bits_of_rows(counting_lanes(D(), top + 0.5)), du, bits);
     const int count = std::min(static_cast<int>(hn::Lanes(du)), box.bottom - top + 1);
-    for (int k = 0; k < count; ++k) take(static_cast<std::size_t>(top + k), bits[k]);
+    for (int k = 0; k < count; ++k)
+      take(static_cast<std::size_t>(top) + static_cast<std::size_t>(k), bits[k]);
   }
 }
 
