@@ -11,7 +11,7 @@ GROUPS = {
     "Cameras": ["Camera", "Lens", "read_cameras", "write_cameras", "ViewWarning"],
     "Rays": ["Rays", "compat.RaycastingScene", "compat.RayMeshIntersector", "compat.Hits", "compat.Tensor"],
     "Maps": ["Map", "read_map", "compare", "MapComparison", "NO_SURFACE"],
-    "Questions": ["probe", "questions.CoveringTriangle", "visible", "questions.VisibleAreas", "questions.Areas",
+    "Questions": ["probe", "questions.CoveringTriangle", "visible", "questions.VisibleAreas", "questions.PixelAreas",
                   "areas", "Areas", "lit_areas.ExactArea",
                   "render_deep", "DeepMap", "verify", "questions.Verification", "questions.Disagreement"],
     "Evaluation": ["evaluate", "evaluation.Evaluation", "evaluation.Depth", "evaluation.Distances"],

@@ -76,7 +76,7 @@ def _fraction(m: int, e: int, n: int, f: int) -> Fraction:
     return Fraction(m << max(power, 0), n << max(-power, 0))
 
 
-class Areas(NamedTuple):
+class PixelAreas(NamedTuple):
     """Areas in pixels, exact, rounded once to float64; index i is triangle or object i."""
 
     #: Area in which it is visible.
@@ -90,19 +90,19 @@ class Areas(NamedTuple):
         with _core.standard_arithmetic():  # Python writes decimals by binary64 arithmetic
             shown = int((self.visible > 0).sum())
             areas = f": {self.visible[self.visible > 0].min():.6g} to {self.visible.max():.6g} pixels" if shown else ""
-            return f"Areas({shown} of {len(self.visible)} visible{areas}, {self.visible.sum():.6g} pixels together)"
+            return f"PixelAreas({shown} of {len(self.visible)} visible{areas}, {self.visible.sum():.6g} pixels together)"
 
 
 class VisibleAreas(NamedTuple):
-    triangles: Areas
-    objects: Areas
+    triangles: PixelAreas
+    objects: PixelAreas
 
 
 def visible(scene: Scene, camera: Camera, *, cull: Cull = "none", threads: int = 0) -> VisibleAreas:
     """The exact visible area of every triangle and every object, in pixels of the image."""
     triangles, objects = _core.visible(scene_handle(scene), camera_handle(camera), one_of("cull", cull, culls),
                                        as_threads(threads))
-    return VisibleAreas(Areas(*triangles), Areas(*objects))
+    return VisibleAreas(PixelAreas(*triangles), PixelAreas(*objects))
 
 
 def draw(scene: Scene, camera: Camera, path: Path, *, edges: EdgeSelection = "creases", crease_angle: float = 30,
