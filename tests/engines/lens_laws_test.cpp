@@ -31,7 +31,9 @@ std::vector<NamedLens> lenses() {
       {"rational", {LensModel::full_opencv, {-0.125, 0, 0, 0, 0, 0.0625, 0.015625, 0.0078125}}},
       {"tilted", {LensModel::opencv_14, {-0.125, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.05, -0.03}}},
       {"brown", {LensModel::brown, {-0.125, 0.03125, -0.0078125, 0.001953125}}},
-      {"division", {LensModel::division, {-0.25}}}};
+      {"division", {LensModel::division, {-0.25}}},
+      {"equidistant", {LensModel::simple_fisheye}},
+      {"fisheye", {LensModel::opencv_fisheye, {0.03125, -0.0078125}}}};
 }
 
 Camera camera_with(const Lens& lens) {
@@ -84,7 +86,7 @@ void for_each_view(std::uint64_t seed, int scenes, const Check& check) {
 TEST(LensLaws, ALensWithoutDistortionGivesThePinholesMap) {
   std::mt19937_64 random(41);
   for (const LensModelEntry& entry : lens_models()) {
-    if (!entry.is_plane) continue;
+    if (entry.formula != RayFormula::plane) continue;
     SCOPED_TRACE(entry.name);
     const Scene scene = triangles(random, 8);
     const Camera camera = camera_with(Lens{entry.model});
@@ -106,7 +108,13 @@ TEST(LensLaws, AModelGivesTheMapOfTheModelThatContainsIt) {
       {{LensModel::opencv, {-0.25, 0.125, 0.01, 0.02}},
        {LensModel::brown, {-0.25, 0.125, 0, 0, 0.01, 0.02}}},
       {{LensModel::simple_division, {0.25}}, {LensModel::division, {0.25}}},
-      {{LensModel::fisheye_stereographic}, {LensModel::division, {-0.25}}}};
+      {{LensModel::fisheye_stereographic}, {LensModel::division, {-0.25}}},
+      {{LensModel::simple_fisheye}, {LensModel::fisheye}},
+      {{LensModel::fisheye}, {LensModel::opencv_fisheye}},
+      {{LensModel::simple_radial_fisheye, {-0.05}}, {LensModel::radial_fisheye, {-0.05}}},
+      {{LensModel::radial_fisheye, {-0.05, 0.01}}, {LensModel::opencv_fisheye, {-0.05, 0.01}}},
+      {{LensModel::opencv_fisheye, {-0.05, 0.01, 0.002, -0.001}},
+       {LensModel::thin_prism_fisheye, {-0.05, 0.01, 0, 0, 0.002, -0.001}}}};
   std::mt19937_64 random(42);
   for (const auto& [special, general] : same) {
     SCOPED_TRACE(name_of(special.model));

@@ -77,9 +77,28 @@ class LensCaseMaker {
       case LensModel::fisheye_stereographic:
         n.division = -0.25;
         break;
+      case LensModel::simple_fisheye:
+      case LensModel::fisheye:
+        break;
+      case LensModel::simple_radial_fisheye:
+        lens.distortion[0] = n.above[0] = term();
+        break;
+      case LensModel::radial_fisheye:
+        lens.distortion = {n.above[0] = term(), n.above[1] = term() / 4};
+        break;
+      case LensModel::opencv_fisheye:
+        lens.distortion = {n.above[0] = term(), n.above[1] = term() / 4, n.above[2] = term() / 8,
+                           n.above[3] = term() / 16};
+        break;
+      case LensModel::thin_prism_fisheye:
+        lens.distortion = {n.above[0] = term(), n.above[1] = term() / 4, n.p1 = small_term(),
+                           n.p2 = small_term(), n.above[2] = term() / 8, n.above[3] = term() / 16,
+                           n.s1 = small_term(), n.s3 = small_term()};
+        break;
       default:
         break;
     }
+    n.is_angle = entry_of(model).formula == RayFormula::angle;
     Projection& projection = c.view.camera.projection;
     if (has_one_focal_length(entry_of(model))) {
       projection.fy = projection.fx;
@@ -105,6 +124,9 @@ class LensCaseMaker {
         y * factor + n.p1 * (q + 2 * y * y) + 2 * n.p2 * x * y + n.s3 * q + n.s4 * q * q;
     // The direction of the ray.
     const std::array d{x, y, n.division ? 1 + *n.division * q : 1.0};
+    // No corner of few bits lies on the ray of a fisheye but on the axis. Edges in the plane of the
+    // ray and the axis meet it.
+    const bool is_meridian = n.is_angle && q > 0;
     p.skew = 0;
     p.pixel_centre = 0.5;
     p.cx = this->below(6) + 0.5 - p.fx * gx;
@@ -117,8 +139,10 @@ class LensCaseMaker {
         const double across = std::ldexp(this->below(9) - 4, -1),
                      up = std::ldexp(this->below(9) - 4, -1);
         // Either the corner is on the ray, or the ray meets the middle between two corners.
-        const double aside = this->below(2);
+        const double aside = is_meridian ? 0 : this->below(2);
         corners[i] = {d[0] * t + aside * across, d[1] * t + aside * up, d[2] * t};
+        if (is_meridian) corners[i] = {d[0] * t, d[1] * t, across};
+        if (is_meridian && this->below(2) == 0) corners[i + 1] = {d[0] * up, d[1] * up, -across};
         if (aside != 0) corners[i + 1] = {d[0] * t - across, d[1] * t - up, d[2] * t};
       }
       mesh.vertices = std::move(corners);

@@ -81,8 +81,10 @@ TEST(ForeignPoints, AreSeenWhereColmapShowsThem) {
     models.insert(point.model);
     EXPECT_LE(pixels_between(point), 1e-12) << point.model;
   }
-  for (const char* const model : {"SIMPLE_PINHOLE", "PINHOLE", "SIMPLE_RADIAL", "RADIAL", "OPENCV",
-                                  "FULL_OPENCV", "SIMPLE_DIVISION", "DIVISION"})
+  for (const char* const model :
+       {"SIMPLE_PINHOLE", "PINHOLE", "SIMPLE_RADIAL", "RADIAL", "OPENCV", "FULL_OPENCV",
+        "SIMPLE_DIVISION", "DIVISION", "SIMPLE_FISHEYE", "FISHEYE", "SIMPLE_RADIAL_FISHEYE",
+        "RADIAL_FISHEYE", "OPENCV_FISHEYE", "THIN_PRISM_FISHEYE"})
     EXPECT_EQ(models.count(model), 12U) << model;
 }
 

@@ -60,14 +60,18 @@ OraclePoint<Dual<S>> distorted(const NamedParameters& n, const S& px, const S& p
   const Dual<S> x{px, S(1.0), S(0.0)}, y{py, S(0.0), S(1.0)};
   const auto c = [](double value) { return Dual<S>{S(value)}; };
   const Dual<S> r2 = x * x + y * y, r4 = r2 * r2, r6 = r4 * r2, r8 = r4 * r4, one = c(1);
-  const bool is_brown = n.model() == LensModel::brown;
+  const bool has_four_above = n.model() == LensModel::brown ||
+                              n.model() == LensModel::opencv_fisheye ||
+                              n.model() == LensModel::thin_prism_fisheye;
   const Dual<S> numerator = one + c(n["k"] + n["k1"]) * r2 + c(n["k2"]) * r4 + c(n["k3"]) * r6 +
-                            c(is_brown ? n["k4"] : 0) * r8;
+                            c(has_four_above ? n["k4"] : 0) * r8;
   const Dual<S> denominator =
-      one + c(is_brown ? 0 : n["k4"]) * r2 + c(n["k5"]) * r4 + c(n["k6"]) * r6;
+      one + c(has_four_above ? 0 : n["k4"]) * r2 + c(n["k5"]) * r4 + c(n["k6"]) * r6;
   const Dual<S> L = numerator / denominator, p1 = c(n["p1"]), p2 = c(n["p2"]), two = c(2);
-  return {x * L + two * p1 * x * y + p2 * (r2 + two * x * x) + c(n["s1"]) * r2 + c(n["s2"]) * r4,
-          y * L + p1 * (r2 + two * y * y) + two * p2 * x * y + c(n["s3"]) * r2 + c(n["s4"]) * r4};
+  return {x * L + two * p1 * x * y + p2 * (r2 + two * x * x) + c(n["s1"] + n["sx1"]) * r2 +
+              c(n["s2"]) * r4,
+          y * L + p1 * (r2 + two * y * y) + two * p2 * x * y + c(n["s3"] + n["sy1"]) * r2 +
+              c(n["s4"]) * r4};
 }
 
 /// The sign of the determinant of the symmetric part of the Jacobian at a point.
@@ -97,9 +101,13 @@ Lens random_lens(std::mt19937_64& random, LensModel model, double size);
 /// A camera of 1280 × 720 pixels; with skew and mirrored for some seeds.
 Projection random_camera(std::mt19937_64& random);
 
-/// The models that have a stage.
+/// The models of the plane that have a stage.
 inline constexpr std::array<LensModel, 6> stage_models{
     LensModel::simple_radial, LensModel::radial,    LensModel::opencv,
     LensModel::full_opencv,   LensModel::opencv_14, LensModel::brown};
+/// The fisheyes that have a stage which may change something.
+inline constexpr std::array<LensModel, 4> fisheye_models{
+    LensModel::simple_radial_fisheye, LensModel::radial_fisheye, LensModel::opencv_fisheye,
+    LensModel::thin_prism_fisheye};
 
 }  // namespace fathom::oracle

@@ -47,4 +47,10 @@ int main() {
   write_points<FullOpenCVCameraModel>(0.1);
   write_points<SimpleDivisionCameraModel>(0.3);
   write_points<DivisionCameraModel>(0.3);
+  write_points<SimpleFisheyeCameraModel>(0);
+  write_points<FisheyeCameraModel>(0);
+  write_points<SimpleRadialFisheyeCameraModel>(0.1);
+  write_points<RadialFisheyeCameraModel>(0.1);
+  write_points<OpenCVFisheyeCameraModel>(0.05);
+  write_points<ThinPrismFisheyeCameraModel>(0.05);
 }

@@ -185,7 +185,7 @@ oracle::RayCaster cast_at(const Scene& scene, const Camera& camera, const oracle
                           double greatest_q) {
   oracle::RayCamera bent = ray_camera(camera);
   bent.bent = oracle::lens_rays(bent, lens, greatest_q);
-  bent.by_distance = lens.division.has_value();
+  bent.by_distance = lens.counts_distance();
   return {bent, triangles_of(scene)};
 }
 

@@ -13,6 +13,11 @@ struct LensNumbers {
   double p1 = 0, p2 = 0, s1 = 0, s2 = 0, s3 = 0, s4 = 0;
   /// d = (x_d, y_d, 1 + k·r²) instead.
   std::optional<double> division;
+  /// The point m that the lens takes to the sample lies at the angle |m| from the axis.
+  bool is_angle = false;
+
+  /// Whether rays go to all sides, so that near and far bound the distance.
+  [[nodiscard]] bool counts_distance() const { return division || is_angle; }
 };
 
 /// RayCamera::bent of a lens in front of the camera's fx … skew. A sample sees the point m of the

@@ -28,6 +28,11 @@ struct Model {
   std::size_t focals;
   /// Whether it is a pinhole camera if all its distortion parameters are 0.
   bool pinhole;
+
+  [[nodiscard]] bool is_fisheye() const {
+    const auto lens = lens_model_named(name);
+    return lens && entry_of(*lens).formula == RayFormula::angle;
+  }
 };
 
 /// In the order of COLMAP's model ids: those of COLMAP 4, of which 3.8 had the first eleven.
@@ -78,9 +83,9 @@ ImportedCamera make_camera(const CameraRecord& record, const Model& model,
   const std::string about = where + ": camera " + std::to_string(record.id) + ": ";
   ImportedCamera result;
   constexpr std::uint64_t largest = std::numeric_limits<std::uint32_t>::max();
-  if (!model.pinhole) {
+  if (!model.pinhole && !model.is_fisheye()) {
     result.absence = about + "the model " + model.name +
-                     " is no pinhole camera; undistort the images (colmap image_undistorter)";
+                     " is not supported; undistort the images (colmap image_undistorter)";
     return result;
   }
   if (record.width > largest || record.height > largest) {
@@ -89,7 +94,8 @@ ImportedCamera make_camera(const CameraRecord& record, const Model& model,
   }
   const auto distortion = record.parameters.begin() + static_cast<long>(model.focals) + 2;
   Camera& camera = result.camera;
-  if (std::any_of(distortion, distortion + static_cast<long>(distortion_parameters(model)),
+  if (model.is_fisheye() ||
+      std::any_of(distortion, distortion + static_cast<long>(distortion_parameters(model)),
                   [](double k) { return k != 0; })) {
     if (const auto lens_model = lens_model_named(model.name)) {
       Lens lens{*lens_model};

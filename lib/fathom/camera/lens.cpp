@@ -60,6 +60,13 @@ Lens with_two_focal_lengths(Lens lens) {
     case LensModel::simple_division:
       lens.model = LensModel::division;
       break;
+    case LensModel::simple_fisheye:
+      lens.model = LensModel::fisheye;
+      break;
+    case LensModel::simple_radial_fisheye:
+    case LensModel::radial_fisheye:
+      lens.model = LensModel::opencv_fisheye;
+      break;
     default:
       break;
   }
@@ -68,7 +75,7 @@ Lens with_two_focal_lengths(Lens lens) {
 
 bool is_pinhole(const Lens& lens) {
   const StandardArithmetic standard;
-  return entry_of(lens.model).is_plane && std::isinf(lens.max_radius) &&
+  return is_plane(lens.model) && std::isinf(lens.max_radius) &&
          std::all_of(lens.distortion.begin(), lens.distortion.end(),
                      [](double value) { return value == 0; });
 }

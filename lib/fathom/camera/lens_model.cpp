@@ -24,19 +24,44 @@ constexpr std::span<const Name> first(std::size_t count) {
   return std::span(of_opencv).first(count);
 }
 
-constexpr std::array<LensModelEntry, 12> table{{
-    {LensModel::simple_pinhole, "SIMPLE_PINHOLE", true, one_focal_length, {}, {}},
-    {LensModel::pinhole, "PINHOLE", true, two_focal_lengths, {}, {}},
-    {LensModel::simple_radial, "SIMPLE_RADIAL", true, one_focal_length, of_one_term, {}},
-    {LensModel::radial, "RADIAL", true, one_focal_length, first(2), {}},
-    {LensModel::opencv, "OPENCV", true, two_focal_lengths, first(4), {}},
-    {LensModel::full_opencv, "FULL_OPENCV", true, two_focal_lengths, first(8), {}},
-    {LensModel::opencv_14, "OPENCV_14", true, two_focal_lengths, of_opencv, shorter_than_14},
-    {LensModel::brown, "BROWN", true, two_focal_lengths, of_brown, {}},
-    {LensModel::simple_division, "SIMPLE_DIVISION", false, one_focal_length, of_one_term, {}},
-    {LensModel::division, "DIVISION", false, two_focal_lengths, of_one_term, {}},
-    {LensModel::fisheye_stereographic, "FISHEYE_STEREOGRAPHIC", false, two_focal_lengths, {}, {}},
-    {LensModel::table, "TABLE", false, {}, {}, {}},
+constexpr std::array<Name, 8> of_thin_prism{"k1", "k2", "p1", "p2", "k3", "k4", "sx1", "sy1"};
+
+constexpr auto plane = RayFormula::plane, angle = RayFormula::angle, direct = RayFormula::direct;
+
+constexpr std::array<LensModelEntry, 18> table{{
+    {LensModel::simple_pinhole, "SIMPLE_PINHOLE", plane, one_focal_length, {}, {}},
+    {LensModel::pinhole, "PINHOLE", plane, two_focal_lengths, {}, {}},
+    {LensModel::simple_radial, "SIMPLE_RADIAL", plane, one_focal_length, of_one_term, {}},
+    {LensModel::radial, "RADIAL", plane, one_focal_length, first(2), {}},
+    {LensModel::opencv, "OPENCV", plane, two_focal_lengths, first(4), {}},
+    {LensModel::full_opencv, "FULL_OPENCV", plane, two_focal_lengths, first(8), {}},
+    {LensModel::opencv_14, "OPENCV_14", plane, two_focal_lengths, of_opencv, shorter_than_14},
+    {LensModel::brown, "BROWN", plane, two_focal_lengths, of_brown, {}},
+    {LensModel::simple_division, "SIMPLE_DIVISION", direct, one_focal_length, of_one_term, {}},
+    {LensModel::division, "DIVISION", direct, two_focal_lengths, of_one_term, {}},
+    {LensModel::fisheye_stereographic, "FISHEYE_STEREOGRAPHIC", direct, two_focal_lengths, {}, {}},
+    {LensModel::simple_fisheye, "SIMPLE_FISHEYE", angle, one_focal_length, {}, {}},
+    {LensModel::fisheye, "FISHEYE", angle, two_focal_lengths, {}, {}},
+    {LensModel::simple_radial_fisheye,
+     "SIMPLE_RADIAL_FISHEYE",
+     angle,
+     one_focal_length,
+     of_one_term,
+     {}},
+    {LensModel::radial_fisheye, "RADIAL_FISHEYE", angle, one_focal_length, first(2), {}},
+    {LensModel::opencv_fisheye,
+     "OPENCV_FISHEYE",
+     angle,
+     two_focal_lengths,
+     std::span(of_brown).first(4),
+     {}},
+    {LensModel::thin_prism_fisheye,
+     "THIN_PRISM_FISHEYE",
+     angle,
+     two_focal_lengths,
+     of_thin_prism,
+     {}},
+    {LensModel::table, "TABLE", direct, {}, {}, {}},
 }};
 
 constexpr bool is_in_order() {
@@ -54,6 +79,14 @@ std::span<const LensModelEntry> lens_models() {
 
 const LensModelEntry& entry_of(LensModel model) {
   return table[static_cast<std::size_t>(model)];
+}
+
+bool is_plane(LensModel model) {
+  return entry_of(model).formula == RayFormula::plane;
+}
+
+bool has_stage(LensModel model) {
+  return entry_of(model).formula != RayFormula::direct;
 }
 
 bool has_one_focal_length(const LensModelEntry& model) {

@@ -51,7 +51,7 @@ bool bends_rays(const Projection& projection) {
 }
 
 bool counts_distance(const Projection& projection) {
-  return bends_rays(projection) && !entry_of(projection.lens->model).is_plane;
+  return bends_rays(projection) && !is_plane(projection.lens->model);
 }
 
 HomogeneousImagePoint to_image(const Projection& projection, const CameraPoint& p) {

@@ -10,6 +10,8 @@ ExactDirection::ExactDirection(RationalDirection direction) : direction_(std::mo
 
 ExactDirection::ExactDirection(PolynomialDirection direction) : direction_(std::move(direction)) {}
 
+ExactDirection::ExactDirection(AngleDirection direction) : direction_(std::move(direction)) {}
+
 const std::array<Interval, 3>& ExactDirection::box() const {
   return std::visit(
       [](const auto& d) -> const auto& { return d.box(); }, direction_);

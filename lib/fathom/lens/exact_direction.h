@@ -3,6 +3,7 @@
 #include <array>
 #include <variant>
 
+#include "fathom/lens/angle_direction.h"
 #include "fathom/lens/polynomial_direction.h"
 #include "fathom/lens/rational_direction.h"
 
@@ -22,9 +23,11 @@ class ExactDirection {
  public:
   explicit ExactDirection(RationalDirection direction);
   explicit ExactDirection(PolynomialDirection direction);
+  explicit ExactDirection(AngleDirection direction);
 
   /// Binary64 intervals that contain d as the specification (section 2) scales it, z = 1 for models
-  /// of the plane: the filter that should be asked first. An end may be infinite.
+  /// of the plane, |d| = 1 for fisheyes: the filter that should be asked first. An end may be
+  /// infinite.
   [[nodiscard]] const std::array<Interval, 3>& box() const;
 
   /// The sign of form·d. Does not try the box.
@@ -40,7 +43,7 @@ class ExactDirection {
   [[nodiscard]] const ExactVector3* rational() const;
 
  private:
-  std::variant<RationalDirection, PolynomialDirection> direction_;
+  std::variant<RationalDirection, PolynomialDirection, AngleDirection> direction_;
 };
 
 }  // namespace fathom::lens

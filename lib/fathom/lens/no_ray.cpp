@@ -24,9 +24,11 @@ std::string why_no_ray(const Projection& projection, std::uint32_t column, std::
   const Preimages preimages(projection, endless);
   if (preimages.of_pixel(column, row)) return "it is beyond max_radius";
   if (endless.directions) return "the table has no direction for this pixel";
-  if (!entry_of(endless.model).is_plane) return "the model ends nearer to its axis";
+  if (!has_stage(endless.model)) return "the model ends nearer to its axis";
   if (is_behind_sensor(preimages, column, row)) return "it is behind the tilted sensor";
-  return "the lens folds nearer to its axis";
+  const bool is_last_angle = !is_plane(endless.model) && preimages.disc() == end_of_angles;
+  return is_last_angle ? "it is 180 degrees or more from the axis"
+                       : "the lens folds nearer to its axis";
 }
 
 }  // namespace fathom::lens

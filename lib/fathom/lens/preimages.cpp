@@ -43,11 +43,9 @@ bool is_within_angle(const ExactVector3& d, double radius) {
   }
 }
 
-/// Whether |m| ≤ radius.
-bool is_within_radius(const DistortedPoint& m, double radius) {
-  if (std::isinf(radius)) return true;
-  const Dyadic bound = radius * m.c;
-  return m.a * m.a + m.b * m.b <= bound * bound;
+/// Whether |m|² ≤ limit.
+bool is_within(const std::optional<Dyadic>& limit, const DistortedPoint& m) {
+  return !limit || m.a * m.a + m.b * m.b <= *limit * (m.c * m.c);
 }
 
 /// The direction, times a power of two that brings its greatest component between ½ and 1: binary64
@@ -63,9 +61,7 @@ RationalDirection scaled_direction(const DirectionTable::Direction& d) {
 }
 
 PolynomialStage prepared_stage(const Lens& lens) {
-  constexpr double no_bound = std::numeric_limits<double>::infinity();
-  if (!entry_of(lens.model).is_plane) return {stage_of(Lens()), no_bound};
-  return {stage_of(lens), lens.max_radius};
+  return PolynomialStage(has_stage(lens.model) ? lens : Lens());
 }
 
 }  // namespace
@@ -78,22 +74,46 @@ std::optional<ExactDirection> Preimages::of(const Dyadic& u, const Dyadic& v) co
   if (lens_.directions) {
     throw UsageError("the lens TABLE: has directions of the centres of its pixels only");
   }
-  std::optional<DistortedPoint> y = plane_.at(u, v);
-  if (!entry_of(lens_.model).is_plane) {
-    std::optional<RationalDirection> d = divide(*y, division_term(lens_));
+  if (!has_stage(lens_.model)) {
+    std::optional<RationalDirection> d = divide(plane_.at(u, v), division_term(lens_));
     if (!d || !is_within_angle(d->vector(), lens_.max_radius)) return std::nullopt;
     return ExactDirection(std::move(*d));
   }
+  std::optional<PlaneDirection> m = find_before_stage(u, v);
+  if (!m) return std::nullopt;
+  return lifted(std::move(*m));
+}
+
+std::optional<ExactDirection> Preimages::before_stage(const Dyadic& u, const Dyadic& v) const {
+  const StandardArithmetic standard;
+  const std::optional<PlaneDirection> m = find_before_stage(u, v);
+  if (!m) return std::nullopt;
+  return std::visit([](const auto& d) { return ExactDirection(d); }, *m);
+}
+
+std::optional<Preimages::PlaneDirection> Preimages::find_before_stage(const Dyadic& u,
+                                                                      const Dyadic& v) const {
+  std::optional<DistortedPoint> y = plane_.at(u, v);
   if (tilt_) y = tilt_->undone(*y);
   if (!y) return std::nullopt;
   const bool is_on_axis = y->a.is_zero() && y->b.is_zero();
   if (is_on_axis || is_identity(stage_.numbers)) {
-    if (!is_within_radius(*y, lens_.max_radius)) return std::nullopt;
-    return ExactDirection(RationalDirection({y->a, y->b, y->c}, y->c));
+    if (!is_within(stage_.limit, *y)) return std::nullopt;
+    return RationalDirection({y->a, y->b, y->c}, y->c);
   }
   std::optional<PolynomialDirection> d = PolynomialDirection::find(stage_, *y);
   if (!d) return std::nullopt;
-  return ExactDirection(std::move(*d));
+  return std::move(*d);
+}
+
+ExactDirection Preimages::lifted(PlaneDirection m) const {
+  const auto* const rational = std::get_if<RationalDirection>(&m);
+  if (is_plane(lens_.model))
+    return std::visit([](auto& d) { return ExactDirection(std::move(d)); }, m);
+  const bool is_axis =
+      rational != nullptr && rational->vector()[0].is_zero() && rational->vector()[1].is_zero();
+  if (is_axis) return ExactDirection(RationalDirection({Dyadic(0.0), Dyadic(0.0), Dyadic(1.0)}));
+  return ExactDirection(AngleDirection(std::move(m)));
 }
 
 std::optional<ExactDirection> Preimages::of_pixel(std::uint32_t column, std::uint32_t row) const {
@@ -108,8 +128,7 @@ std::optional<ExactDirection> Preimages::of_pixel(std::uint32_t column, std::uin
 
 std::optional<Interval> Preimages::cosine_of_end() const {
   const StandardArithmetic standard;
-  if (entry_of(lens_.model).is_plane || is_beyond_every_angle(lens_.max_radius))
-    return std::nullopt;
+  if (has_stage(lens_.model) || is_beyond_every_angle(lens_.max_radius)) return std::nullopt;
   constexpr long bits = 64;
   return enclose(cos(BigInterval(Dyadic(lens_.max_radius), bits)).ends());
 }

@@ -35,11 +35,15 @@ class Preimages {
   [[nodiscard]] std::optional<ExactDirection> of_pixel(std::uint32_t column,
                                                        std::uint32_t row) const;
 
-  /// The stage and its disc, of a model of the plane: the ray of a sample is (m, 1) with S(m) = y,
-  /// in the disc, where y is what plane_map() makes of the sample; nullptr of other models.
+  /// The stage and its disc, of a model that has one: a sample sees by the m in the disc with S(m) =
+  /// y, where y is what plane_map() makes of the sample; nullptr of other models.
   [[nodiscard]] const PolynomialStage* stage() const {
-    return entry_of(lens_.model).is_plane ? &stage_ : nullptr;
+    return has_stage(lens_.model) ? &stage_ : nullptr;
   }
+  /// (m, 1) with that m, of a sample as of() takes it; nullopt if there is none in the disc. It is
+  /// the direction itself of a model of the plane; of a fisheye, |m| is the angle to the z axis.
+  /// Needs    a model that has a stage.
+  [[nodiscard]] std::optional<ExactDirection> before_stage(const Dyadic& u, const Dyadic& v) const;
   /// The rows of the matrix that takes (u, v, 1) to a positive multiple of (y, 1), exactly; where
   /// the third component is not positive, the sample sees nothing.
   [[nodiscard]] std::array<ExactVector3, 3> plane_map() const;
@@ -53,6 +57,11 @@ class Preimages {
   [[nodiscard]] double disc() const { return stage_.disc; }
 
  private:
+  using PlaneDirection = AngleDirection::PlaneDirection;
+  [[nodiscard]] std::optional<PlaneDirection> find_before_stage(const Dyadic& u,
+                                                                const Dyadic& v) const;
+  [[nodiscard]] ExactDirection lifted(PlaneDirection m) const;
+
   SamplePlane plane_;
   Lens lens_;
   std::optional<Tilt> tilt_;

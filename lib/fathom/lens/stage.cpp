@@ -23,9 +23,13 @@ StageNumbers<double> stage_of(const Lens& lens) {
   switch (lens.model) {
     case LensModel::simple_pinhole:
     case LensModel::pinhole:
+    case LensModel::simple_fisheye:
+    case LensModel::fisheye:
       return {{1}, {1}, 0, 0, 0, 0, 0, 0};
     case LensModel::simple_radial:
     case LensModel::radial:
+    case LensModel::simple_radial_fisheye:
+    case LensModel::radial_fisheye:
       return {polynomial({d[0], d[1]}), {1}, 0, 0, 0, 0, 0, 0};
     case LensModel::opencv:
     case LensModel::full_opencv:
@@ -40,6 +44,10 @@ StageNumbers<double> stage_of(const Lens& lens) {
               d[11]};
     case LensModel::brown:
       return {polynomial({d[0], d[1], d[2], d[3]}), {1}, d[4], d[5], 0, 0, 0, 0};
+    case LensModel::opencv_fisheye:
+      return {polynomial({d[0], d[1], d[2], d[3]}), {1}, 0, 0, 0, 0, 0, 0};
+    case LensModel::thin_prism_fisheye:
+      return {polynomial({d[0], d[1], d[4], d[5]}), {1}, d[2], d[3], d[6], 0, d[7], 0};
     case LensModel::simple_division:
     case LensModel::division:
     case LensModel::fisheye_stereographic:

@@ -40,7 +40,7 @@ StageNumbers<ExactPolynomial> as_polynomials(const StageNumbers<T>& numbers) {
   return numbers.in([](const T& number) { return ExactPolynomial(number); });
 }
 
-/// The stage of a model of the plane. Leading zeroes of N and D are left out.
+/// The stage of a model that has one. Leading zeroes of N and D are left out.
 StageNumbers<double> stage_of(const Lens& lens);
 
 /// Whether L is all that there is.

@@ -77,6 +77,16 @@ std::optional<Rim> rim_of(const StageNumbers<double>& stage, double farthest, do
   return std::nullopt;
 }
 
+/// The same for a lens, which may end nearer than the stage: a fisheye ends at 180° from its axis.
+std::optional<Rim> rim_of_stage(const StageNumbers<double>& stage, double farthest,
+                                const Lens& lens) {
+  if (is_plane(lens.model) || lens.max_radius < std::numbers::pi)
+    return rim_of(stage, farthest, lens.max_radius);
+  std::optional<Rim> rim = rim_of(stage, farthest, std::numbers::pi);
+  if (rim && rim->reason == Reason::max_radius) rim->reason = Reason::end_of_model;
+  return rim;
+}
+
 // At the angle θ from the axis tan θ = r/(1 + k·r²): r is the lesser root of a quadratic equation.
 // Angles that a model does not reach have none.
 std::optional<Rim> rim_of_division(const Lens& lens) {
@@ -193,15 +203,15 @@ std::optional<WithoutRay> find_samples_without_ray(const Projection& projection,
   if (!projection.lens || is_pinhole(*projection.lens)) return std::nullopt;
   if (projection.lens->directions) return of_table(*projection.lens->directions);
   const Lens& lens = *projection.lens;
-  const bool is_plane = entry_of(lens.model).is_plane;
-  const StageNumbers<double> stage = stage_of(is_plane ? lens : Lens());
-  const Forward forward(projection, is_plane ? &stage : nullptr);
+  const bool is_by_stage = has_stage(lens.model);
+  const StageNumbers<double> stage = stage_of(is_by_stage ? lens : Lens());
+  const Forward forward(projection, is_by_stage ? &stage : nullptr);
   double farthest = 0;
   for (const double u : {0.0, static_cast<double>(width)})
     for (const double v : {0.0, static_cast<double>(height)})
       farthest = std::max(farthest, forward.distance_from_axis(u, v));
   const std::optional<Rim> rim =
-      is_plane ? rim_of(stage, farthest, lens.max_radius) : rim_of_division(lens);
+      is_by_stage ? rim_of_stage(stage, farthest, lens) : rim_of_division(lens);
   if (!rim) return std::nullopt;
   const Polygon seen = image_of_circle(forward, rim->radius);
   if (seen.empty()) return std::nullopt;

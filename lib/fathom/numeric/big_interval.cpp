@@ -8,6 +8,16 @@
 namespace fathom {
 namespace {
 
+/// sin(x)/x, rounded in this direction; 0 ≤ x ≤ π.
+void set_sinc(mpfr_ptr result, mpfr_srcptr x, mpfr_rnd_t direction) {
+  if (mpfr_zero_p(x) != 0) {
+    mpfr_set_ui(result, 1, direction);
+    return;
+  }
+  mpfr_sin(result, x, direction);
+  mpfr_div(result, result, x, direction);
+}
+
 long greater_precision(mpfr_srcptr a, mpfr_srcptr b) {
   return std::max(mpfr_get_prec(a), mpfr_get_prec(b));
 }
@@ -140,6 +150,14 @@ BigInterval cos(const BigInterval& angle) {
   mpfr_cos(cosine.low_, angle.high_, MPFR_RNDD);
   mpfr_cos(cosine.high_, angle.low_, MPFR_RNDU);
   return cosine;
+}
+
+// It falls from 0 to π.
+BigInterval sinc(const BigInterval& angle) {
+  BigInterval value(angle.bits());
+  set_sinc(value.low_, angle.high_, MPFR_RNDD);
+  set_sinc(value.high_, angle.low_, MPFR_RNDU);
+  return value;
 }
 
 Sign BigInterval::sign() const {

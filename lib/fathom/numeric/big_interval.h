@@ -37,6 +37,8 @@ class BigInterval {
   friend BigInterval sqrt(const BigInterval& x);
   /// The cosine of an angle from 0 to π.
   friend BigInterval cos(const BigInterval& angle);
+  /// sin(angle)/angle of an angle from 0 to π; 1 at 0.
+  friend BigInterval sinc(const BigInterval& angle);
 
   /// The sign of all its numbers; Sign::zero if they differ in sign, or are 0.
   [[nodiscard]] Sign sign() const;

@@ -4,9 +4,11 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "fathom/fast/lenses/place_arithmetic.h"
 #include "fathom/numeric/certified.h"
+#include "fathom/numeric/dyadic_interval.h"
 
 // A place is a quotient of two components, which err by `error` each: with A, W the exact ones,
 // │a/w − A/W│ = │a·W − A·w│/(w·W) ≤ error·(1 + │a/w│)/W, W ≥ w − error, and a rounding. The
@@ -25,6 +27,35 @@ constexpr double loose_error = 0x1p-30;
 
 double division_term(const Lens& lens) {
   return lens.model == LensModel::fisheye_stereographic ? -0.25 : lens.distortion[0];
+}
+
+/// sin √q/√q where `first` is 1 and cos √q where it is 0: Σ (−q)^k·first!/(2k + first)!, by the
+/// scheme of Horner.
+template <int first>
+double alternating_series(double q) {
+  constexpr int terms = 18;
+  double sum = 1;
+  for (int k = terms; k > 0; --k) sum = 1 - q / ((2 * k + first - 1) * (2 * k + first)) * sum;
+  return sum;
+}
+
+/// Less than 10 is what lifted() needs of |m|².
+constexpr double end_of_series = 10;
+
+/// (m·sin θ/θ, cos θ) with θ = |m|; the error is that of the arithmetic.
+///
+/// With q = θ²: cos θ = s_1 and s_k = 1 − r_k·s_{k+1}, r_k = q/((2k−1)·2k). From k = 2 on r_k < 1,
+/// the terms of s_k alternate and fall, and 0 < s_k ≤ 1. The step to ŝ_k multiplies the error of
+/// s_{k+1} by r_k, and adds r_k·2u for the quotient and the product and u for the difference: less
+/// than 4u from k = 2 on. So the error of s_2 is below 4u·(1 + 10/12·(1 + 10/30·(1 + …))) < 9u, and
+/// the error of cos θ is below 5·(9u + 2u) + u = 56u. In the same way, with r_k = q/(2k·(2k + 1)),
+/// the error of sin θ/θ is below 10/6·(7u + 2u) + u = 16u. That s_19 is taken for 1 changes less
+/// than 10¹⁸/36! < 2⁻⁷⁷. q errs by 2u of it, which moves cos θ by at most ½·20u and sin θ/θ by at
+/// most 20u/6. A component of m, which is below 3.2, times sin θ/θ errs by 3.2·20u + u.
+ApproximateDirection lifted(double x, double y) {
+  const double q = x * x + y * y;
+  const double sine_over_angle = alternating_series<1>(q);
+  return {{x * sine_over_angle, y * sine_over_angle, alternating_series<0>(q)}, 68 * u};
 }
 
 /// The same direction, scaled by a power of two so that its greatest component is about 1; smaller
@@ -59,15 +90,50 @@ std::optional<bool> AngleLimit::keeps(const ApproximateDirection& direction) con
 DirectionModel::DirectionModel(const lens::Preimages& the_preimages, const Projection& projection,
                                const TileGrid& grid)
     : preimages_(the_preimages),
+      grid_(grid),
       table_(projection.lens->directions.get()),
       k_(division_term(*projection.lens)),
       plane_(table_ ? CertifiedPlane()
                     : CertifiedPlane(the_preimages, projection, grid.width, grid.height)),
-      limit_{the_preimages.cosine_of_end()} {}
+      limit_{the_preimages.cosine_of_end()} {
+  if (the_preimages.stage() != nullptr) angles_.emplace(the_preimages, projection, grid);
+}
 
-std::optional<ApproximateDirection> DirectionModel::at(std::uint32_t column,
-                                                       std::uint32_t row) const {
-  return table_ ? in_table(column, row) : divided(column, row);
+template <class DirectionAt>
+std::vector<DirectionModel::Sample> DirectionModel::collected(std::uint32_t tile,
+                                                              const DirectionAt& at) const {
+  const PixelBox area = grid_.area(tile);
+  std::vector<Sample> samples;
+  samples.reserve(TileShape::samples);
+  for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
+    for (std::uint32_t column = area.first_column; column <= area.last_column; ++column) {
+      if (column >= grid_.width || row >= grid_.height) continue;
+      if (const std::optional<ApproximateDirection> direction = at(column, row))
+        samples.push_back({column, row, *direction});
+    }
+  }
+  return samples;
+}
+
+std::vector<DirectionModel::Sample> DirectionModel::of_tile(std::uint32_t tile) const {
+  if (angles_) return fisheye_tile(tile);
+  return collected(tile, [this](std::uint32_t column, std::uint32_t row) {
+    return table_ ? in_table(column, row) : divided(column, row);
+  });
+}
+
+// A step of m moves d by at most its length, because sin θ/θ ≤ 1; both components of m err.
+std::vector<DirectionModel::Sample> DirectionModel::fisheye_tile(std::uint32_t tile) const {
+  std::vector<double> x(TileShape::samples), y(TileShape::samples);
+  const double of_m = std::numbers::sqrt2 * up * angles_->find(tile, {x, y}).error;
+  const PixelBox area = grid_.area(tile);
+  return collected(tile, [&](std::uint32_t column, std::uint32_t row) {
+    const std::size_t i = TileShape::index(column - area.first_column, row - area.first_row);
+    if (!(x[i] == x[i])) return std::optional<ApproximateDirection>();
+    if (!(x[i] * x[i] + y[i] * y[i] < end_of_series)) return exactly_at(column, row);
+    const ApproximateDirection d = lifted(x[i], y[i]);
+    return std::optional(ApproximateDirection{d.d, (d.error + of_m) * up});
+  });
 }
 
 std::optional<ApproximateDirection> DirectionModel::in_table(std::uint32_t column,
@@ -101,21 +167,36 @@ std::optional<ApproximateDirection> DirectionModel::divided(std::uint32_t column
   return *keeps ? std::optional(direction) : std::nullopt;
 }
 
+namespace {
+
+/// The middles of intervals, and half of the greatest width.
+ApproximateDirection middle_of(const std::array<Interval, 3>& box) {
+  ApproximateDirection direction{{}, underflow};
+  for (std::size_t k = 0; k < 3; ++k) {
+    direction.d[k] = box[k].lower / 2 + box[k].upper / 2;
+    direction.error = std::max(direction.error, (box[k].upper - box[k].lower) * up + underflow);
+  }
+  return direction;
+}
+
+std::array<Interval, 3> scaled_box(const ExactVector3& d) {
+  std::optional<long> top;
+  for (const Dyadic& component : d)
+    if (!component.is_zero()) top = std::max(top.value_or(component.top()), component.top());
+  std::array<Interval, 3> box;
+  for (std::size_t k = 0; k < 3; ++k) box[k] = enclose(d[k].scaled(-*top));
+  return box;
+}
+
+}  // namespace
+
 std::optional<ApproximateDirection> DirectionModel::exactly_at(std::uint32_t column,
                                                                std::uint32_t row) const {
   const auto exact = preimages_.of_pixel(column, row);
   if (!exact) return std::nullopt;
-  const ExactVector3& d = *exact->rational();
-  std::optional<long> top;
-  for (const Dyadic& component : d)
-    if (!component.is_zero()) top = std::max(top.value_or(component.top()), component.top());
-  ApproximateDirection direction{{}, underflow};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Interval around = enclose(d[k].scaled(-*top));
-    direction.d[k] = around.lower / 2 + around.upper / 2;
-    direction.error = std::max(direction.error, (around.upper - around.lower) * up + underflow);
-  }
-  return direction;
+  if (const ExactVector3* const d = exact->rational()) return middle_of(scaled_box(*d));
+  const auto [x, y, z] = exact->enclosure(64);
+  return middle_of({enclose(x), enclose(y), enclose(z)});
 }
 
 namespace {
@@ -163,28 +244,12 @@ unsigned views_with(const ApproximateDirection& direction) {
   return views;
 }
 
-/// The samples of a tile that have a ray, and the views that hold all of them.
-struct TileDirections {
-  TileDirections(const DirectionModel& model, const TileGrid& grid, const PixelBox& area) {
-    directions.reserve(TileShape::samples);
-    for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
-      for (std::uint32_t column = area.first_column; column <= area.last_column; ++column) {
-        if (column >= grid.width || row >= grid.height) continue;
-        const auto direction = model.at(column, row);
-        if (!direction) continue;
-        directions.push_back({column, row, *direction});
-        views &= views_with(*direction);
-      }
-    }
-  }
-
-  struct Sample {
-    std::uint32_t column, row;
-    ApproximateDirection direction;
-  };
-  std::vector<Sample> directions;
+/// The views that hold all samples.
+unsigned common_views(std::span<const DirectionModel::Sample> samples) {
   unsigned views = (1U << all_views.size()) - 1;
-};
+  for (const auto& sample : samples) views &= views_with(sample.direction);
+  return views;
+}
 
 }  // namespace
 
@@ -196,12 +261,13 @@ std::array<PlacesInView, all_views.size()> find_places(const DirectionModel& mod
   std::ranges::fill(places.x, no_number);
   std::ranges::fill(places.y, no_number);
   std::array<PlacesInView, all_views.size()> found;
-  const TileDirections all(model, grid, area);
-  for (const auto& [column, row, direction] : all.directions) {
-    const auto view_of = [&](const ApproximateDirection& d) {
-      return all.views != 0 ? static_cast<std::uint8_t>(std::countr_zero(all.views))
-                            : view_along(d.d);
-    };
+  const std::vector<DirectionModel::Sample> samples = model.of_tile(tile);
+  const unsigned common = common_views(samples);
+  const auto view_of = [common](const ApproximateDirection& direction) {
+    return common != 0 ? static_cast<std::uint8_t>(std::countr_zero(common))
+                       : view_along(direction.d);
+  };
+  for (const auto& [column, row, direction] : samples) {
     std::uint8_t v = view_of(direction);
     Place place = place_in(all_views[v], direction);
     if (!is_tight(place)) {

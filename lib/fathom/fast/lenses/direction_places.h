@@ -10,17 +10,13 @@
 #include "fathom/fast/bins/tile_shape.h"
 #include "fathom/fast/lenses/certified_plane.h"
 #include "fathom/fast/lenses/plane_box.h"
+#include "fathom/fast/lenses/plane_places.h"
 #include "fathom/fast/lenses/view_axes.h"
 #include "fathom/geometry/pixel_box.h"
 #include "fathom/lens/preimages.h"
 #include "fathom/numeric/interval.h"
 
 namespace fathom::fast {
-
-/// Where the places of a tile are written, by TileShape::index().
-struct FoundPlaces {
-  std::span<double> x, y;
-};
 
 /// The direction of a sample, times a positive number: each component errs by at most `error`.
 struct ApproximateDirection {
@@ -41,16 +37,21 @@ class AngleLimit {
   std::optional<Interval> cosine_;
 };
 
-/// What the directions of a lens with rational rays depend on: a table, or a model of division.
+/// The directions of the samples of a lens whose rays may go to all sides: a table, a model of
+/// division, a fisheye.
 class DirectionModel {
  public:
   DirectionModel(const lens::Preimages& the_preimages, const Projection& projection,
                  const TileGrid& grid);
 
-  /// Nothing where the sample has no ray.
-  [[nodiscard]] std::optional<ApproximateDirection> at(std::uint32_t column,
-                                                       std::uint32_t row) const;
-  /// From the exact direction: its greatest component is between ½ and 1.
+  struct Sample {
+    std::uint32_t column, row;
+    ApproximateDirection direction;
+  };
+  /// The samples of a tile that have a ray.
+  [[nodiscard]] std::vector<Sample> of_tile(std::uint32_t tile) const;
+  /// From the exact direction: its greatest component is about 1. Nothing where the sample has no
+  /// ray.
   [[nodiscard]] std::optional<ApproximateDirection> exactly_at(std::uint32_t column,
                                                                std::uint32_t row) const;
 
@@ -59,13 +60,19 @@ class DirectionModel {
                                                              std::uint32_t row) const;
   [[nodiscard]] std::optional<ApproximateDirection> divided(std::uint32_t column,
                                                             std::uint32_t row) const;
+  [[nodiscard]] std::vector<Sample> fisheye_tile(std::uint32_t tile) const;
+  template <class DirectionAt>
+  [[nodiscard]] std::vector<Sample> collected(std::uint32_t tile, const DirectionAt& at) const;
 
   const lens::Preimages& preimages_;
+  const TileGrid& grid_;
   const DirectionTable* table_;
   /// k of d = (x_d, y_d, 1 + k·r²).
   double k_;
   CertifiedPlane plane_;
   AngleLimit limit_;
+  /// Of a fisheye: the points whose |m| is the angle.
+  std::optional<PlanePlaces> angles_;
 };
 
 /// The places of a tile in one view.

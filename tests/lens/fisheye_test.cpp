@@ -1,0 +1,187 @@
+// Directions of fisheyes against the oracle: enclosures, signs of forms, ties, and where they end.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "fathom/lens/exact_direction.h"
+#include "fathom/lens/preimages.h"
+#include "tests/effort.h"
+#include "tests/lens/lens_oracle.h"
+
+namespace fathom::lens {
+namespace {
+
+using oracle::ArbBall;
+using oracle::NamedParameters;
+using Point = oracle::OraclePoint<ArbBall>;
+using Direction = std::array<ArbBall, 3>;
+
+/// (m·sin θ/θ, cos θ) with θ = |m|.
+Direction lifted(const Point& m) {
+  const ArbBall angle = (m.x * m.x + m.y * m.y).root();
+  ArbBall sine, cosine;
+  arb_sin_cos(sine, cosine, angle, ArbBall::bits);
+  return {m.x * sine / angle, m.y * sine / angle, cosine};
+}
+
+ArbBall value_of(const ExactVector3& l, const Direction& d) {
+  return ArbBall(l[0]) * d[0] + ArbBall(l[1]) * d[1] + ArbBall(l[2]) * d[2];
+}
+
+ArbBall value_of(const QuadraticForm& form, const Direction& d) {
+  const auto& [xx, yy, zz, xy, xz, yz] = form.coefficients;
+  return ArbBall(xx) * d[0] * d[0] + ArbBall(yy) * d[1] * d[1] + ArbBall(zz) * d[2] * d[2] +
+         ArbBall(xy) * d[0] * d[1] + ArbBall(xz) * d[0] * d[2] + ArbBall(yz) * d[1] * d[2];
+}
+
+ArbBall hull(const Dyadic& low, const Dyadic& high) {
+  ArbBall ball;
+  arb_union(ball, ArbBall(low), ArbBall(high), ArbBall::bits);
+  return ball;
+}
+
+void expect_encloses(const ExactDirection& direction, const Direction& exact) {
+  for (const long bits : {30L, 100L, 300L}) {
+    const auto d = direction.enclosure(bits);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_TRUE(hull(d[k].low, d[k].high).meets(exact[k])) << bits;
+      const ArbBall width = ArbBall(d[k].high) - ArbBall(d[k].low);
+      EXPECT_LT(width.approximate(), 4 * std::ldexp(1.0, static_cast<int>(-bits)));
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Interval& box = direction.box()[k];
+    EXPECT_TRUE(hull(box.lower, box.upper).meets(exact[k]));
+    EXPECT_LT(box.upper - box.lower, 0x1p-40);
+  }
+}
+
+/// Planes and cones through about the direction, off by 2^−offset of their size.
+void expect_signs_of_oracle(const ExactDirection& d, const Direction& exact, int offset,
+                            std::mt19937_64& random) {
+  const auto number = [](Sign sign) { return static_cast<int>(sign); };
+  const auto small = [&random] { return Dyadic(static_cast<double>(random() % 2001) - 1000); };
+  const Dyadic a = small(), b = small(), c = small(), e = small();
+  const Dyadic shift = small().scaled(-offset);
+  const Dyadic z = (value_of(ExactVector3{a, b, 0.0}, exact) / exact[2]).rounded(offset);
+  const ExactVector3 plane{a, b, shift - z};
+  EXPECT_EQ(number(d.sign_of(plane)), value_of(plane, exact).sign()) << offset;
+  const ArbBall others = value_of(QuadraticForm{{a, b, 0.0, c, a, e}}, exact);
+  const QuadraticForm cone{
+      {a, b, shift - (others / (exact[2] * exact[2])).rounded(offset), c, a, e}};
+  EXPECT_EQ(number(d.sign_of(cone)), value_of(cone, exact).sign()) << offset;
+}
+
+class Fisheyes : public ::testing::TestWithParam<LensModel> {};
+INSTANTIATE_TEST_SUITE_P(Lenses, Fisheyes, ::testing::ValuesIn(oracle::fisheye_models),
+                         [](const auto& model) { return std::string(name_of(model.param)); });
+
+/// A camera that sees up to about 140° from its axis if the lens changes nothing.
+Projection wide_camera(std::mt19937_64& random) {
+  Projection camera = oracle::random_camera(random);
+  camera.fx /= 4;
+  camera.fy /= 4;
+  return camera;
+}
+
+TEST_P(Fisheyes, SeeAsTheOracleDoes) {
+  int found = 0, beyond_90_degrees = 0;
+  for (std::uint64_t seed = 0; seed < 30 / testing::effort + 2; ++seed) {
+    std::mt19937_64 random(seed);
+    const Lens lens =
+        oracle::random_lens(random, GetParam(), std::array{0.01, 0.05, 0.3}[seed % 3]);
+    const Projection camera = wide_camera(random);
+    const Preimages preimages(camera, lens);
+    ASSERT_LE(preimages.disc(), end_of_angles);
+    for (const auto& [u, v] :
+         {std::pair{640.5, 360.5}, {300.5, 200.25}, {100.25, 600.75}, {900.5, 12.5}}) {
+      const NamedParameters numbers(lens);
+      const auto d = preimages.of(u, v);
+      const auto m = oracle::preimage(camera, numbers, u, v, preimages.disc());
+      ASSERT_EQ(d.has_value(), m.has_value()) << seed << ' ' << u << ' ' << v;
+      if (!d) continue;
+      ++found;
+      const Direction exact = lifted(*m);
+      beyond_90_degrees += exact[2].sign() < 0 ? 1 : 0;
+      expect_encloses(*d, exact);
+      for (const int offset : {4, 40, 100, 250, 380})
+        expect_signs_of_oracle(*d, exact, offset, random);
+    }
+  }
+  EXPECT_GT(found, 0);
+  if (testing::effort == 1) {
+    EXPECT_GT(beyond_90_degrees, 0);
+  }
+}
+
+// A radial lens has m parallel to y = (a, b): the form (b, −a, 0) is 0 on its ray, and so are the
+// quadratic forms in which each coefficient of tan θ is 0.
+TEST(Fisheye, SeesInThePlaneOfItsAxis) {
+  const Dyadic a = 0.75, b = 1.25, e = Dyadic(1.0).scaled(-3000);
+  for (const Lens& lens :
+       {Lens{LensModel::fisheye}, Lens{LensModel::opencv_fisheye, {0.1, -0.01}}}) {
+    const auto d = Preimages({}, lens).of(a, b);
+    ASSERT_TRUE(d.has_value());
+    EXPECT_EQ(d->rational(), nullptr);
+    EXPECT_EQ(d->sign_of(ExactVector3{b, -a, 0.0}), Sign::zero);
+    EXPECT_EQ(d->sign_of(ExactVector3{b, e - a, 0.0}), Sign::positive);
+    EXPECT_EQ(d->sign_of(ExactVector3{b, -e - a, 0.0}), Sign::negative);
+    const Sign forward = d->sign_of(ExactVector3{0.0, 0.0, 1.0});
+    EXPECT_EQ(d->sign_of(ExactVector3{b, -a, e}), forward);
+    EXPECT_EQ(d->sign_of(square_of({b, -a, 0.0})), Sign::zero);
+    EXPECT_EQ(d->sign_of(QuadraticForm{{0.0, 0.0, 0.0, 0.0, b, -a}}), Sign::zero);
+    EXPECT_EQ(d->sign_of(QuadraticForm{{0.0, 0.0, e, 0.0, b, -a}}), Sign::positive);
+    EXPECT_EQ(d->sign_of(QuadraticForm{{0.0, 0.0, -e, 0.0, b, -a}}), Sign::negative);
+    EXPECT_EQ(d->sign_of(QuadraticForm{{0.0, 0.0, 0.0, 0.0, b, e - a}}), forward);
+  }
+}
+
+TEST(Fisheye, SeesItsAxisExactly) {
+  const auto d = Preimages({}, Lens{LensModel::opencv_fisheye, {0.1}}).of(0.0, 0.0);
+  ASSERT_TRUE(d.has_value() && d->rational() != nullptr);
+  EXPECT_EQ(d->sign_of(ExactVector3{1.0, 1.0, 0.0}), Sign::zero);
+  EXPECT_EQ(d->sign_of(ExactVector3{1.0, 0.0, 1.0}), Sign::positive);
+}
+
+// The greatest binary64 number whose root is below π.
+TEST(Fisheye, EndsBefore180Degrees) {
+  ArbBall pi;
+  arb_const_pi(pi, ArbBall::bits);
+  const double next = std::nextafter(end_of_angles, std::numeric_limits<double>::infinity());
+  EXPECT_GT((pi * pi - ArbBall(end_of_angles)).sign(), 0);
+  EXPECT_LT((pi * pi - ArbBall(next)).sign(), 0);
+
+  const Preimages preimages({}, Lens{LensModel::fisheye});
+  EXPECT_EQ(preimages.disc(), end_of_angles);
+  const double last = std::sqrt(end_of_angles);  // rounded
+  EXPECT_TRUE(preimages.of(last * (1 - 0x1p-52), 0.0).has_value());
+  EXPECT_FALSE(preimages.of(last * (1 + 0x1p-51), 0.0).has_value());
+  EXPECT_FALSE(preimages.of(1e300, 1e300).has_value());
+  const auto nearly = preimages.of(last * (1 - 0x1p-52), 0.0);
+  EXPECT_EQ(nearly->sign_of(ExactVector3{0.0, 0.0, -1.0}), Sign::positive);
+  EXPECT_EQ(nearly->sign_of(ExactVector3{1.0, 0.0, 0.0}), Sign::positive);
+}
+
+TEST(Fisheye, EndsAtMaxRadius) {
+  Lens lens{LensModel::fisheye};
+  lens.max_radius = 1.5;
+  const Preimages preimages({}, lens);
+  EXPECT_EQ(preimages.disc(), end_of_angles);
+  EXPECT_TRUE(preimages.of(1.5, 0.0).has_value());
+  EXPECT_FALSE(preimages.of(std::nextafter(1.5, 2), 0.0).has_value());
+  EXPECT_FALSE(preimages.of(1.5, 0x1p-500).has_value());
+}
+
+// At 90°, z is 0 only where θ = π/2, which no rational sample has.
+TEST(Fisheye, IsNeverExactlyAt90Degrees) {
+  const Preimages preimages({}, Lens{LensModel::fisheye});
+  const double half_pi = std::numbers::pi / 2;  // less than π/2
+  const ExactVector3 z{0.0, 0.0, 1.0};
+  EXPECT_EQ(preimages.of(half_pi, 0.0)->sign_of(z), Sign::positive);
+  EXPECT_EQ(preimages.of(std::nextafter(half_pi, 2), 0.0)->sign_of(z), Sign::negative);
+}
+
+}  // namespace
+}  // namespace fathom::lens
