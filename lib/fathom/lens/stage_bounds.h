@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "fathom/lens/polynomial_stage.h"
+#include "fathom/lens/stage.h"
 #include "fathom/numeric/interval.h"
 
 namespace fathom::lens {
