@@ -38,4 +38,10 @@ void add_depth(Command& program);
 /// `fathom camera look-at | orbit | import …`: makes camera files.
 void add_camera(Command& program);
 
+/// The algorithms of the textbooks, by themselves and as a pipeline.
+
+void add_clip(Command& program);
+void add_scan(Command& program);
+void add_pipeline(Command& program);
+
 }  // namespace fathom::app

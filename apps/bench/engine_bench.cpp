@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "fathom/camera/lens_numbers.h"
+#include "fathom/camera/lens.h"
 #include "fathom/failures/errors.h"
 #include "fathom/failures/unknown_name.h"
 #include "fathom/render.h"
-#include "fathom/rendering/option_names.h"
+#include "fathom/rendering/options.h"
 #include "validation/scenes/scenes.h"
 
 /// Times render(), from mesh and camera in memory to the complete map in memory, without any peer,

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "apps/bench/masked_occlusion_culling/masked_buffer.h"
-#include "apps/bench/renderers.h"
+#include "apps/bench/measurement.h"
 #include "apps/bench/resident_memory.h"
 
 namespace fathom::bench {

@@ -4,10 +4,10 @@
 #include <optional>
 #include <utility>
 
-#include "apps/bench/bench_arguments.h"
-#include "apps/bench/machine.h"
+#include "apps/bench/bench_command.h"
 #include "apps/bench/parts/ideas.h"
 #include "apps/bench/parts/parts_report.h"
+#include "apps/bench/report.h"
 #include "apps/shell/console.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"

@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "apps/bench/renderers.h"
+#include "apps/bench/measurement.h"
 #include "apps/bench/resident_memory.h"
-#include "fathom/attribution/world_mesh.h"
+#include "fathom/attribution/model/renderer_input.h"
 #include "validation/embree/embree_tracer.h"
 #include "validation/vtk/vtk_renderer.h"
 

@@ -1,4 +1,4 @@
-#include "apps/bench/renderers.h"
+#include "apps/bench/measurement.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::bench {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/fast/channels/fast_output.h"
+#include "fathom/fast/channels/resolve.h"
 #include "fathom/fast/tiles/frame.h"
 #include "fathom/render.h"
 #include "validation/scenes/scenes.h"

@@ -1,13 +1,144 @@
-// fathom camera import opencv | ros
+
+#include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+#include <sstream>
+#include <vector>
 
 #include "apps/camera/import_sources.h"
 #include "apps/camera/yaml_text.h"
 #include "apps/shell/known_files.h"
-#include "fathom/camera/calibration_cameras.h"
+#include "fathom/camera/data_set_cameras.h"
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
+#include "fathom/text/decimal.h"
+#include "fathom/text/json_text.h"
 
 namespace fathom::app {
+namespace {
+
+/// A calibration has some kilobytes.
+constexpr std::size_t largest_yaml = std::size_t{16} << 20;
+
+/// The tag that yaml-cpp gives a scalar without quotes and without a tag.
+constexpr std::string_view plain_scalar = "?";
+
+/// Writes the events of a document as JSON.
+class JsonWriter : public YAML::EventHandler {
+ public:
+  explicit JsonWriter(std::string file) : file_(std::move(file)) {}
+
+  [[nodiscard]] std::string take() { return std::move(json_); }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { write_scalar(mark, "null"); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    fail(mark, "aliases are not supported");
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                const std::string& value) override {
+    const bool is_key = !open_.empty() && open_.back().wants_key();
+    write_scalar(mark, tag == plain_scalar && !is_key ? json_of_plain(mark, value)
+                                                      : text::json_string(value));
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    open(mark, '[');
+  }
+  void OnSequenceEnd() override { close(']'); }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    open(mark, '{');
+  }
+  void OnMapEnd() override { close('}'); }
+
+ private:
+  /// A list or an object that is not closed yet.
+  struct Open {
+    bool is_object = false;
+    /// The scalars, lists and objects in it so far; of an object, keys and values.
+    std::size_t count = 0;
+
+    [[nodiscard]] bool wants_key() const { return is_object && count % 2 == 0; }
+  };
+
+  [[noreturn]] void fail(const YAML::Mark& mark, const std::string& message) const {
+    throw InputError(fmt::format("{}: line {}: {}", file_, mark.line + 1, message));
+  }
+
+  [[nodiscard]] std::string json_of_plain(const YAML::Mark& mark, const std::string& value) const {
+    if (value == "true" || value == "false" || value == "null") return value;
+    if (value == "~") return "null";
+    const char* const last = value.data() + value.size();
+    const auto number = text::parse_decimal<double>(value.data(), last);
+    if (number.fault == text::DecimalFault::overflow && number.end == last)
+      fail(mark, "the number is beyond the largest binary64 number");
+    return number.fault == text::DecimalFault::none && number.end == last
+               ? text::shortest_decimal(number.value)
+               : text::json_string(value);
+  }
+
+  /// The comma or the colon before the next scalar, list or object.
+  void separate() {
+    if (open_.empty()) return;
+    Open& in = open_.back();
+    if (in.count != 0) json_ += in.is_object && !in.wants_key() ? ':' : ',';
+    ++in.count;
+  }
+
+  void write_scalar(const YAML::Mark& mark, const std::string& json) {
+    if (!open_.empty() && open_.back().wants_key() && json.front() != '"')
+      fail(mark, "expected a key");
+    separate();
+    json_ += json;
+  }
+
+  void open(const YAML::Mark& mark, char bracket) {
+    if (!open_.empty() && open_.back().wants_key()) fail(mark, "expected a key");
+    separate();
+    json_ += bracket;
+    open_.push_back({.is_object = bracket == '{'});
+  }
+
+  void close(char bracket) {
+    json_ += bracket;
+    open_.pop_back();
+  }
+
+  std::string file_;
+  std::string json_;
+  std::vector<Open> open_;
+};
+
+/// The text without OpenCV's "%YAML:1.0", which is not a directive of YAML: it becomes a comment.
+std::string without_header(std::string_view yaml) {
+  std::string text(yaml);
+  if (text.starts_with("%YAML:")) text.front() = '#';
+  return text;
+}
+
+}  // namespace
+
+std::string json_of_yaml(std::string_view yaml, const std::string& file) {
+  if (yaml.size() > largest_yaml)
+    throw InputError(fmt::format("{}: has {} bytes, expected a calibration of at most 16 MiB", file,
+                                 yaml.size()));
+  std::istringstream stream(without_header(yaml));
+  JsonWriter writer(file);
+  try {
+    YAML::Parser parser(stream);
+    if (!parser.HandleNextDocument(writer)) throw InputError(file + ": is empty");
+  } catch (const YAML::Exception& error) {
+    throw InputError(fmt::format("{}: line {}: {}", file, error.mark.line + 1, error.msg));
+  }
+  return writer.take();
+}
+
+// fathom camera import opencv | ros
+
 namespace {
 
 using Cameras = std::vector<ImportedCamera>;

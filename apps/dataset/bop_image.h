@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/dataset/views.h"
+#include "apps/dataset/dataset_command.h"
 #include "apps/jobs/job.h"
 #include "fathom/fast/render_memory.h"
 #include "fathom/rendering/options.h"

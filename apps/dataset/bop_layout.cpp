@@ -1,19 +1,216 @@
-// fathom dataset bop SCENE: depth images, masks and scene_gt_info.json of a BOP scene.
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "apps/dataset/bop_image.h"
 #include "apps/dataset/dataset_command.h"
-#include "apps/render/render_limits.h"
+#include "apps/render/render_plan.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/values.h"
+#include "fathom/area/visible_areas.h"
 #include "fathom/camera/camera_files.h"
+#include "fathom/failures/errors.h"
+#include "fathom/image/depth_map.h"
+#include "fathom/image/map_files.h"
+#include "fathom/image/png_files.h"
+#include "fathom/image/samples.h"
+#include "fathom/render.h"
 
 namespace fathom::app {
+
+/// A mask, 1 or 0 for each pixel, row by row from the top, with what BOP counts of it.
+struct CountedMask {
+  std::vector<std::uint8_t> mask;
+  std::uint64_t count = 0;
+  /// Of the pixels that it has.
+  long first_column = 0, first_row = 0, last_column = -1, last_row = -1;
+
+  /// x, y, and the differences of the last and the first column and row, as BOP has boxes, in an
+  /// image whose corner is at this column and row.
+  [[nodiscard]] std::array<long, 4> box(long column, long row) const {
+    return {first_column - column, first_row - row, last_column - first_column,
+            last_row - first_row};
+  }
+};
+
+namespace {
+
+/// Where an object is seen, or, without one, any surface.
+CountedMask mask_of(const Samples<std::uint32_t>& objects, std::uint32_t width,
+                    std::optional<std::uint32_t> object) {
+  CountedMask result;
+  result.mask.resize(objects.size());
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (object ? objects[i] != *object : objects[i] == no_surface) continue;
+    const auto column = static_cast<long>(i % width), row = static_cast<long>(i / width);
+    if (result.count++ == 0) result.first_column = column, result.first_row = row;
+    result.mask[i] = 1;
+    result.first_column = std::min(result.first_column, column);
+    result.last_column = std::max(result.last_column, column);
+    result.last_row = row;
+  }
+  return result;
+}
+
+/// The middle ninth of a mask three times as wide and as high as this.
+std::vector<std::uint8_t> middle_of(const std::vector<std::uint8_t>& mask, std::uint32_t width,
+                                    std::uint32_t height) {
+  std::vector<std::uint8_t> middle;
+  middle.reserve(std::size_t{width} * height);
+  for (std::size_t y = height; y < 2 * std::size_t{height}; ++y) {
+    const auto row = mask.begin() + static_cast<long>(y * 3 * width + width);
+    middle.insert(middle.end(), row, row + width);
+  }
+  return middle;
+}
+
+using Json = nlohmann::ordered_json;
+using Mask = std::vector<std::uint8_t>;
+
+/// The camera of an image three times as wide and as high, in whose middle the image is, of a
+/// camera in whose frame the world is. Exact: binary64 need not hold cx + width, so the width is
+/// added by the matrix, U = fx·x + skew·y + width·z + cx'·z, which carries the focal lengths, too.
+Camera around(const Camera& camera) {
+  if (std::max(camera.width, camera.height) > std::numeric_limits<std::uint32_t>::max() / 3)
+    throw InputError(fmt::format("image {}: an image of {}x{} pixels is too large for masks",
+                                 camera.name, camera.width, camera.height));
+  Camera wide = camera;
+  wide.projection.fx = wide.projection.fy = 1;
+  wide.projection.skew = 0;
+  wide.world_to_camera = {
+      {{camera.projection.fx, camera.projection.skew, static_cast<double>(camera.width), 0},
+       {0, camera.projection.fy, static_cast<double>(camera.height), 0},
+       {0, 0, 1, 0}}};
+  wide.width *= 3;
+  wide.height *= 3;
+  return wide;
+}
+
+double fraction(double part, double whole) {
+  return whole == 0 ? 0 : part / whole;
+}
+
+/// The pixels of a mask whose codes stand for a depth.
+std::size_t count_with_depth(const Mask& mask, const Samples<std::uint16_t>& codes) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < mask.size(); ++i) count += mask[i] != 0 && codes[i] != 0 ? 1 : 0;
+  return count;
+}
+
+std::function<files::Bytes()> as_png(Mask mask, const BopImage& image, const std::string& name) {
+  return [mask = std::move(mask), width = image.camera.width, height = image.camera.height, name] {
+    return encode_mask(mask, width, height, name);
+  };
+}
+
+std::string file_of(const char* folder, const BopImage& image, std::size_t instance) {
+  return fmt::format("{}/{}_{:06}.png", folder, image.camera.name, instance);
+}
+
+}  // namespace
+
+std::vector<std::string> files_of(const BopImage& image) {
+  std::vector<std::string> files{fmt::format("depth/{}.png", image.camera.name)};
+  for (std::size_t k = 0; k < image.instances.size(); ++k) {
+    files.push_back(file_of("mask", image, k));
+    files.push_back(file_of("mask_visib", image, k));
+  }
+  return files;
+}
+
+struct BopImageMaker::Silhouette {
+  CountedMask whole;
+  /// Within the image.
+  Mask mask;
+  double area = 0;
+};
+
+RenderOptions BopImageMaker::rendering(std::vector<Channel> channels) const {
+  RenderOptions options;
+  options.channels = std::move(channels);
+  options.cull = options_.cull;
+  options.threads = options_.threads;
+  return options;
+}
+
+BopImageMaker::Silhouette BopImageMaker::silhouette_of(const BopImage& image,
+                                                       std::size_t instance) {
+  const Scene& scene = models_.scene_of(std::span(image.instances).subspan(instance, 1));
+  const Camera wide = around(image.camera);
+  const DepthMap map =
+      render(scene, wide, rendering({Channel::object}), {.kept = &memory_of_silhouettes_}).map;
+  Silhouette silhouette;
+  silhouette.whole = mask_of(*map.values<std::uint32_t>("object"), wide.width, std::nullopt);
+  silhouette.mask = middle_of(silhouette.whole.mask, image.camera.width, image.camera.height);
+  silhouette.whole.mask = {};
+  if (options_.areas) {
+    silhouette.area = visible_areas(scene, wide, rendering({Channel::Z})).objects[0].unoccluded;
+  }
+  return silhouette;
+}
+
+Result BopImageMaker::make(const BopImage& image, const std::filesystem::path& folder) {
+  std::vector<Silhouette> silhouettes;
+  for (std::size_t k = 0; k < image.instances.size(); ++k) {
+    silhouettes.push_back(silhouette_of(image, k));
+  }
+  const Scene& scene = models_.scene_of(image.instances);
+  RenderOptions options = rendering({Channel::Z, Channel::object});
+  options.depth_encoding.type = DepthEncoding::Type::scaled_unorm16;
+  options.depth_encoding.scale = 1;
+  options.depth_encoding.divisor = image.depth_scale;
+  options.depth_encoding.beyond_is_none = options_.beyond_is_none;
+  const std::string name = (folder / files_of(image).front()).string();
+  const auto map = std::make_shared<const DepthMap>(about_output(
+      name, [&] { return render(scene, image.camera, options, {.kept = &memory_}).map; }));
+  codes_beyond_.note(*map);
+  VisibleAreas areas;
+  if (options_.areas) areas = visible_areas(scene, image.camera, rendering({Channel::Z}));
+
+  Result result;
+  result.files.push_back([map, name, threads = options_.threads] {
+    return encode_map(*map, name, MapFormat::png, {.threads = threads, .channel = "Z"});
+  });
+  Json facts = Json::array();
+  const long width = image.camera.width, height = image.camera.height;
+  const Samples<std::uint32_t>& objects = *map->values<std::uint32_t>("object");
+  for (std::size_t k = 0; k < silhouettes.size(); ++k) {
+    Silhouette& alone = silhouettes[k];
+    CountedMask visible = mask_of(objects, image.camera.width, static_cast<std::uint32_t>(k));
+    const std::array<long, 4> none{-1, -1, -1, -1};
+    Json fact{{"bbox_obj", visible.count == 0 ? none : alone.whole.box(width, height)},
+              {"bbox_visib", visible.count == 0 ? none : visible.box(0, 0)},
+              {"px_count_all", alone.whole.count},
+              {"px_count_valid", count_with_depth(alone.mask, *map->values<std::uint16_t>("Z"))},
+              {"px_count_visib", visible.count},
+              {"visib_fract", fraction(static_cast<double>(visible.count),
+                                       static_cast<double>(alone.whole.count))}};
+    if (options_.areas) {
+      fact["area_all"] = alone.area;
+      fact["area_visib"] = areas.objects[k].visible;
+      fact["visib_area_fract"] = fraction(areas.objects[k].visible, alone.area);
+    }
+    facts.push_back(std::move(fact));
+    result.files.push_back(as_png(std::move(alone.mask), image, file_of("mask", image, k)));
+    result.files.push_back(as_png(std::move(visible.mask), image, file_of("mask_visib", image, k)));
+  }
+  result.facts = facts.dump();
+  result.memory =
+      std::size_t{image.camera.width} * image.camera.height * (6 + 2 * image.instances.size());
+  return result;
+}
+
+// fathom dataset bop SCENE: depth images, masks and scene_gt_info.json of a BOP scene.
+
 namespace {
 
 struct BopArguments : DatasetArguments {

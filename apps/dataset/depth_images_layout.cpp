@@ -12,8 +12,7 @@
 
 #include "apps/camera/import_sources.h"
 #include "apps/dataset/dataset_command.h"
-#include "apps/dataset/views.h"
-#include "apps/options/output_names.h"
+#include "apps/options/output_arguments.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
 #include "fathom/camera/camera.h"
@@ -67,7 +66,7 @@ using MakeList = std::string (*)(const DepthImagesArguments& arguments,
 struct DepthImages {
   const char* name;
   const char* description;
-  /// Of the files; output_names.h has the fields.
+  /// Of the files; output_arguments.h has the fields.
   const char* pattern;
   /// Codes of a unit of the scene, a metre.
   double scale;

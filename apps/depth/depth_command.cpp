@@ -16,7 +16,7 @@
 #include "fathom/depth_format/depth_format.h"
 #include "fathom/depth_format/resolution.h"
 #include "fathom/failures/errors.h"
-#include "fathom/text/trimmed.h"
+#include "fathom/text/ascii.h"
 
 namespace fathom::app {
 namespace {

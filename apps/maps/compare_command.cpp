@@ -11,7 +11,6 @@
 #include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/output_file.h"
-#include "apps/shell/output_place.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"

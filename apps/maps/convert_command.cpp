@@ -22,9 +22,9 @@
 #include "fathom/image/png_files.h"
 #include "fathom/image/point_cloud.h"
 #include "fathom/image/surface.h"
+#include "fathom/text/ascii.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/printable.h"
-#include "fathom/text/small_letters.h"
 
 namespace fathom::app {
 namespace {

@@ -11,7 +11,7 @@
 #include "apps/shell/standard_streams.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/files/input_file.h"
-#include "fathom/image/deep_files.h"
+#include "fathom/image/deep_map.h"
 #include "fathom/scene/read_scene.h"
 
 namespace fathom::app {

@@ -11,7 +11,7 @@
 #include "apps/maps/info.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
-#include "fathom/image/matte_layers.h"
+#include "fathom/image/cryptomatte.h"
 #include "fathom/image/surface.h"
 #include "fathom/text/parse_json.h"
 #include "fathom/text/printable.h"

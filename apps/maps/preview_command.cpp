@@ -7,7 +7,6 @@
 #include "apps/shell/command.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
-#include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/map_formats.h"

@@ -5,10 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "apps/mpi/banded_exr.h"
 #include "apps/mpi/image_rows.h"
 #include "apps/mpi/render_together.h"
-#include "apps/mpi/tiles_together.h"
 #include "apps/mpi/together.h"
 #include "apps/options/map_arguments.h"
 #include "apps/render/map_additions.h"
@@ -21,7 +19,7 @@
 #include "fathom/render.h"
 
 // How to read this file: MapTogether::make() is the whole story. The ranks draw the tiles of the
-// image together (tiles_together.h). Then pixels go to the ranks that compress bands of rows, some
+// image together (render_together.h). Then pixels go to the ranks that compress bands of rows, some
 // rows at a time, and from there to the file.
 //
 // Ranks communicate only between calls of together(). Within such a call a rank works alone and may

@@ -4,16 +4,67 @@
 #include <optional>
 #include <vector>
 
+#include "apps/mpi/image_rows.h"
 #include "apps/mpi/mpi_arguments.h"
+#include "apps/mpi/ranks.h"
 #include "apps/mpi/shared_scene.h"
-#include "apps/mpi/tiles_together.h"
 #include "apps/mpi/traffic.h"
+#include "apps/mpi/triangle_mail.h"
 #include "apps/render/render_outputs.h"
+#include "apps/render/render_plan.h"
 #include "apps/render/render_report.h"
 #include "apps/shell/console.h"
 #include "fathom/camera/camera.h"
+#include "fathom/fast/some_tiles.h"
+#include "fathom/files/file_bytes.h"
 
 namespace fathom::app {
+
+/// The request of a run, and the common input of all its maps.
+struct JobTogether {
+  const MpiArguments& arguments;
+  const Ranks& ranks;
+  const Console& console;
+  const MapPlan& plan;
+  const SharedScene& scene;
+  const RankMemory& memory;
+};
+
+/// The tiles of an image, drawn by all ranks: each has some of them.
+class TilesTogether {
+ public:
+  /// `traffic` counts sent bytes and the time in which this rank draws. All arguments outlive it.
+  TilesTogether(const JobTogether& job, const Camera& camera, MapTraffic& traffic);
+
+  /// Draws the scene. Called by all ranks.
+  void draw(const std::function<void(double)>& progress);
+  /// The rank of each tile.
+  [[nodiscard]] const std::vector<int>& owners() const { return owners_; }
+  /// The map of some rows of tiles, with values where this rank has drawn. Call once for each row.
+  DepthMap rows(const TileRows& rows);
+  /// What this rank has counted.
+  [[nodiscard]] RenderStatistics statistics() const { return drawing_->statistics(); }
+
+ private:
+  SortedTriangles deal_out_by_all();
+  void deal_out_by_sample();
+  void deal_out_tiles(std::vector<std::uint64_t> triangles);
+  void draw_in_rounds(TriangleMail& mail, const std::function<void(double)>& progress);
+
+  [[nodiscard]] bool is_own(std::uint32_t tile) const;
+  void draw_read(const SortedTriangles& sorted, TriangleMail& mail);
+  void draw(const SortedTriangles& sorted);
+
+  const JobTogether& job_;
+  const Ranks& ranks_;
+  const Camera& camera_;
+  MapTraffic& traffic_;
+  TriangleSource triangles_;
+  /// What this rank reads.
+  TriangleRange own_;
+  std::optional<TilesInRounds> drawing_;
+  std::vector<int> owners_;
+};
 
 /// `fathom-mpi render`, in every rank of a run. Returns the exit status, the same in all of them.
 int render_together(const MpiArguments& arguments, const Console& console);

@@ -7,7 +7,7 @@
 
 #include "apps/mpi/together.h"
 #include "apps/mpi/triangle_mail.h"
-#include "apps/render/render_limits.h"
+#include "apps/render/render_plan.h"
 #include "apps/render/render_report.h"
 #include "apps/shell/known_files.h"
 #include "fathom/camera/camera_files.h"

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "apps/mpi/ranks.h"
-#include "apps/mpi/sparse_exchange.h"
 #include "apps/mpi/traffic.h"
 #include "fathom/fast/some_tiles.h"
 #include "fathom/files/file_bytes.h"

@@ -12,7 +12,7 @@
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_import.h"
 #include "fathom/camera/image_points.h"
-#include "fathom/camera/lens_numbers.h"
+#include "fathom/camera/lens.h"
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
 #include "fathom/image/directions.h"

@@ -10,10 +10,9 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
 #include "fathom/image/channel_names.h"
-#include "fathom/image/deep_files.h"
-#include "fathom/image/flat_deep_map.h"
+#include "fathom/image/cryptomatte.h"
+#include "fathom/image/deep_map.h"
 #include "fathom/image/map_files.h"
-#include "fathom/image/matte_layers.h"
 
 namespace fathom::app {
 namespace {

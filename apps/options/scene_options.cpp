@@ -17,11 +17,11 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
 #include "fathom/files/sha256.h"
+#include "fathom/image/depth_map.h"
 #include "fathom/image/directions.h"
 #include "fathom/image/map_files.h"
-#include "fathom/image/map_texts.h"
-#include "fathom/mesh_files/named_files.h"
-#include "fathom/rendering/option_names.h"
+#include "fathom/mesh_files/read_mesh.h"
+#include "fathom/rendering/options.h"
 #include "fathom/scene/read_scene.h"
 
 namespace fathom::app {

@@ -8,11 +8,11 @@
 #include <limits>
 
 #include "apps/shell/failures.h"
-#include "apps/shell/output_place.h"
+#include "apps/shell/output_file.h"
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
-#include "fathom/image/background.h"
-#include "fathom/rendering/option_names.h"
+#include "fathom/image/surface.h"
+#include "fathom/rendering/options.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::app {
@@ -34,7 +34,7 @@ StoredType parse_dtype(const std::string& text) {
   return parse_enumerator(text, std::array{StoredType::binary32, StoredType::binary64});
 }
 
-int parse_bits(const std::string& text) {
+int parse_normal_bits(const std::string& text) {
   return parse_word<int>(text, {{"8", 8}, {"16", 16}});
 }
 
@@ -94,7 +94,7 @@ void StorageOptions::add_to(Command& command) {
   add_beyond_to(command);
   command.flag("--png-sidecar", png_sidecar,
                "Write a JSON file next to a PNG that states the meaning of its codes");
-  command.option("--normal-bits", "N", into(normal_bits, parse_bits),
+  command.option("--normal-bits", "N", into(normal_bits, parse_normal_bits),
                  "Bits of each colour of a PNG of normals: 8 (default) or 16");
   command.option("--normal-axes", "NAME", into(normal_axes, parse_axes),
                  "Axes of channel Nc in a PNG: opencv (default; x right, y down, z forward) or "

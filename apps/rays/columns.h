@@ -1,13 +1,18 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "apps/shell/output_file.h"
 #include "fathom/files/file_bytes.h"
+#include "fathom/rays/cast.h"
 
 namespace fathom::app {
 
@@ -31,5 +36,37 @@ std::string csv_of(const std::vector<Column>& columns);
 /// messages.
 /// Fails    OutputError beyond 4 GiB.
 files::Bytes npz_of(const std::vector<Column>& columns, const std::string& name);
+
+/// The file, CSV or NPZ by its name, that a table is written to.
+class ColumnOutput {
+ public:
+  /// Fails    UsageError for a name that ends in neither .csv nor .npz, before any work.
+  explicit ColumnOutput(const std::string& name);
+
+  [[nodiscard]] bool is_archive() const { return archive_.has_value(); }
+  void finish(const std::vector<Column>& columns);
+
+ private:
+  std::string name_;
+  std::optional<OutputFile> archive_;
+  std::optional<TextOutput> text_;
+};
+
+/// 0, 1, …, count − 1
+std::vector<std::uint64_t> numbers_up_to(std::size_t count);
+
+/// What can be asked of a hit (specification, section 11).
+enum class HitChannel { t, id, distance, P, bary, N, object, face };
+inline constexpr std::array all_hit_channels{
+    HitChannel::t,    HitChannel::id, HitChannel::distance, HitChannel::P,
+    HitChannel::bary, HitChannel::N,  HitChannel::object,   HitChannel::face};
+std::string_view name_of(HitChannel channel);
+
+/// The channels of hits, in their order; hit i is one of the ray rays[ray_of_hit[i]].
+/// distance, P, bary and N take exact numbers, about 10 µs for each hit.
+std::vector<Column> columns_of(const TriangleSource& triangles, std::span<const Ray> rays,
+                               std::span<const std::uint64_t> ray_of_hit,
+                               std::span<const RayHit> hits,
+                               const std::vector<HitChannel>& channels, int threads);
 
 }  // namespace fathom::app

@@ -4,7 +4,7 @@
 
 #include "apps/commands.h"
 #include "apps/options/scene_options.h"
-#include "apps/rays/column_output.h"
+#include "apps/rays/columns.h"
 #include "apps/rays/ray_file.h"
 #include "apps/shell/console.h"
 #include "apps/shell/failures.h"

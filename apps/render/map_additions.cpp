@@ -7,8 +7,8 @@
 
 #include "apps/render/depth_format_json.h"
 #include "apps/shell/console.h"
-#include "fathom/area/sampled_coverage.h"
-#include "fathom/image/map_texts.h"
+#include "fathom/area/coverage.h"
+#include "fathom/image/depth_map.h"
 #include "fathom/reference/verify.h"
 #include "fathom/render.h"
 #include "fathom/text/counted.h"

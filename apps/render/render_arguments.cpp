@@ -5,15 +5,15 @@
 #include <memory>
 
 #include "apps/options/map_arguments.h"
-#include "apps/options/pipeline_words.h"
+#include "apps/options/pipeline_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/command.h"
-#include "apps/shell/output_place.h"
+#include "apps/shell/output_file.h"
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/channel_names.h"
 #include "fathom/image/channel_table.h"
-#include "fathom/rendering/option_names.h"
+#include "fathom/rendering/options.h"
 
 namespace fathom::app {
 namespace {

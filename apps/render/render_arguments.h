@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/options/camera_options.h"
-#include "apps/options/map_contents.h"
+#include "apps/options/output_arguments.h"
 #include "apps/options/pipeline_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/options/storage_options.h"

@@ -6,7 +6,6 @@
 #include "apps/options/scene_options.h"
 #include "apps/render/map_additions.h"
 #include "apps/render/render_arguments.h"
-#include "apps/render/render_limits.h"
 #include "apps/render/render_outputs.h"
 #include "apps/render/render_plan.h"
 #include "apps/render/render_report.h"

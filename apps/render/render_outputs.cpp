@@ -2,7 +2,7 @@
 
 #include <unordered_set>
 
-#include "apps/options/output_names.h"
+#include "apps/options/output_arguments.h"
 #include "fathom/failures/errors.h"
 #include "fathom/text/printable.h"
 

@@ -10,7 +10,7 @@
 #include "apps/render/depth_format_json.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/image/depth_map.h"
-#include "fathom/rendering/deciders.h"
+#include "fathom/rendering/rendered.h"
 #include "fathom/rendering/segment_channels.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/text/counted.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/shell/command_text.h"
-#include "apps/shell/completion_table.h"
+#include "apps/shell/completion.h"
 #include "apps/shell/console.h"
 
 namespace CLI {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "fathom/failures/warnings.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom::app {
 

@@ -13,7 +13,7 @@
 #include <new>
 #include <utility>
 
-#include "apps/shell/part_files.h"
+#include "apps/shell/staged_file.h"
 #include "fathom/files/mapped_file.h"
 #include "fathom/threads/threads.h"
 

@@ -1,6 +1,5 @@
 #include "apps/study/study.h"
 
-#include "apps/study/studies.h"
 #include "fathom/failures/errors.h"
 #include "fathom/failures/unknown_name.h"
 

@@ -1,7 +1,7 @@
 #include "apps/study/table.h"
 
-#include "apps/study/html.h"
-#include "fathom/text/csv_field.h"
+#include "apps/study/page.h"
+#include "fathom/text/ascii.h"
 
 namespace fathom::studies {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "fathom/text/csv_field.h"
+#include "fathom/text/ascii.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::app {

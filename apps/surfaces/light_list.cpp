@@ -5,14 +5,14 @@
 #include <set>
 #include <string_view>
 
-#include "fathom/camera/compass.h"
+#include "fathom/camera/sun_position.h"
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
+#include "fathom/text/ascii.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/decimal.h"
 #include "fathom/text/printable.h"
 #include "fathom/text/text_cursor.h"
-#include "fathom/text/trimmed.h"
 
 namespace fathom::app {
 namespace {

@@ -25,7 +25,7 @@ struct LightList {
 };
 
 /// Reads a CSV file with a heading that has the columns x, y and z, in any order, or, for
-/// directions without these, azimuth and elevation (fathom/camera/compass.h), which are other
+/// directions without these, azimuth and elevation (fathom/camera/sun_position.h), which are other
 /// columns too. Each number is rounded once to binary64. No field contains a line break.
 /// Fails    InputError "FILE: line N: …": a missing column, a column that is there twice, a line of
 ///          another length, a number that is not finite, a direction that is 0, an azimuth beyond

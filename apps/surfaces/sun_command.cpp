@@ -12,7 +12,6 @@
 #include "apps/shell/output_file.h"
 #include "apps/shell/values.h"
 #include "apps/surfaces/sun_times.h"
-#include "fathom/camera/compass.h"
 #include "fathom/camera/sun_position.h"
 #include "fathom/failures/errors.h"
 

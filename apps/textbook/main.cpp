@@ -1,8 +1,8 @@
 // fathom-textbook: what `fathom` needs for clip, scan, pipeline and render --engine pipeline.
 
+#include "apps/commands.h"
 #include "apps/render/render_arguments.h"
 #include "apps/shell/program.h"
-#include "apps/textbook/textbook_commands.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::app {

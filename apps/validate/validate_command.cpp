@@ -8,7 +8,6 @@
 
 #include "apps/shell/program.h"
 #include "apps/validate/validate_arguments.h"
-#include "apps/validate/validate_modes.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/failures/errors.h"
 #include "validation/scenes/validation_scenes.h"

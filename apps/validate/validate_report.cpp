@@ -11,13 +11,12 @@
 
 #include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
-#include "apps/shell/output_place.h"
+#include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/validate/report/report_formats.h"
 #include "apps/validate/report/reported_result.h"
 #include "apps/validate/report/validation_case.h"
-#include "apps/validate/report/z_fighting.h"
-#include "fathom/attribution/cause.h"
+#include "fathom/attribution/attribution.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/rgb_image.h"
 

@@ -1,7 +1,251 @@
-// fathom-view: maps in a page for a browser, and a server that answers its questions.
 
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+
+#include "apps/options/map_arguments.h"
+#include "apps/options/scene_options.h"
+#include "apps/shell/console.h"
+#include "apps/shell/failures.h"
+#include "apps/shell/known_files.h"
+#include "apps/shell/max_memory.h"
+#include "apps/shell/output_file.h"
 #include "apps/shell/program.h"
+#include "apps/shell/standard_streams.h"
+#include "apps/surfaces/probe_answer.h"
+#include "apps/view/browser.h"
+#include "apps/view/page.h"
+#include "apps/view/probe_server.h"
 #include "apps/view/view_command.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
+#include "fathom/image/cryptomatte.h"
+#include "fathom/image/deep_map.h"
+#include "fathom/image/map_formats.h"
+#include "fathom/reference/probe.h"
+#include "fathom/threads/threads.h"
+
+namespace fathom::app {
+
+std::filesystem::path new_page_path() {
+  std::error_code error;
+  std::filesystem::path parent = std::filesystem::temp_directory_path(error);
+  if (error) throw OutputError("TMPDIR: " + error.message());
+  std::string folder = (parent / "fathom-view-XXXXXX").string();
+  if (::mkdtemp(folder.data()) == nullptr) fail_with_errno(folder, errno);
+  return std::filesystem::path(folder) / "map.html";
+}
+
+namespace {
+
+bool is_set(const char* variable) {
+  const char* const value = ::getenv(variable);
+  return value != nullptr && *value != '\0';
+}
+
+}  // namespace
+
+void open_in_browser(const std::string& page, const Console& console) {
+  const bool is_chosen = is_set("BROWSER");
+  if (!is_chosen && !is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) {
+    console.warn("no display for a browser: open " + page +
+                 " yourself, or name a browser in BROWSER");
+    return;
+  }
+  std::string program = is_chosen ? ::getenv("BROWSER") : "xdg-open", argument = page;
+  char* const arguments[] = {program.data(), argument.data(), nullptr};
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  ::posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+  // xdg-open reports each browser that is not there.
+  if (!is_chosen)
+    ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  pid_t child = -1;
+  const int error = ::posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments, environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) {
+    throw OutputError("no browser: '" + program + "' cannot be started; open " + page +
+                      " yourself, or name a browser in BROWSER");
+  }
+}
+
+// fathom view MAP [OTHER]… [-o PAGE] [--scene SCENE --serve]
+
+namespace {
+
+using view::ViewedMap;
+
+struct ViewArguments {
+  std::vector<std::string> maps;
+  std::string output, scene;
+  /// Without its list of files.
+  SceneOptions reading;
+  bool open = false, serve = false;
+};
+
+std::string parse_page_name(const std::string& text) {
+  const std::string suffix = std::filesystem::path(text).extension().string();
+  if (suffix == ".html" || suffix == ".htm" || is_written_through(text)) return text;
+  throw UsageError("'" + text + "' does not end in .html");
+}
+
+/// A map, a deep map, or the maps of a report; the file is read once, so that it can be a pipe.
+std::vector<ViewedMap> read_viewed(const std::string& file) {
+  const files::InputFile input(file, files::InputFile::Reading::mapped_where_large);
+  std::vector<ViewedMap> maps;
+  if (view::is_report(input.text())) {
+    note_input(file);
+    maps = view::maps_of_report(input.text(), file, memory_allowance().bytes);
+  } else {
+    ViewedMap& viewed = maps.emplace_back();
+    viewed.name = file;
+    if (is_deep_map(input.bytes())) {
+      viewed.deep = read_deep_map_argument(input.bytes(), file);
+      viewed.map = flat_map(*viewed.deep);
+    } else {
+      viewed.map = with_matte_names(read_map_argument(input.bytes(), file));
+    }
+    viewed.camera = camera_of(viewed.map, file);
+  }
+  input.expect_unchanged();
+  for (const ViewedMap& viewed : maps) require_valid(viewed.map);
+  return maps;
+}
+
+std::vector<ViewedMap> read_maps(const ViewArguments& arguments) {
+  std::vector<ViewedMap> maps;
+  for (const std::string& file : arguments.maps) {
+    std::vector<ViewedMap> some = read_viewed(file);
+    std::move(some.begin(), some.end(), std::back_inserter(maps));
+  }
+  return maps;
+}
+
+void write_page_to(const std::filesystem::path& path, const std::vector<ViewedMap>& maps,
+                   const Console& console) {
+  std::ofstream file(path, std::ios::binary);
+  Progress progress(console, "packing");
+  view::write_page(
+      maps, view::Questions::none, [&](std::string_view part) { file << part; },
+      progress.reporter());
+  file.close();
+  if (!file) throw OutputError(path.string() + ": cannot be written");
+}
+
+int write_and_open(const ViewArguments& arguments, const std::vector<ViewedMap>& maps,
+                   const Console& console) {
+  const bool is_temporary = arguments.output.empty();
+  const std::filesystem::path page =
+      is_temporary ? new_page_path() : std::filesystem::path(arguments.output);
+  OutputFile output(page);
+  output.write([&](const auto& path) {
+    with_threads(arguments.reading.threads, [&] { write_page_to(path, maps, console); });
+  });
+  output.commit();
+  if (is_temporary) print(page.string() + "\n");
+  if (is_temporary || arguments.open)
+    open_in_browser(std::filesystem::absolute(page).string(), console);
+  return done;
+}
+
+/// The server's address goes to standard output. The maps are kept for their cameras alone.
+int serve(const ViewArguments& arguments, std::vector<ViewedMap> maps, const Console& console) {
+  SceneOptions options = arguments.reading;
+  options.files = {arguments.scene};
+  const Scene scene = options.read(console, {.segments = true});
+  std::string page;
+  with_threads(options.threads, [&] {
+    view::write_page(maps, view::Questions::probes, [&](std::string_view part) { page += part; });
+  });
+  std::vector<Camera> cameras;
+  for (const ViewedMap& viewed : maps) cameras.push_back(*viewed.camera);
+  maps.clear();
+  const auto answer = [&](std::uint32_t map, std::uint32_t x, std::uint32_t y) -> std::string {
+    if (map >= cameras.size() || x >= cameras[map].width || y >= cameras[map].height) return {};
+    const Camera& camera = cameras[map];
+    return with_threads(options.threads, [&] {
+      return as_text({scene, camera, x, y, probe(scene, camera, x, y)});
+    });
+  };
+  ProbeServer server(std::move(page), answer);
+  print(server.address() + "\n");
+  if (arguments.open) open_in_browser(server.address(), console);
+  server.run();
+  return done;
+}
+
+/// Whether the camera has a table of directions that is only named.
+bool names_table(const Camera& camera) {
+  return camera.projection.lens && camera.projection.lens->directions &&
+         !camera.projection.lens->directions->is_read();
+}
+
+int run_view(const ViewArguments& arguments, const Console& console) {
+  if (arguments.serve != !arguments.scene.empty()) {
+    throw UsageError(arguments.serve
+                         ? "--serve needs --scene, the scene that the maps show"
+                         : "--scene needs --serve: a server answers questions about the scene");
+  }
+  std::vector<ViewedMap> maps = read_maps(arguments);
+  if (!arguments.serve) return write_and_open(arguments, maps, console);
+  for (const ViewedMap& viewed : maps) {
+    if (!viewed.camera) {
+      throw UsageError("--serve: " + viewed.name +
+                       " carries no camera, so that no pixel of it can be probed");
+    }
+    if (names_table(*viewed.camera)) {
+      throw UsageError("--serve: " + viewed.name +
+                       " names the table of its camera and does not carry it; ask 'fathom probe "
+                       "--camera' instead");
+    }
+  }
+  return serve(arguments, std::move(maps), console);
+}
+
+}  // namespace
+
+void add_view(Command& program) {
+  const auto arguments = std::make_shared<ViewArguments>();
+  Command& command = program.command(
+      "view", "Show maps in a browser, with pan, zoom, values, ranges and histograms",
+      "  fathom view spot.exr\n"
+      "  fathom view spot.exr -o spot.html\n"
+      "  fathom view exact.exr other.exr\n"
+      "  fathom view spot.exr --scene spot.obj --serve --open");
+  command
+      .arguments("MAP", arguments->maps,
+                 "Maps to look at (" + names_of_readable_maps() +
+                     "), also deep EXR, or report.html of 'fathom validate'; - is standard input")
+      .required();
+  const Option output =
+      add_output_option(command, "FILE", into(arguments->output, parse_page_name),
+                        "Write the page here, an HTML file that needs no other file, and open no "
+                        "browser (default: a temporary file, which a browser opens)");
+  command.flag("--open", arguments->open, "Open the page in the browser even with -o or --serve");
+  command.option("--scene", "FILE", arguments->scene,
+                 "Scene that the maps show, a mesh or a scene file; needs --serve");
+  command
+      .flag("--serve", arguments->serve,
+            "Serve the page at a secret address of this machine, which is printed, until "
+            "interrupted: a click on a pixel shows the output of 'fathom probe'")
+      .excludes(output);
+  arguments->reading.add_reading_to(command);
+  command.runs([arguments](const Console& console) { return run_view(*arguments, console); });
+}
+
+}  // namespace fathom::app
+
+// fathom-view: maps in a page for a browser, and a server that answers its questions.
 
 int main(int argc, char** argv) {
   return fathom::app::companion_main(argc, argv, "view", fathom::app::add_view);

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "fathom/failures/errors.h"
-#include "fathom/mesh/element_counts.h"
+#include "fathom/mesh/mesh_faces.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/rendering/options.h"
 #include "fathom/scene/scene.h"

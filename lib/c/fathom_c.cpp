@@ -13,11 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "fathom/area/area_items.h"
 #include "fathom/area/areas.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_making.h"
-#include "fathom/camera/lens_numbers.h"
+#include "fathom/camera/lens.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/map_files.h"
 #include "fathom/reference/verify.h"

@@ -1,6 +1,6 @@
 #include "fathom/map_description.h"
 
-#include "fathom/image/map_texts.h"
+#include "fathom/image/depth_map.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/rendering/segment_channels.h"
 #include "fathom/scene/scene_segments.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
-#include "fathom/depth_format/stored_depth.h"
+#include "fathom/depth_format/encode.h"
 #include "fathom/image/channel_table.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/image/rgb_image.h"

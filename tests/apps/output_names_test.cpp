@@ -1,9 +1,8 @@
 // Patterns of outputs: {index}, {name} and {stem}.
-#include "apps/options/output_names.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "apps/options/output_arguments.h"
 #include "fathom/failures/errors.h"
 #include "tests/scratch_folder.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "apps/page_data.h"
-#include "apps/view/report_maps.h"
+#include "apps/view/page.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::view {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "fathom/area/plane/light_cameras.h"
+#include "fathom/area/seen_scene.h"
 #include "fathom/failures/errors.h"
 #include "tests/adversaries.h"
 #include "tests/area/pairwise_areas.h"

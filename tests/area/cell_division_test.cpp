@@ -1,11 +1,10 @@
 // Many surfaces in one pixel: divided areas against the oracle's, and that they end at all.
-#include "fathom/area/cell_division.h"
-
 #include <gtest/gtest.h>
 
 #include <map>
 
 #include "fathom/area/cell_coverage.h"
+#include "fathom/area/image_cell.h"
 #include "fathom/area/visible_fragments.h"
 #include "tests/area/crowds.h"
 #include "tests/area/surfaces.h"

@@ -1,8 +1,7 @@
 // Triangles with the same corners in the same order round are found, whatever corner comes first.
-#include "fathom/area/equal_triangles.h"
-
 #include <gtest/gtest.h>
 
+#include "fathom/area/coverage_image.h"
 #include "tests/inputs/scene_building.h"
 
 namespace fathom {

@@ -1,10 +1,9 @@
 // Signs of turns, determinants and crossings against rational numbers.
-#include "fathom/area/half_plane.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "fathom/area/convex_polygon.h"
 #include "tests/area/lines.h"
 #include "tests/oracle/against_oracle.h"
 

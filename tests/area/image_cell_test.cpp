@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fathom/area/cell_coverage.h"
-#include "fathom/triangle/sampling.h"
+#include "fathom/triangle/projected_triangle.h"
 #include "tests/area/surfaces.h"
 #include "tests/effort.h"
 #include "tests/inputs/random_scenes.h"

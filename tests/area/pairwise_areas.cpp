@@ -1,7 +1,7 @@
 #include "tests/area/pairwise_areas.h"
 
 #include "fathom/area/cell_coverage.h"
-#include "fathom/area/cell_division.h"
+#include "fathom/area/image_cell.h"
 #include "fathom/area/visible_fragments.h"
 #include "fathom/numeric/rounding.h"
 

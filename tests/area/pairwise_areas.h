@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "fathom/area/scene_surfaces.h"
+#include "fathom/area/surface_pairs.h"
 #include "fathom/area/visible_areas.h"
 
 /// Visible areas triangle by triangle: each is cut by every other that may hide a part of it. It

@@ -1,10 +1,9 @@
-#include "fathom/area/sampled_coverage.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
+#include "fathom/area/coverage.h"
 #include "fathom/render.h"
 #include "fathom/rendering/map_of_camera.h"
 #include "fathom/triangle/projected_triangle.h"

@@ -1,11 +1,10 @@
 // The index of triangles by place finds every pair that a look at all pairs does.
-#include "fathom/area/scene_surfaces.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <atomic>
 
+#include "fathom/area/surface_pairs.h"
 #include "tests/inputs/random_scenes.h"
 #include "tests/inputs/soup.h"
 

@@ -1,10 +1,9 @@
 // How far one plane lies behind another over a pixel: values known on paper.
-#include "fathom/area/separation.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "fathom/area/surface_pairs.h"
 #include "tests/area/surfaces.h"
 
 namespace fathom {

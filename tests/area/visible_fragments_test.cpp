@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "fathom/area/cell_division.h"
 #include "fathom/area/coverage.h"
+#include "fathom/area/image_cell.h"
 #include "tests/area/surfaces.h"
 #include "tests/effort.h"
 #include "tests/inputs/random_scenes.h"

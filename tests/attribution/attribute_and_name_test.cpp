@@ -5,7 +5,7 @@
 
 #include "fathom/attribution/attribution.h"
 #include "fathom/attribution/model/named_models.h"
-#include "fathom/attribution/model/renderer_camera.h"
+#include "fathom/attribution/model/renderer_input.h"
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/camera/camera_making.h"
 #include "tests/attribution/float_rasterizer.h"

@@ -1,5 +1,3 @@
-#include "fathom/attribution/background.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "fathom/attribution/diagnosis.h"
 #include "tests/attribution/hand_made.h"
 
 namespace fathom::attribution {

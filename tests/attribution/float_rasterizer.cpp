@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/attribution/model/renderer_camera.h"
+#include "fathom/attribution/model/renderer_input.h"
 #include "fathom/attribution/model/window_depth.h"
 
 namespace fathom::test {

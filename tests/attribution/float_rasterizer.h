@@ -2,9 +2,9 @@
 
 #include <optional>
 
+#include "fathom/attribution/model/renderer_input.h"
 #include "fathom/attribution/model/renderer_model.h"
 #include "fathom/attribution/other_map.h"
-#include "fathom/attribution/world_mesh.h"
 
 namespace fathom::test {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/attribution/cause.h"
+#include "fathom/attribution/attribution.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/attribution/model_survey.h"
 #include "fathom/attribution/other_scene.h"

@@ -1,6 +1,6 @@
-#include "fathom/attribution/world_mesh.h"
-
 #include <gtest/gtest.h>
+
+#include "fathom/attribution/model/renderer_input.h"
 
 namespace fathom::attribution {
 namespace {

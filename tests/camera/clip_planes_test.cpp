@@ -1,8 +1,8 @@
-#include "fathom/camera/clip_planes.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
+
+#include "fathom/camera/camera.h"
 
 namespace fathom {
 namespace {

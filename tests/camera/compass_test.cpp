@@ -1,12 +1,11 @@
 // Directions of azimuth and elevation, against MPFR and at angles with known sines.
-#include "fathom/camera/compass.h"
-
 #include <gtest/gtest.h>
 #include <mpfr.h>
 
 #include <cmath>
 #include <random>
 
+#include "fathom/camera/sun_position.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "fathom/camera/calibration_cameras.h"
+#include "fathom/camera/data_set_cameras.h"
 #include "fathom/failures/errors.h"
 #include "tests/camera/judged.h"
 

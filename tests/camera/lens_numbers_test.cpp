@@ -1,6 +1,4 @@
 // Lenses from names and numbers.
-#include "fathom/camera/lens_numbers.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/camera/lens.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom {

@@ -1,9 +1,8 @@
-#include "fathom/camera/rounded_poses.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "fathom/camera/pose.h"
 #include "fathom/numeric/rounding.h"
 #include "tests/numeric/random_numbers.h"
 

@@ -1,12 +1,11 @@
 // Projections in binary64, held to the exact ones; and what else follows from a projection alone.
-#include "fathom/camera/rounded_projection.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
 #include "fathom/camera/camera.h"
+#include "fathom/camera/projection.h"
 #include "fathom/numeric/rounding.h"
 
 namespace fathom {

@@ -1,5 +1,3 @@
-#include "fathom/clipping/convex_pieces.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 
 #include "fathom/clipping/boolean_by_cgal.h"
 #include "fathom/clipping/cohen_sutherland.h"
-#include "fathom/clipping/convex_pieces.h"
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/homogeneous.h"
 #include "fathom/clipping/liang_barsky.h"

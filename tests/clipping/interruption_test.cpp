@@ -11,10 +11,9 @@
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/weiler_atherton.h"
 #include "fathom/clipping/weiler_atherton/contacts.h"
+#include "fathom/clipping/weiler_atherton/edge_order.h"
 #include "fathom/clipping/weiler_atherton/nesting.h"
-#include "fathom/clipping/weiler_atherton/ring_crossings.h"
-#include "fathom/clipping/weiler_atherton/touches.h"
-#include "fathom/clipping/weiler_atherton/wedges.h"
+#include "fathom/clipping/weiler_atherton/side_contacts.h"
 #include "fathom/clipping/weiler_atherton/weiler_atherton_lists.h"
 
 namespace fathom::clipping {

@@ -1,13 +1,11 @@
 // Whether rings that touch cross, against what lies on either side of a ring.
-#include "fathom/clipping/weiler_atherton/ring_crossings.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
 #include "fathom/clipping/exact_kernel.h"
-#include "fathom/clipping/weiler_atherton/touches.h"
+#include "fathom/clipping/weiler_atherton/side_contacts.h"
 #include "tests/clipping/print.h"
 #include "tests/clipping/random_polygons.h"
 #include "tests/effort.h"

@@ -1,6 +1,4 @@
 // What lies below an edge, against a search through all edges.
-#include "fathom/clipping/weiler_atherton/sweep.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +7,8 @@
 #include <set>
 
 #include "fathom/clipping/exact_kernel.h"
-#include "fathom/clipping/weiler_atherton/touches.h"
+#include "fathom/clipping/weiler_atherton/edge_order.h"
+#include "fathom/clipping/weiler_atherton/side_contacts.h"
 #include "tests/clipping/print.h"
 #include "tests/clipping/random_polygons.h"
 #include "tests/effort.h"

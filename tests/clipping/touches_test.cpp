@@ -1,6 +1,4 @@
 // Where rings of one side touch or cross, against a look at all pairs of edges.
-#include "fathom/clipping/weiler_atherton/touches.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/weiler_atherton/contacts.h"
+#include "fathom/clipping/weiler_atherton/side_contacts.h"
 #include "fathom/failures/errors.h"
 #include "tests/clipping/print.h"
 #include "tests/clipping/random_polygons.h"

@@ -7,8 +7,8 @@
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/weiler_atherton.h"
 #include "fathom/clipping/weiler_atherton/contacts.h"
-#include "fathom/clipping/weiler_atherton/wedges.h"
-#include "fathom/clipping/weiler_atherton/weiler_atherton_sides.h"
+#include "fathom/clipping/weiler_atherton/edge_order.h"
+#include "fathom/clipping/weiler_atherton/side_contacts.h"
 
 namespace fathom::clipping {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "fathom/depth_format/encode.h"
 #include "fathom/numeric/certified_logarithm.h"
-#include "fathom/numeric/logarithm.h"
+#include "fathom/numeric/transcendental.h"
 #include "tests/effort.h"
 
 namespace fathom {

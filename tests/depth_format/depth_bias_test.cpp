@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/depth_format/stored_depth.h"
+#include "fathom/depth_format/encode.h"
 
 namespace fathom {
 namespace {

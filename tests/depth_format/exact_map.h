@@ -3,7 +3,7 @@
 #include <gmp.h>
 
 #include "fathom/depth_format/depth_format.h"
-#include "fathom/depth_format/stored_depth.h"
+#include "fathom/depth_format/encode.h"
 #include "fathom/numeric/ratio.h"
 
 /// An independent judge of depth formats: the formulas of the specification over GMP's rationals,

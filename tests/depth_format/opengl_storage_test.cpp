@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "fathom/depth_format/stored_depth.h"
+#include "fathom/depth_format/encode.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom {

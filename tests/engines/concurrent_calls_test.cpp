@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "fathom/area/coplanar.h"
-#include "fathom/area/sampled_coverage.h"
+#include "fathom/area/coverage.h"
 #include "fathom/area/visible_areas.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/depth_buffer/depth_buffer.h"

@@ -11,7 +11,6 @@
 #include "fathom/area/areas.h"
 #include "fathom/area/coplanar.h"
 #include "fathom/area/coverage.h"
-#include "fathom/area/sampled_coverage.h"
 #include "fathom/area/visible_areas.h"
 #include "fathom/depth_buffer/depth_buffer.h"
 #include "fathom/failures/errors.h"

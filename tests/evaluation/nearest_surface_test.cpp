@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "fathom/evaluation/bounds.h"
+#include "fathom/evaluation/box_tree.h"
 #include "fathom/numeric/rounding.h"
 #include "tests/effort.h"
 #include "tests/evaluation/rational_judge.h"

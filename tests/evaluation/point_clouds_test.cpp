@@ -11,7 +11,7 @@
 
 #include "fathom/evaluate.h"
 #include "fathom/evaluation/box_tree.h"
-#include "fathom/evaluation/placed_cloud.h"
+#include "fathom/evaluation/placed_points.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "tests/evaluation/scenes.h"

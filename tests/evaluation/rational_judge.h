@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
-#include "fathom/evaluation/surface_points.h"
+#include "fathom/evaluation/placed_points.h"
 #include "fathom/rendering/options.h"
 #include "fathom/scene/scene.h"
 

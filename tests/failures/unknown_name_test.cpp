@@ -1,7 +1,7 @@
+#include "fathom/failures/unknown_name.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "fathom/failures/other_names.h"
 
 namespace fathom {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <set>
 
-#include "fathom/fast/channels/fast_output.h"
+#include "fathom/fast/channels/resolve.h"
 #include "tests/inputs/soup.h"
 
 namespace fathom {

@@ -1,6 +1,4 @@
 // What a file may name: regular files, and with a boundary only those below its folder.
-#include "fathom/files/confinement.h"
-
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "fathom/camera/calibration_cameras.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/camera/camera_import_internal.h"
+#include "fathom/camera/data_set_cameras.h"
 #include "fathom/failures/errors.h"
 #include "fathom/scene/read_scene.h"
 

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "fathom/failures/errors.h"
-#include "fathom/failures/warnings.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/scene/bounds.h"
 #include "fathom/scene/framing.h"

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "fathom/failures/errors.h"
-#include "fathom/image/deep_files.h"
+#include "fathom/image/deep_map.h"
 #include "fathom/image/files/map_codecs.h"
 
 namespace {

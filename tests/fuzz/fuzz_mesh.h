@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "fathom/failures/errors.h"
-#include "fathom/failures/warnings.h"
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/mesh_files/read_mesh.h"
 

@@ -1,4 +1,4 @@
-#include "fathom/failures/warnings.h"
+#include "fathom/failures/errors.h"
 #include "tests/fuzz/fuzz_mesh.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

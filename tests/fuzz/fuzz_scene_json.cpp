@@ -3,7 +3,7 @@
 #include <span>
 
 #include "fathom/failures/errors.h"
-#include "fathom/mesh_files/recognise_format.h"
+#include "fathom/mesh_files/read_mesh.h"
 #include "fathom/scene/motion.h"
 #include "fathom/scene/scene_json.h"
 

@@ -1,6 +1,6 @@
-#include "fathom/geometry/pixel_box.h"
-
 #include <gtest/gtest.h>
+
+#include "fathom/geometry/frames.h"
 
 namespace fathom {
 namespace {

@@ -1,5 +1,3 @@
-#include "fathom/image/background.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

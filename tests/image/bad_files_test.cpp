@@ -14,8 +14,8 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
-#include "fathom/image/files/exr_streams.h"
 #include "fathom/image/files/map_codecs.h"
+#include "fathom/image/files/openexr.h"
 #include "fathom/image/rgb_image.h"
 #include "tests/image/map_samples.h"
 #include "tests/places.h"

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "fathom/failures/errors.h"
-#include "fathom/image/background.h"
 #include "fathom/image/files/map_codecs.h"
+#include "fathom/image/surface.h"
 #include "tests/image/map_samples.h"
 #include "tests/image/run_program.h"
 

@@ -15,8 +15,6 @@
 #include <limits>
 
 #include "fathom/failures/errors.h"
-#include "fathom/image/deep_files.h"
-#include "fathom/image/flat_deep_map.h"
 
 namespace fathom {
 namespace {

@@ -1,3 +1,5 @@
+#include "fathom/image/files/geotiff.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -5,9 +7,8 @@
 #include <cstdio>
 
 #include "fathom/failures/errors.h"
-#include "fathom/image/background.h"
 #include "fathom/image/files/map_codecs.h"
-#include "fathom/image/files/world_from_image.h"
+#include "fathom/image/surface.h"
 #include "tests/image/map_samples.h"
 #include "tests/image/run_program.h"
 

@@ -5,7 +5,7 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/image/files/map_codecs.h"
-#include "fathom/numeric/binary16.h"
+#include "fathom/numeric/rounding.h"
 #include "tests/image/map_samples.h"
 
 namespace fathom {

@@ -1,11 +1,11 @@
 // Cryptomatte as it is shown: names instead of hashes.
-#include "fathom/image/matte_layers.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
+
+#include "fathom/image/cryptomatte.h"
 
 namespace fathom {
 namespace {

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "fathom/image/background.h"
 #include "fathom/image/channel_names.h"
 #include "fathom/image/map_files.h"
+#include "fathom/image/surface.h"
 #include "tests/image/map_samples.h"
 #include "tests/image/run_program.h"
 #include "tests/places.h"

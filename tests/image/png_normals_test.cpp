@@ -7,7 +7,6 @@
 #include "fathom/files/file_bytes.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/map_files.h"
-#include "fathom/image/normal_codes.h"
 #include "fathom/image/png_files.h"
 #include "fathom/numeric/rounding.h"
 #include "tests/image/map_samples.h"

@@ -9,7 +9,6 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/image/pictures/legend.h"
-#include "fathom/image/pictures/scaled_range.h"
 #include "fathom/image/surface.h"
 #include "tests/image/map_samples.h"
 

@@ -1,5 +1,3 @@
-#include "fathom/image/files/world_from_image.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <random>
 
 #include "fathom/camera/camera_making.h"
+#include "fathom/image/files/geotiff.h"
 #include "fathom/numeric/ratio.h"
 
 namespace fathom {

@@ -6,7 +6,6 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/mesh_files/read_mesh.h"
-#include "fathom/mesh_files/recognise_format.h"
 #include "tests/inputs/mesh_habits.h"
 #include "tests/inputs/mesh_text.h"
 

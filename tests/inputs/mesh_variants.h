@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/failures/warnings.h"
+#include "fathom/failures/errors.h"
 #include "fathom/mesh/mesh.h"
 
 namespace fathom::test {

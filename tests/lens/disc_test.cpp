@@ -1,6 +1,4 @@
 // Q: known answers, and that it is the last binary64 number, by the oracle's determinants.
-#include "fathom/lens/disc.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <numbers>
 
 #include "fathom/lens/definiteness.h"
+#include "fathom/lens/polynomial_stage.h"
 #include "tests/effort.h"
 #include "tests/lens/lens_oracle.h"
 

@@ -1,12 +1,11 @@
 // Bounds on a stage, against balls of Arb.
-#include "fathom/lens/stage_bounds.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
 #include "fathom/fast/lenses/stage_lanes.h"
+#include "fathom/lens/stage.h"
 #include "tests/lens/lens_oracle.h"
 
 namespace fathom::lens {

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "fathom/lens/tilt.h"
+#include "fathom/lens/sample_plane.h"
 #include "tests/lens/lens_oracle.h"
 #include "tests/places.h"
 

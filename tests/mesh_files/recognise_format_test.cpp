@@ -1,9 +1,9 @@
-#include "fathom/mesh_files/recognise_format.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
 #include <string_view>
+
+#include "fathom/mesh_files/read_mesh.h"
 
 namespace fathom {
 namespace {

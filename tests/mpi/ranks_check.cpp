@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "apps/mpi/ranks.h"
-#include "apps/mpi/sparse_exchange.h"
 
 namespace fathom::app {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <random>
 
-#include "fathom/numeric/certified_interval.h"
-#include "fathom/numeric/grid_trigonometry.h"
+#include "fathom/numeric/certified_value.h"
+#include "fathom/numeric/transcendental.h"
 
 namespace fathom {
 namespace {

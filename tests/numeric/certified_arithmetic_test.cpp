@@ -1,14 +1,13 @@
 // Bounds of binary64 arithmetic hold at every magnitude below 1 in size, where results underflow
 // too.
-#include "fathom/numeric/certified_arithmetic.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "fathom/numeric/certified_value.h"
 #include "fathom/numeric/rounding.h"
-#include "fathom/numeric/unit_roundoff.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "tests/effort.h"
 #include "tests/numeric/random_numbers.h"
 

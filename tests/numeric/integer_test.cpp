@@ -1,7 +1,6 @@
-#include "fathom/numeric/integer.h"
-
 #include <gtest/gtest.h>
 
+#include "fathom/numeric/big_numbers.h"
 #include "tests/numeric/random_numbers.h"
 
 namespace fathom {

@@ -1,5 +1,3 @@
-#include "fathom/numeric/logarithm.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,7 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "fathom/numeric/binary16.h"
+#include "fathom/numeric/rounding.h"
+#include "fathom/numeric/transcendental.h"
 #include "tests/adversaries.h"
 #include "tests/inputs/draw.h"
 #include "tests/inputs/floating_point_modes.h"

@@ -1,10 +1,10 @@
 // Sums of quotients and quotients of such sums, against the exact sums.
-#include "fathom/numeric/ratio_sum.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+
+#include "fathom/numeric/real_sums.h"
 
 namespace fathom {
 namespace {

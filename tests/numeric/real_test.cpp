@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "fathom/numeric/logarithm.h"
+#include "fathom/numeric/transcendental.h"
 #include "tests/inputs/floating_point_modes.h"
 
 namespace fathom {

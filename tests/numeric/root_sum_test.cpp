@@ -1,10 +1,10 @@
 // Sums of roots against MPFR at 2000 bits, and those that are rational.
-#include "fathom/numeric/root_sum.h"
-
 #include <gtest/gtest.h>
 #include <mpfr.h>
 
 #include <random>
+
+#include "fathom/numeric/real_sums.h"
 
 namespace fathom {
 namespace {

@@ -1,10 +1,10 @@
-#include "fathom/numeric/round_outwards.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include "fathom/numeric/interval.h"
 
 namespace fathom {
 namespace {

@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 
-#include "fathom/numeric/binary16.h"
 #include "tests/adversaries.h"
 #include "tests/inputs/draw.h"
 #include "tests/inputs/floating_point_modes.h"

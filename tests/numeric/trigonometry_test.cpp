@@ -1,10 +1,10 @@
-#include "fathom/numeric/trigonometry.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+
+#include "fathom/numeric/transcendental.h"
 
 namespace fathom {
 namespace {

@@ -8,7 +8,6 @@
 #include <random>
 
 #include "fathom/failures/errors.h"
-#include "fathom/pipeline/output/pixel_partition.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/render.h"
 

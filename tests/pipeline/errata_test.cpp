@@ -16,11 +16,11 @@
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/homogeneous.h"
 #include "fathom/depth_format/encode.h"
-#include "fathom/pipeline/rasterization/grid_samples.h"
+#include "fathom/pipeline/geometry/subpixel_grid.h"
 #include "fathom/pipeline/render_pipeline.h"
+#include "fathom/pipeline/scan/area_fill.h"
 #include "fathom/pipeline/scan/edge_function.h"
 #include "fathom/pipeline/scan/line-inl.h"
-#include "fathom/pipeline/scan/polygon_fill.h"
 #include "fathom/pipeline/trace.h"
 
 namespace fathom::pipeline {

@@ -1,8 +1,8 @@
-#include "fathom/pipeline/fragments/interpolation.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "fathom/pipeline/fragments/fragment.h"
 
 namespace fathom::pipeline {
 namespace {

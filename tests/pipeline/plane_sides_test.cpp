@@ -1,11 +1,10 @@
-#include "fathom/pipeline/geometry/plane_sides.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
 #include "fathom/numeric/certified.h"
+#include "fathom/pipeline/geometry/painters_algorithm.h"
 
 namespace fathom::pipeline {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "fathom/failures/errors.h"
-#include "fathom/pipeline/geometry/surface_motion.h"
+#include "fathom/pipeline/output/temporal_history.h"
 
 namespace fathom::pipeline {
 namespace {

@@ -189,13 +189,13 @@ def test_docstrings_and_pages_have_every_word(words, text):
 
 
 def test_texts_of_maps_are_in_the_page():
-    keys = re.findall(r'"(fathom\.[a-z_-]+)"', read("lib/fathom/image/map_texts.h"))
+    keys = re.findall(r'"(fathom\.[a-z_-]+)"', read("lib/fathom/image/depth_map.h"))
     assert len(keys) >= 10 and missing(keys, between(read("docs/reading-maps.md"), "## The header of an EXR", "OpenEXR multiplies")) == []
 
 
 def test_texts_of_files_have_one_spelling():
     """Nothing in the library or the programs spells a key itself, but the two headers that list the keys."""
-    lists = [source / "lib/fathom/image" / header for header in ("map_texts.h", "files/code_texts.h")]
+    lists = [source / "lib/fathom/image" / header for header in ("depth_map.h", "files/code_texts.h")]
     keys = [key for header in lists for key in
             re.findall(r'"(fathom[.:][a-z_-]+)"', header.read_text(encoding="utf-8"))]
     assert len(keys) >= 14

@@ -8,7 +8,6 @@
 #include "fathom/numeric/rounding.h"
 #include "fathom/reference/reference.h"
 #include "fathom/triangle/projected_triangle.h"
-#include "fathom/triangle/sampling.h"
 #include "tests/effort.h"
 #include "tests/inputs/lens_scenes.h"
 #include "tests/inputs/random_scenes.h"

@@ -1,5 +1,3 @@
-#include "fathom/rendering/deciders.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "fathom/rendering/rendered.h"
 #include "tests/places.h"
 
 namespace fathom {

@@ -1,11 +1,10 @@
-#include "fathom/rendering/option_names.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "fathom/failures/unknown_name.h"
 #include "fathom/image/map_files.h"
 #include "fathom/image/point_cloud.h"
+#include "fathom/rendering/options.h"
 
 namespace fathom {
 namespace {

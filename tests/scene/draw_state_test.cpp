@@ -1,6 +1,4 @@
 // "draw" of a scene file.
-#include "fathom/scene/draw_state.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/scene/read_scene.h"
+#include "fathom/scene/scene.h"
 #include "fathom/scene/scene_fault.h"
 #include "tests/scratch_folder.h"
 

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "fathom/failures/warnings.h"
+#include "fathom/failures/errors.h"
 #include "fathom/mesh/triangulate_face.h"
 #include "fathom/scene/read_scene.h"
 #include "tests/adversaries.h"

@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "fathom/failures/errors.h"
-#include "fathom/failures/warnings.h"
 #include "fathom/scene/read_scene.h"
 #include "tests/adversaries.h"
 #include "tests/inputs/draw.h"

@@ -11,7 +11,7 @@
 #include "fathom/camera/camera_making.h"
 #include "fathom/camera/direction_table.h"
 #include "fathom/failures/errors.h"
-#include "fathom/scene/winding.h"
+#include "fathom/scene/sight.h"
 #include "tests/scratch_folder.h"
 
 namespace fathom {

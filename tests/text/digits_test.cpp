@@ -1,10 +1,10 @@
-#include "fathom/text/digits.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
 #include <string>
 #include <vector>
+
+#include "fathom/text/decimal.h"
 
 namespace fathom {
 namespace {

@@ -1,6 +1,6 @@
-#include "fathom/text/trimmed.h"
-
 #include <gtest/gtest.h>
+
+#include "fathom/text/ascii.h"
 
 namespace fathom::text {
 namespace {

@@ -1,5 +1,3 @@
-#include "fathom/threads/startable_threads.h"
-
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -8,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+
+#include "fathom/threads/threads.h"
 
 namespace fathom {
 namespace {

@@ -1,11 +1,10 @@
 // What is certain of depth and coverage is so in exact numbers, and mostly something is certain.
-#include "fathom/triangle/certified_surfaces.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "fathom/triangle/sampling.h"
+#include "fathom/triangle/double_word_surface.h"
+#include "fathom/triangle/projected_triangle.h"
 #include "tests/effort.h"
 #include "tests/inputs/random_scenes.h"
 

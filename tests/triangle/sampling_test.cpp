@@ -1,9 +1,8 @@
-#include "fathom/triangle/sampling.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "fathom/triangle/projected_triangle.h"
 #include "tests/inputs/scene_building.h"
 
 namespace fathom {

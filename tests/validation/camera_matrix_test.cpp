@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "fathom/attribution/model/renderer_camera.h"
+#include "fathom/attribution/model/renderer_input.h"
 #include "validation/vtk/drawn_by_vtk.h"
 
 namespace fathom::validation {

@@ -7,7 +7,6 @@
 #include "fathom/pipeline/render_pipeline.h"
 #include "tests/pipeline/layers.h"
 #include "validation/opengl/egl_context.h"
-#include "validation/opengl/framebuffer.h"
 #include "validation/opengl/gl_functions.h"
 
 /// The draw states of the pipeline held to OpenGL: the driver draws the same layers with the same

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "fathom/attribution/world_mesh.h"
+#include "fathom/attribution/model/renderer_input.h"
 #include "fathom/render.h"
 #include "validation/colour/colour_comparison.h"
 #include "validation/embree/embree_tracer.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fathom/attribution/world_mesh.h"
+#include "fathom/attribution/model/renderer_input.h"
 #include "validation/drawn_map.h"
 
 namespace fathom::validation {

@@ -6,8 +6,6 @@
 
 #include "validation/child/child_process.h"
 #include "validation/child/fields.h"
-#include "validation/child/read_fields.h"
-#include "validation/child/write_fields.h"
 
 namespace fathom::validation {
 
@@ -72,7 +70,7 @@ Result result_from(const std::string& bytes, const std::string& name) {
   return std::move(*answer.result);
 }
 
-/// Runs `work` in a separate process and returns its result: any type that write_fields.h
+/// Runs `work` in a separate process and returns its result: any type that fields.h
 /// supports.
 ///
 /// Needs    a process that has started no threads.

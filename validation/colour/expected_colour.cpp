@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fathom/attribution/model/renderer_camera.h"
+#include "fathom/attribution/model/renderer_input.h"
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/geometry/eigen_arrays.h"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "fathom/attribution/world_mesh.h"
+#include "fathom/attribution/model/renderer_input.h"
 
 namespace fathom::validation {
 

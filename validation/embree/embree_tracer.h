@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/attribution/world_mesh.h"
+#include "fathom/attribution/model/renderer_input.h"
 #include "fathom/camera/camera.h"
 
 namespace fathom::validation {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "fathom/attribution/model/renderer_input.h"
 #include "fathom/attribution/model/renderer_model.h"
-#include "fathom/attribution/world_mesh.h"
 #include "fathom/camera/camera.h"
 #include "validation/opengl/gl_functions.h"
 #include "validation/variants/variants.h"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fathom/attribution/world_mesh.h"
+#include "fathom/attribution/model/renderer_input.h"
 #include "validation/drawn_map.h"
 #include "validation/variants/variants.h"
 

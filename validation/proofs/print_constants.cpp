@@ -2,17 +2,17 @@
 // check-proofs proves with.
 #include <cstdio>
 
-#include "fathom/evaluation/bounds.h"
+#include "fathom/evaluation/box_tree.h"
 #include "fathom/fast/channels/resolve_bounds.h"
-#include "fathom/fast/coverage/area_bounds.h"
-#include "fathom/fast/lenses/lens_bounds.h"
+#include "fathom/fast/coverage/square_edges.h"
+#include "fathom/fast/lenses/window.h"
 #include "fathom/fast/setup/setup_bounds.h"
-#include "fathom/fast/vertices/vertex_bounds.h"
+#include "fathom/fast/vertices/vertex.h"
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/certified_value.h"
 #include "fathom/numeric/double_word.h"
 #include "fathom/rays/ray_bounds.h"
-#include "fathom/triangle/surface_bounds.h"
+#include "fathom/triangle/certified_surface.h"
 
 int main() {
   using namespace fathom;

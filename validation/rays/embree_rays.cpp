@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "validation/embree/embree_mesh.h"
-#include "validation/rays/engine_traces.h"
+#include "validation/rays/ray_engines.h"
 
 namespace fathom::validation {
 namespace {

@@ -1,5 +1,5 @@
 #include "validation/peers/not_built_in.h"
-#include "validation/rays/engine_traces.h"
+#include "validation/rays/ray_engines.h"
 
 namespace fathom::validation {
 

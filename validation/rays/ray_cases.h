@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/attribution/world_mesh.h"
+#include "fathom/attribution/model/renderer_input.h"
 #include "fathom/rays/ray.h"
 
 /// Meshes and rays on which engines that trace rays are compared with the truth.

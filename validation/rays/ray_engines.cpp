@@ -1,16 +1,69 @@
+
 #include "validation/rays/ray_engines.h"
 
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/version.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
 #include <utility>
 
 #include "fathom/failures/unknown_name.h"
-#include "validation/rays/engine_traces.h"
+#include "validation/rays/touched_triangles.h"
 
 namespace fathom::validation {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using Triangles = std::vector<Kernel::Triangle_3>;
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+
+/// t of a point of a ray.
+double place_of(const Kernel::Point_3& point, const Kernel::Ray_3& ray) {
+  const Kernel::Vector_3 direction = ray.to_vector(), way = point - ray.source();
+  return CGAL::to_double(way * direction / (direction * direction));
+}
+
+/// The point of a hit. A hit along a triangle's plane is a segment, which begins the nearest.
+struct PointOfHit {
+  Kernel::Ray_3 ray;
+
+  double operator()(const Kernel::Point_3& point) const { return place_of(point, ray); }
+  double operator()(const Kernel::Segment_3& segment) const {
+    return std::min(place_of(segment.source(), ray), place_of(segment.target(), ray));
+  }
+};
+
+RayHit nearest_of(const Tree& tree, const Triangles& triangles, const Kernel::Ray_3& ray) {
+  const auto hit = tree.first_intersection(ray);
+  if (!hit) return {};
+  const auto number = std::distance(triangles.begin(), hit->second);
+  return {static_cast<std::uint32_t>(number), boost::apply_visitor(PointOfHit{ray}, hit->first)};
+}
+
+}  // namespace
+
+EngineAnswers trace_by_cgal(const attribution::WorldMesh& mesh, std::span<const Ray> rays) {
+  const Triangles triangles = triangles_of<Kernel>(mesh);
+  const Tree tree(triangles.begin(), triangles.end());
+  EngineAnswers answers;
+  for (const Ray& given : rays) {
+    const auto ray = ray_of<Kernel>(given);
+    answers.nearest.push_back(nearest_of(tree, triangles, ray));
+    answers.counts.push_back(
+        static_cast<std::uint32_t>(tree.number_of_intersected_primitives(ray)));
+  }
+  return answers;
+}
+
 namespace {
 
 constexpr std::array engine_names{std::pair{RayEngine::embree, "embree"},

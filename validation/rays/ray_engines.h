@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/attribution/world_mesh.h"
+#include "fathom/attribution/model/renderer_input.h"
 #include "fathom/rays/ray.h"
 
 /// Other programs' answers to rays.
@@ -35,5 +35,14 @@ struct EngineAnswers {
 /// Needs    a mesh and rays of binary32 numbers.
 EngineAnswers trace(RayEngine engine, const attribution::WorldMesh& mesh,
                     std::span<const Ray> rays);
+
+/// trace() of each engine.
+/// Fails    InputError if Embree is not built in, or fails.
+
+EngineAnswers trace_by_embree(const attribution::WorldMesh& mesh, std::span<const Ray> rays,
+                              bool robust);
+/// "Embree 3.13.5", or that it is not built in.
+std::string embree_version_of_rays();
+EngineAnswers trace_by_cgal(const attribution::WorldMesh& mesh, std::span<const Ray> rays);
 
 }  // namespace fathom::validation

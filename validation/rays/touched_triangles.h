@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "fathom/attribution/world_mesh.h"
+#include "fathom/attribution/model/renderer_input.h"
 #include "fathom/rays/ray.h"
 
 /// Triangles with their edges, as rays touch them: by CGAL's exact predicates and rational numbers,

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "validation/scenes/made/mesh_building.h"
+#include "validation/scenes/made/made_meshes.h"
 #include "validation/scenes/made/random.h"
 
 namespace fathom::bench {

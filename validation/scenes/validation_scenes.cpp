@@ -4,8 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fathom/attribution/model/renderer_camera.h"
-#include "fathom/attribution/world_mesh.h"
+#include "fathom/attribution/model/renderer_input.h"
 #include "fathom/camera/camera_making.h"
 #include "fathom/failures/errors.h"
 #include "fathom/scene/framing.h"

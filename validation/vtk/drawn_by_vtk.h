@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "fathom/attribution/model/renderer_input.h"
 #include "fathom/attribution/model/renderer_model.h"
-#include "fathom/attribution/world_mesh.h"
 #include "fathom/camera/camera.h"
 #include "validation/colour/lit_triangles.h"
 #include "validation/drawn_map.h"

@@ -12,7 +12,7 @@
 
 #include <array>
 
-#include "fathom/attribution/model/renderer_camera.h"
+#include "fathom/attribution/model/renderer_input.h"
 #include "fathom/failures/errors.h"
 #include "validation/opengl/gl_functions.h"
 

@@ -1,9 +1,14 @@
 #pragma once
 
+#include <vtkOpenGLPolyDataMapper.h>
+
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
-#include "fathom/attribution/world_mesh.h"
+#include "fathom/attribution/model/renderer_input.h"
+#include "fathom/depth_format/depth_format.h"
 #include "validation/opengl/gl_functions.h"
 
 class vtkPolyData;
@@ -39,5 +44,56 @@ std::vector<std::uint32_t> read_triangle_numbers(const GlFunctions& gl, std::uin
 std::vector<std::uint32_t> read_triangle_numbers_of_first_sample(const GlFunctions& gl,
                                                                  std::uint32_t width,
                                                                  std::uint32_t height);
+
+/// VTK's mapper for polygons, which also records what its last frame was drawn with and can draw
+/// with reversed depths.
+class RecordingMapper : public vtkOpenGLPolyDataMapper {
+ public:
+  static RecordingMapper* New();
+  // clang-format off
+  vtkTypeMacro(RecordingMapper, vtkOpenGLPolyDataMapper)
+      // clang-format on
+
+      /// The matrix from held positions to clip coordinates, row by row, as OpenGL had it.
+      [[nodiscard]] const std::array<float, 16>& clip_from_held() const {
+    return clip_from_held_;
+  }
+  /// From now on the greater window depth is the nearer one. If `zero_to_one`, the near and far
+  /// planes lie at z = w and z = 0 in clip coordinates.
+  void reverse(bool zero_to_one) {
+    greater_is_nearer_ = true;
+    zero_to_one_ = zero_to_one;
+  }
+  /// From now on the numbers of triangles (triangle_numbers.h) are read as soon as the mesh is
+  /// drawn, before anything else is drawn over it. Needs one sample per pixel.
+  void record_numbers(std::uint32_t width, std::uint32_t height) {
+    width_ = width;
+    height_ = height;
+  }
+  /// Which of equal depths won in the last frame, by OpenGL's depth test; nothing for a test that
+  /// is no order.
+  [[nodiscard]] std::optional<EqualDepths> equal_depths() const { return equal_depths_; }
+  /// Those of the last frame, rows from the top; empty if they are not recorded.
+  [[nodiscard]] const std::vector<std::uint32_t>& numbers() const { return numbers_; }
+  /// Positions are held as (position − shift)·scale; world frame, scene units.
+  [[nodiscard]] const std::array<double, 3>& shift() const { return shift_; }
+  [[nodiscard]] const std::array<double, 3>& scale() const { return scale_; }
+
+ protected:
+  void SetCameraShaderParameters(vtkOpenGLHelper& drawn, vtkRenderer* renderer,
+                                 vtkActor* actor) override;
+  void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override;
+
+ private:
+  void draw(vtkRenderer* renderer, vtkActor* actor);
+  void draw_reversed(vtkRenderer* renderer, vtkActor* actor);
+
+  bool greater_is_nearer_ = false, zero_to_one_ = false;
+  std::array<float, 16> clip_from_held_{};
+  std::array<double, 3> shift_{0, 0, 0}, scale_{1, 1, 1};
+  std::optional<EqualDepths> equal_depths_;
+  std::uint32_t width_ = 0, height_ = 0;
+  std::vector<std::uint32_t> numbers_;
+};
 
 }  // namespace fathom::validation

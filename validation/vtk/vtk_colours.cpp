@@ -22,11 +22,11 @@
 #include <string>
 #include <vector>
 
-#include "fathom/attribution/model/renderer_camera.h"
+#include "fathom/attribution/model/renderer_input.h"
 #include "fathom/failures/errors.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/vtk/drawn_by_vtk.h"
-#include "validation/vtk/surfaceless_window.h"
+#include "validation/vtk/vtk_renderer.h"
 
 namespace fathom::validation {
 namespace {

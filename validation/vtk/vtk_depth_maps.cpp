@@ -7,7 +7,7 @@
 #include "fathom/attribution/raster/clip_vertex.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/depth_map.h"
-#include "fathom/numeric/unit_roundoff.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "validation/vtk/drawn_by_vtk.h"
 #include "validation/vtk/vtk_renderer.h"
 

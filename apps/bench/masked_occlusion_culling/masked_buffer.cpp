@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "fathom/attribution/model/renderer_camera.h"
+#include "fathom/attribution/model/renderer_input.h"
 
 namespace fathom::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/bench/machine.h"
+#include "apps/bench/report.h"
 
 namespace fathom::bench {
 namespace {

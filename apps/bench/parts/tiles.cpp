@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "apps/bench/parts/edge_kernels.h"
-#include "apps/bench/parts/engine_variants.h"
 #include "apps/bench/parts/ideas.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"

@@ -1,14 +1,12 @@
 #include <algorithm>
 
-#include "apps/study/antialiasing/coverage_by_samples.h"
-#include "apps/study/antialiasing/curve.h"
+#include "apps/study/antialiasing/coverage.h"
 #include "apps/study/antialiasing/methods.h"
-#include "apps/study/antialiasing/nyquist.h"
-#include "apps/study/antialiasing/temporal.h"
-#include "apps/study/drawn_files.h"
+#include "apps/study/antialiasing/sampling.h"
 #include "apps/study/page_texts.h"
+#include "apps/study/plot.h"
 #include "apps/study/results.h"
-#include "apps/study/studies.h"
+#include "apps/study/study.h"
 #include "apps/study/study_scene.h"
 #include "fathom/failures/errors.h"
 

@@ -4,7 +4,6 @@
 #include <numbers>
 #include <random>
 
-#include "fathom/clipping/convex_pieces.h"
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/sutherland_hodgman.h"

@@ -4,10 +4,9 @@
 
 #include "apps/study/clipping/beside_cgal.h"
 #include "apps/study/clipping/clipped_shapes.h"
-#include "apps/study/drawn_files.h"
 #include "apps/study/page_texts.h"
+#include "apps/study/plot.h"
 #include "apps/study/results.h"
-#include "apps/study/studies.h"
 #include "apps/study/study.h"
 #include "fathom/failures/errors.h"
 

@@ -1,18 +1,15 @@
 #include <algorithm>
 #include <sstream>
 
-#include "apps/study/antialiasing/temporal.h"
-#include "apps/study/course/aliasing.h"
-#include "apps/study/course/back_faces.h"
+#include "apps/study/antialiasing/sampling.h"
 #include "apps/study/course/demo.h"
+#include "apps/study/course/demonstrations.h"
 #include "apps/study/course/exercises.h"
-#include "apps/study/course/gallery.h"
-#include "apps/study/course/quadrangles.h"
-#include "apps/study/course/shared_edges.h"
-#include "apps/study/drawn_files.h"
+#include "apps/study/course/orientation.h"
 #include "apps/study/page_texts.h"
+#include "apps/study/plot.h"
 #include "apps/study/results.h"
-#include "apps/study/studies.h"
+#include "apps/study/study.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::studies {

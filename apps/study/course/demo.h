@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/study/scene_files.h"
+#include "apps/study/pipeline_scenes.h"
 
 /// The z-buffer as the textbooks show it: two overlapping triangles, and its numbers.
 namespace fathom::studies {

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "apps/study/cell.h"
-#include "apps/study/exact_picture.h"
 #include "apps/study/pipeline_scenes.h"
+#include "apps/study/study_scene.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/pipeline/scan/edge_function.h"
 #include "fathom/render.h"

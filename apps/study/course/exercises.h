@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "apps/study/scene_files.h"
+#include "apps/study/pipeline_scenes.h"
 #include "fathom/depth_format/depth_format.h"
 
 /// The exercises of the textbooks, a function each: pictures and figures.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/study/effort.h"
-#include "apps/study/scene_files.h"
+#include "apps/study/pipeline_scenes.h"
 #include "fathom/camera/camera.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/scene/scene.h"

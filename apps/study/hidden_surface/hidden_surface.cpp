@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include "apps/study/drawn_files.h"
 #include "apps/study/hidden_surface/comparison.h"
 #include "apps/study/hidden_surface/sight.h"
 #include "apps/study/page_texts.h"
+#include "apps/study/plot.h"
 #include "apps/study/results.h"
-#include "apps/study/studies.h"
+#include "apps/study/study.h"
 #include "apps/study/study_scene.h"
 #include "fathom/failures/errors.h"
 

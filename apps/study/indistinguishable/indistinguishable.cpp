@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "apps/study/indistinguishable/lost_order.h"
+#include "apps/study/indistinguishable/depth_order.h"
 #include "apps/study/page_texts.h"
 #include "apps/study/results.h"
-#include "apps/study/studies.h"
+#include "apps/study/study.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::studies {

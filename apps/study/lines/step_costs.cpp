@@ -1,8 +1,8 @@
-#include "apps/study/lines/step_costs.h"
-
 #include <algorithm>
 #include <chrono>
 #include <limits>
+
+#include "apps/study/lines/lines.h"
 
 namespace fathom::studies {
 namespace {

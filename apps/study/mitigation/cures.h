@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/study/z_fighting/layers.h"
 #include "apps/study/z_fighting/scene_fights.h"
 
 /// What can be done against z-fighting, and what is left of it.

@@ -1,13 +1,70 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "apps/study/study_scene.h"
 #include "fathom/depth_buffer/depth_buffer.h"
+#include "fathom/depth_format/certified_format.h"
+#include "fathom/depth_format/depth_bias.h"
+
+/// All surfaces behind the samples of an image, and what a depth buffer makes of them.
+namespace fathom::studies {
+
+/// A triangle that counts at a sample, with its exact depth there and that depth rounded.
+struct Layer {
+  std::uint32_t number;
+  Ratio depth;
+  double rounded;
+};
+
+/// The layers of one sample, in the order of the triangles' numbers, and the visible one.
+struct LayeredSample {
+  std::uint32_t column, row;
+  std::vector<Layer> layers;
+  std::size_t visible;
+};
+
+/// The samples at pixel centres behind which there are at least two layers; row by row.
+std::vector<LayeredSample> layered_samples(const SceneView& view);
+
+/// The stored value of a layer: by bounds from the rounded depth, or else from the exact one.
+StoredDepth encode_layer(const CertifiedFormat& format, const Layer& layer);
+
+/// How a format does where one surface lies behind another, over pairs of the visible one and
+/// another whose visible one lies in a class of distances.
+struct LostSeparation {
+  double distance;       ///< upper end of the class, a factor of √2 beyond the last
+  double greatest_lost;  ///< greatest separation of a pair that is not told apart; 0: all are
+  /// The width of the bin at the upper end: no lost separation is greater.
+  double predicted;
+};
+std::vector<LostSeparation> lost_separations(const std::vector<LayeredSample>& samples,
+                                             const DepthFormat& format);
+
+/// Offsets for triangles whose number is `first` or greater, the others have none.
+struct OffsetLayers {
+  const SceneView& view;
+  const std::vector<LayeredSample>& samples;
+  DepthFormat format;
+  std::uint32_t first;
+  /// f of each layer of each sample, rounded to binary64.
+  std::vector<std::vector<double>> window_depths;
+
+  OffsetLayers(const SceneView& of, const std::vector<LayeredSample>& seen,
+               const DepthFormat& stored, std::uint32_t first_number);
+};
+struct OffsetCount {
+  DepthBias bias;
+  /// Samples at which another triangle than the visible one wins: an offset triangle that should
+  /// be hidden, or any other way.
+  std::size_t shows_through = 0, fights = 0;
+};
+/// The depth test with polygon offset (depth_bias.h), ideal model, mapping standard, perspective.
+OffsetCount count_with_offset(const OffsetLayers& layers, const DepthBias& bias);
 
 /// Z-fighting over the image of a scene, ideal model.
-namespace fathom::studies {
 
 struct SceneFights {
   DepthFormat format;

@@ -1,8 +1,7 @@
 #include "apps/study/page_texts.h"
 #include "apps/study/results.h"
-#include "apps/study/studies.h"
+#include "apps/study/study.h"
 #include "apps/study/sweeps.h"
-#include "apps/study/z_fighting/layers.h"
 #include "apps/study/z_fighting/scene_fights.h"
 #include "fathom/failures/errors.h"
 

@@ -4,9 +4,9 @@
 
 #include "apps/study/page_texts.h"
 #include "apps/study/results.h"
-#include "apps/study/studies.h"
+#include "apps/study/study.h"
 #include "apps/study/sweeps.h"
-#include "apps/study/z_fighting/pair_sweeps.h"
+#include "apps/study/z_fighting/coplanar_pair.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::studies {

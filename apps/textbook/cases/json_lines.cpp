@@ -8,7 +8,7 @@
 
 #include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
-#include "apps/shell/output_place.h"
+#include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"

@@ -2,8 +2,8 @@
 
 #include <type_traits>
 
+#include "apps/textbook/cases/case_answers.h"
 #include "apps/textbook/cases/case_reading.h"
-#include "apps/textbook/cases/case_writing.h"
 
 /// What `fathom clip` does with one case: a case in, the answer without its name out.
 /// Number is the kernel's: double or clipping::Rational.

@@ -5,13 +5,13 @@
 #include <string>
 #include <string_view>
 
+#include "apps/commands.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/values.h"
 #include "apps/textbook/cases/json_lines.h"
 #include "apps/textbook/clip/clip_algorithms.h"
 #include "apps/textbook/clip/clip_comparison.h"
 #include "apps/textbook/drawing/drawings.h"
-#include "apps/textbook/textbook_commands.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::app {

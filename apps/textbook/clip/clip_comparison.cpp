@@ -8,8 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "apps/textbook/cases/case_effort.h"
-#include "apps/textbook/cases/case_writing.h"
+#include "apps/textbook/cases/case_answers.h"
 #include "fathom/clipping/boolean_by_cgal.h"
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/rings.h"

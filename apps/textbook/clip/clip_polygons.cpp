@@ -2,10 +2,9 @@
 
 #include <algorithm>
 
-#include "apps/textbook/cases/case_effort.h"
+#include "apps/textbook/cases/case_answers.h"
 #include "apps/textbook/clip/clip_algorithms.h"
 #include "fathom/clipping/boolean_by_cgal.h"
-#include "fathom/clipping/convex_pieces.h"
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/sutherland_hodgman.h"
 #include "fathom/clipping/weiler_atherton.h"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/textbook/cases/case_effort.h"
+#include "apps/textbook/cases/case_answers.h"
 #include "apps/textbook/clip/clip_algorithms.h"
 #include "fathom/clipping/homogeneous.h"
 #include "fathom/clipping/plane.h"

@@ -6,9 +6,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/commands.h"
 #include "apps/options/camera_options.h"
 #include "apps/options/pipeline_options.h"
-#include "apps/options/pipeline_words.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
@@ -18,7 +18,6 @@
 #include "apps/textbook/drawing/drawings.h"
 #include "apps/textbook/pipeline/pipeline_report.h"
 #include "apps/textbook/pipeline/stage_cases.h"
-#include "apps/textbook/textbook_commands.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::app {

@@ -18,7 +18,7 @@
 #include "apps/textbook/pipeline/pipeline_report.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/failures/errors.h"
-#include "fathom/image/map_texts.h"
+#include "fathom/image/depth_map.h"
 #include "fathom/pipeline/render_moving.h"
 #include "fathom/render_by_pipeline.h"
 #include "fathom/rendering/segment_channels.h"

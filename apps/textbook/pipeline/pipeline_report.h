@@ -1,16 +1,39 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/shell/console.h"
 #include "fathom/camera/camera.h"
 #include "fathom/pipeline/geometry/painters_algorithm.h"
 #include "fathom/pipeline/options.h"
+#include "fathom/pipeline/output/output_merger.h"
 
+/// The output merger's work in JSON, of `pipeline trace` and `pipeline run output-merger`.
 namespace fathom::app {
+
+/// A stored depth: {"code", "value"} where it is a code, else {"bits", "value"}; the value is the
+/// number in [0, 1] that it represents, rounded once.
+nlohmann::ordered_json stored_json(Storage storage, StoredDepth stored);
+
+/// The number of [0, 1] that a stored depth represents, rounded once to binary64.
+double stored_number(Storage storage, StoredDepth stored);
+
+/// {"primitive", "pixel", "before", "fragment", "tests", "blend", "changes", "after"}
+nlohmann::ordered_json merge_json(const pipeline::MergeStep& step, Storage storage);
+
+/// "nearer", or the comparison as scene files spell it; "none" without a depth test.
+const char* depth_test_name(const pipeline::MergeStep& step);
+
+const char* comparison_name(Comparison comparison);
+std::optional<Comparison> comparison_named(std::string_view name);
+
+/// "passed", "depth test failed" or "stencil test failed"
+const char* outcome_name(pipeline::Outcome outcome);
 
 /// What `render --engine pipeline --stats` says of a map.
 struct PipelineReport {

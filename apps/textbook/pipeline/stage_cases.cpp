@@ -6,12 +6,12 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/textbook/cases/case_effort.h"
-#include "apps/textbook/pipeline/merge_json.h"
+#include "apps/textbook/cases/case_answers.h"
+#include "apps/textbook/pipeline/pipeline_report.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/pipeline/fragments/interpolation.h"
+#include "fathom/pipeline/fragments/fragment.h"
 #include "fathom/pipeline/geometry/back_face_culling.h"
 #include "fathom/pipeline/geometry/window_triangle.h"
 #include "fathom/pipeline/rasterization/rasterizer.h"

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "apps/textbook/pipeline/merge_json.h"
+#include "apps/textbook/pipeline/pipeline_report.h"
 #include "apps/textbook/pipeline/stage_cases.h"
 #include "fathom/text/counted.h"
 #include "fathom/threads/interruption.h"

@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "apps/textbook/cases/case_answers.h"
 #include "apps/textbook/cases/case_reading.h"
-#include "apps/textbook/cases/case_writing.h"
 #include "fathom/pipeline/scan/arithmetic.h"
 #include "fathom/pipeline/scan/edge_function.h"
 #include "fathom/pipeline/scan/line.h"

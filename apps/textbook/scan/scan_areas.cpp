@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "apps/textbook/cases/case_effort.h"
+#include "apps/textbook/cases/case_answers.h"
 #include "apps/textbook/scan/scan_json.h"
-#include "fathom/pipeline/scan/polygon_fill.h"
+#include "fathom/pipeline/scan/area_fill.h"
 
 namespace fathom::app::scan {
 namespace {

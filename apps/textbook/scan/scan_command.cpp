@@ -2,13 +2,12 @@
 
 #include <memory>
 
+#include "apps/commands.h"
 #include "apps/shell/output_file.h"
-#include "apps/shell/output_place.h"
 #include "apps/shell/values.h"
 #include "apps/textbook/cases/json_lines.h"
 #include "apps/textbook/drawing/drawings.h"
 #include "apps/textbook/scan/scan_cases.h"
-#include "apps/textbook/textbook_commands.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::app {

@@ -2,7 +2,7 @@
 
 #include "apps/textbook/scan/scan_algorithms.h"
 #include "fathom/clipping/points.h"
-#include "fathom/pipeline/scan/polygon_fill.h"
+#include "fathom/pipeline/scan/area_fill.h"
 
 /// Reading the cases of `fathom scan`, and writing the pixels of the answers.
 /// Fails    InputError in words that name the place.

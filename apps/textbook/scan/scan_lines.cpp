@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/textbook/cases/case_effort.h"
+#include "apps/textbook/cases/case_answers.h"
 #include "apps/textbook/scan/scan_json.h"
 #include "fathom/pipeline/scan/diamond_exit.h"
 #include "fathom/pipeline/scan/line.h"
-#include "fathom/pipeline/scan/line_forms.h"
 
 namespace fathom::app::scan {
 namespace {

@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include "apps/textbook/cases/case_effort.h"
+#include "apps/textbook/cases/case_answers.h"
 #include "apps/textbook/scan/scan_json.h"
 #include "fathom/numeric/certified.h"
-#include "fathom/pipeline/scan/flood_fill.h"
+#include "fathom/pipeline/scan/area_fill.h"
 #include "fathom/pipeline/scan/polygon_tests.h"
 #include "fathom/pipeline/scan/tessellate.h"
 #include "fathom/text/counted.h"

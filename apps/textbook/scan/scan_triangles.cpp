@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "apps/textbook/cases/case_effort.h"
+#include "apps/textbook/cases/case_answers.h"
 #include "apps/textbook/scan/scan_json.h"
 #include "fathom/pipeline/scan/edge_function.h"
 

@@ -1,10 +1,9 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/validate/faults/drawn_changes.h"
+#include "apps/validate/faults/changes.h"
 #include "apps/validate/faults/fault.h"
-#include "apps/validate/faults/map_changes.h"
-#include "fathom/attribution/model/recorded_depth.h"
+#include "fathom/attribution/model/window_depth.h"
 
 namespace fathom::validation {
 namespace {

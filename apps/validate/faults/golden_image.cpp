@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/validate/faults/image_difference.h"
-
 namespace fathom::validation {
 namespace {
 

@@ -1,13 +1,21 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fathom/attribution/other_map.h"
 #include "fathom/camera/camera.h"
 
-/// The usual substitute for a truth: an earlier picture and a chosen tolerance.
 namespace fathom::validation {
+
+/// vtkImageDifference of two grey pictures, rows from the top: the thresholded error that VTK's own
+/// regression tests compare with 10. Nothing where VTK is not built in.
+std::optional<double> vtk_image_difference(const std::vector<std::uint8_t>& a,
+                                           const std::vector<std::uint8_t>& b, std::uint32_t width);
+
+/// The usual substitute for a truth: an earlier picture and a chosen tolerance.
 
 /// Whether a comparison sees that a map is not the earlier one.
 struct GoldenVerdicts {

@@ -1,8 +1,8 @@
-#include "apps/validate/faults/image_difference.h"
-
 #include <vtkImageData.h>
 #include <vtkImageDifference.h>
 #include <vtkNew.h>
+
+#include "apps/validate/faults/golden_image.h"
 
 namespace fathom::validation {
 namespace {

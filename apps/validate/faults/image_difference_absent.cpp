@@ -1,4 +1,4 @@
-#include "apps/validate/faults/image_difference.h"
+#include "apps/validate/faults/golden_image.h"
 
 namespace fathom::validation {
 

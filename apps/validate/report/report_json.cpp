@@ -4,7 +4,7 @@
 #include "apps/validate/report/report_formats.h"
 #include "apps/validate/report/reported_result.h"
 #include "apps/validate/report/validation_case.h"
-#include "fathom/attribution/cause.h"
+#include "fathom/attribution/attribution.h"
 #include "fathom/text/version.h"
 
 namespace fathom::validation {

@@ -1,6 +1,6 @@
 #include "fathom/area/cell_coverage.h"
 
-#include "fathom/area/cell_division.h"
+#include "fathom/area/image_cell.h"
 #include "fathom/numeric/rounding.h"
 
 namespace fathom::area {

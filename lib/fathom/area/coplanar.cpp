@@ -5,9 +5,8 @@
 #include <optional>
 
 #include "fathom/area/cell_coverage.h"
-#include "fathom/area/cell_division.h"
-#include "fathom/area/scene_surfaces.h"
-#include "fathom/area/separation.h"
+#include "fathom/area/image_cell.h"
+#include "fathom/area/surface_pairs.h"
 #include "fathom/area/visible_fragments.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"

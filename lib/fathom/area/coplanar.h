@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
-#include "fathom/geometry/pixel_box.h"
+#include "fathom/geometry/frames.h"
 #include "fathom/rendering/options.h"
 #include "fathom/scene/triangle_source.h"
 

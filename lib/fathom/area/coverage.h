@@ -4,6 +4,8 @@
 #include <span>
 
 #include "fathom/camera/camera.h"
+#include "fathom/image/depth_map.h"
+#include "fathom/image/sample_pattern.h"
 #include "fathom/numeric/ratio.h"
 #include "fathom/rendering/options.h"
 #include "fathom/scene/triangle_source.h"
@@ -34,5 +36,17 @@ Ratio pixel_coverage(const CoverageFrame& frame, std::span<const std::uint32_t> 
 /// Fails    as pixel_coverage().
 float rounded_pixel_coverage(const CoverageFrame& frame, std::span<const std::uint32_t> triangles,
                              std::uint32_t column, std::uint32_t row);
+
+/// Adds the channel `Asampled` (FLOAT) to a map: the fraction of the samples of each pixel at which
+/// a triangle counts (specification, sections 4 and 5). What `A` would be if a pixel consisted of
+/// its samples.
+///
+/// Exact    the fractions are multiples of 1/256 or of fewer parts, and each sample is decided
+///          exactly: by bounds first, or for the reference engine by exact numbers alone.
+/// Fails    InputError where map, scene or camera has a fault (find_fault), or the map is not of
+///          the camera's size; UsageError for a pattern that sample_pattern() does not make.
+/// Needs    in `options` the engine, culling and threads with which the map was rendered.
+void add_sampled_coverage(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
+                          const SamplePattern& pattern, const RenderOptions& options);
 
 }  // namespace fathom

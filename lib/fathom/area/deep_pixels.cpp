@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
-#include "fathom/area/cell_division.h"
 #include "fathom/area/coverage_image.h"
+#include "fathom/area/image_cell.h"
 #include "fathom/area/visible_fragments.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"

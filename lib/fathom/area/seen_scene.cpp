@@ -1,13 +1,168 @@
+
 #include "fathom/area/seen_scene.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "fathom/camera/pose.h"
+#include "fathom/failures/errors.h"
+#include "fathom/threads/interruption.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::area {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+/// Columns and rows of the image of a direction.
+constexpr std::uint32_t image_size = 1024;
+
+bool is_finite(const Vector& v) {
+  return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// With the greatest number in [1, 2), if that loses no bit.
+Vector normalised(const Vector& d) {
+  const double greatest = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
+  const int exponent = std::ilogb(greatest);
+  Vector scaled = d;
+  for (std::size_t k = 0; k < 3; ++k) {
+    scaled[k] = std::ldexp(d[k], -exponent);
+    if (std::ldexp(scaled[k], exponent) != d[k]) return d;
+  }
+  return scaled;
+}
+
+struct Range {
+  std::optional<Dyadic> low, high;
+  void add(const Dyadic& x) {
+    if (!low || x < *low) low = x;
+    if (!high || x > *high) high = x;
+  }
+};
+
+/// The exact ranges of u, v and D over the corners of all triangles.
+std::array<Range, 3> ranges_of(const TriangleSource& triangles, const Pose& pose) {
+  std::array<Range, 3> ranges;
+  for (std::uint32_t number = 0; number < triangles.count(); ++number) {
+    check_interruption();
+    for (const WorldPoint& corner : triangles.world_corners(number)) {
+      const CameraPoint p = to_camera(pose, corner);
+      ranges[0].add(p.x);
+      ranges[1].add(p.y);
+      ranges[2].add(p.z);
+    }
+  }
+  return ranges;
+}
+
+/// A binary64 number near x.
+double near(const Dyadic& x) {
+  return enclose(x).lower;
+}
+
+/// The principal point that shifts a range, times f, to the middle of the image.
+double shift_to_middle(const Range& range, double f) {
+  return image_size / 2.0 - near((*range.low + *range.high).scaled(-1) * Dyadic(f));
+}
+
+bool is_inside(const Range& range, double f, double shift) {
+  return std::ranges::all_of(std::array{*range.low, *range.high}, [&](const Dyadic& x) {
+    const Dyadic at = Dyadic(f) * x + Dyadic(shift);
+    return at > Dyadic(1.0) && at < Dyadic(image_size - 1.0);
+  });
+}
+
+void refuse_sizes() {
+  throw UsageError("direction: its numbers and those of the scene differ too much in size");
+}
+
+/// Sets the power of two and the shifts. A mirrored pose has a mirrored image, so that sides of
+/// triangles are those of any camera.
+void frame(Camera& camera, const std::array<Range, 3>& ranges, bool is_mirrored) {
+  const Dyadic width = *ranges[0].high - *ranges[0].low, height = *ranges[1].high - *ranges[1].low;
+  const Dyadic& extent = width > height ? width : height;
+  // The image is wider than 2⁹.
+  long exponent = extent.is_zero() ? 0 : 9 - extent.top();
+  Projection& projection = camera.projection;
+  for (int attempt = 0; attempt < 80; ++attempt, --exponent) {
+    if (exponent < -1000 || exponent > 1000) refuse_sizes();
+    projection.fx = std::ldexp(1.0, static_cast<int>(exponent));
+    projection.fy = is_mirrored ? -projection.fx : projection.fx;
+    projection.cx = shift_to_middle(ranges[0], projection.fx);
+    projection.cy = shift_to_middle(ranges[1], projection.fy);
+    if (!std::isfinite(projection.cx) || !std::isfinite(projection.cy)) continue;
+    if (is_inside(ranges[0], projection.fx, projection.cx) &&
+        is_inside(ranges[1], projection.fy, projection.cy)) {
+      return;
+    }
+  }
+  refuse_sizes();
+}
+
+}  // namespace
+
+Camera camera_of_direction(const TriangleSource& triangles,
+                           const std::array<double, 3>& direction) {
+  if (!is_finite(direction)) throw UsageError("direction: a number is not finite");
+  if (direction == Vector{0, 0, 0}) throw UsageError("direction: all numbers are 0");
+  const Vector d = normalised(direction);
+  std::size_t k = 0;
+  for (std::size_t axis = 1; axis < 3; ++axis) {
+    if (std::abs(d[axis]) > std::abs(d[k])) k = axis;
+  }
+  const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+  Camera camera;
+  camera.width = camera.height = image_size;
+  camera.projection = {};
+  camera.projection.model = ProjectionModel::orthographic;
+  Pose pose{};
+  pose[0][i] = d[k];
+  pose[0][k] = -d[i];
+  pose[1][j] = d[k];
+  pose[1][k] = -d[j];
+  pose[2][k] = d[k] > 0 ? -1 : 1;
+  const std::array<Range, 3> ranges = ranges_of(triangles, pose);
+  if (ranges[0].low) {
+    frame(camera, ranges, d[k] > 0);
+    // D > 0 everywhere; adding a constant changes no order.
+    const Dyadic& nearest = *ranges[2].low;
+    if (nearest.sign() != Sign::positive) {
+      const long exponent = nearest.is_zero() ? 0 : std::max(nearest.top() + 1, -1000L);
+      if (exponent > 1000) refuse_sizes();
+      pose[2][3] = std::ldexp(1.0, static_cast<int>(exponent));
+    }
+  }
+  camera.world_to_camera = pose;
+  return camera;
+}
+
+std::vector<Camera> cameras_of_point(const std::array<double, 3>& point) {
+  if (!is_finite(point)) throw UsageError("point: a number is not finite");
+  std::vector<Camera> cameras;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double forward : {1.0, -1.0}) {
+      Camera camera;
+      camera.width = camera.height = 2;
+      camera.projection.cx = camera.projection.cy = 1;
+      const std::size_t right = (axis + 1) % 3, down = (axis + 2) % 3;
+      Pose pose{};
+      // The other axes change places, so that no camera is mirrored.
+      pose[0][forward > 0 ? right : down] = 1;
+      pose[1][forward > 0 ? down : right] = 1;
+      pose[2][axis] = forward;
+      for (auto& row : pose) row[3] = -(row[0] * point[0] + row[1] * point[1] + row[2] * point[2]);
+      camera.world_to_camera = pose;
+      cameras.push_back(camera);
+    }
+  }
+  return cameras;
+}
+
 namespace {
 
 ExactVector3 exact(const WorldPoint& p) {

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "fathom/area/cell_coverage.h"
-#include "fathom/area/cell_division.h"
 #include "fathom/area/image_cell.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/threads/interruption.h"

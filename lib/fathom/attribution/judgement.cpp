@@ -7,11 +7,11 @@
 #include <variant>
 
 #include "fathom/attribution/attribution.h"
-#include "fathom/attribution/background.h"
+#include "fathom/attribution/diagnosis.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/attribution/model_choice.h"
 #include "fathom/attribution/other_scene.h"
-#include "fathom/camera/clip_planes.h"
+#include "fathom/camera/camera.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 

@@ -11,7 +11,7 @@
 #include "fathom/attribution/attribution.h"
 #include "fathom/attribution/diagnosis.h"
 #include "fathom/attribution/model/window_depth.h"
-#include "fathom/numeric/unit_roundoff.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::attribution {
@@ -98,7 +98,7 @@ class CodeScale {
     const double window = window_.of_depth(depth);
     if (!(window >= least_ && window <= 1)) return std::nullopt;
     const double moved = std::abs(window_.of_depth(depth * (1 + 4 * u)) - window);
-    // As storage_error() of raster_depth.cpp has the decoding: four roundings of a window depth.
+    // As storage_error() of raster_polygon.cpp has the decoding: four roundings of a window depth.
     return Place{window * codes_, codes_ * (4 * u + moved)};
   }
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "fathom/attribution/model/renderer_input.h"
 #include "fathom/attribution/model/renderer_model.h"
-#include "fathom/attribution/world_mesh.h"
 #include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
 

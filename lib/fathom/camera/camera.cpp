@@ -1,3 +1,4 @@
+
 #include "fathom/camera/camera.h"
 
 #include <cmath>
@@ -54,6 +55,10 @@ void require_straight(const Camera& camera, std::string_view why) {
                    std::string(why) +
                    " ('fathom camera import … --ignore-distortion' leaves the lens out; see "
                    "docs/lenses.md)");
+}
+
+bool has_clip_planes(const Camera& camera) {
+  return std::isfinite(camera.far) && (camera.near > 0 || is_orthographic(camera.projection));
 }
 
 }  // namespace fathom

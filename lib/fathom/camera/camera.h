@@ -48,4 +48,8 @@ void require_valid(const Camera& camera);
 /// Fails    UsageError: "the lens OPENCV: " and `why`.
 void require_straight(const Camera& camera, std::string_view why = computes_on_straight_edges);
 
+/// Whether the camera has the near and far between which window depths are defined: a finite far
+/// and, of a perspective camera, a near that is not its own position.
+bool has_clip_planes(const Camera& camera);
+
 }  // namespace fathom

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
-#include "fathom/failures/warnings.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
-#include "fathom/failures/warnings.h"
+#include "fathom/failures/errors.h"
 
 /// Cameras of other programs, converted to Fathom's; docs/conventions.md has the formulas. A lens
-/// with distortion is taken over where there is a model for it (lens_model.h); otherwise an import
+/// with distortion is taken over where there is a model for it (lens.h); otherwise an import
 /// reports the distortion that it leaves out, unless all its parameters are exactly 0. Entries that
 /// follow from a formula (quaternions, inverses, projection matrices, focal lengths of angles) are
 /// the exact numbers, rounded to binary64 once (docs/conventions.md#rounding).

@@ -4,8 +4,7 @@
 #include <string>
 
 #include "fathom/camera/camera_making_internal.h"
-#include "fathom/camera/focal_length.h"
-#include "fathom/camera/sine_cosine.h"
+#include "fathom/camera/rounded_angles.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"

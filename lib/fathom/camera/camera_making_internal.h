@@ -4,7 +4,7 @@
 #include <string>
 
 #include "fathom/camera/camera_making.h"
-#include "fathom/camera/rounded_poses.h"
+#include "fathom/camera/pose.h"
 
 /// What all cameras made from a description share, whether they look at a point or have to see a
 /// whole scene (scene/framing.h).

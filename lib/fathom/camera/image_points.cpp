@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "fathom/camera/rounded_poses.h"
+#include "fathom/camera/pose.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/certified_rounding.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "fathom/camera/camera.h"
-#include "fathom/camera/point_frame.h"
+#include "fathom/camera/pose.h"
 #include "fathom/numeric/double_word.h"
 
 /// Between the world and the image, point by point. Each number that is returned is the exact one,

@@ -1,8 +1,9 @@
+
 #include "fathom/camera/pose.h"
 
-#include "fathom/camera/rounded_poses.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/certified.h"
+#include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
@@ -28,3 +29,96 @@ Pose camera_to_world(const Pose& world_to_camera) {
 }
 
 }  // namespace fathom
+
+namespace fathom::camera {
+
+std::array<double, 3> unit_vector(const ExactVector3& v) {
+  const Dyadic squared_length = dot(v, v);
+  // vᵢ/|v| = ±√(vᵢ²/v·v): one square root of a rational, rounded once.
+  const auto entry = [&](int i) {
+    const double magnitude = round_sqrt_to_binary64(Ratio(v[i] * v[i], squared_length));
+    return v[i].sign() == Sign::negative ? -magnitude : magnitude;
+  };
+  return {entry(0), entry(1), entry(2)};
+}
+
+namespace {
+
+/// The rotation of a quaternion times n, the square of its length.
+struct ScaledRotation {
+  std::array<ExactVector3, 3> rows;
+  Dyadic n;
+};
+
+ScaledRotation scaled_rotation_of(const std::array<double, 4>& quaternion) {
+  const Dyadic w = quaternion[0], x = quaternion[1], y = quaternion[2], z = quaternion[3];
+  const auto twice = [](const Dyadic& a) { return a + a; };
+  return {{{{w * w + x * x - y * y - z * z, twice(x * y - w * z), twice(x * z + w * y)},
+            {twice(x * y + w * z), w * w - x * x + y * y - z * z, twice(y * z - w * x)},
+            {twice(x * z - w * y), twice(y * z + w * x), w * w - x * x - y * y + z * z}}},
+          w * w + x * x + y * y + z * z};
+}
+
+}  // namespace
+
+Matrix3 rotation_of(const std::array<double, 4>& quaternion) {
+  const auto [rows, n] = scaled_rotation_of(quaternion);
+  Matrix3 R;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) R[i][k] = round_to_binary64(Ratio(rows[i][k], n));
+  return R;
+}
+
+Pose view_from(const ExactVector3& eye, const std::array<double, 4>& quaternion) {
+  const auto [rows, n] = scaled_rotation_of(quaternion);
+  Pose view;
+  for (int i = 0; i < 3; ++i) {
+    const ExactVector3 column{rows[0][i], rows[1][i], rows[2][i]};
+    for (int k = 0; k < 3; ++k) view[i][k] = round_to_binary64(Ratio(column[k], n));
+    view[i][3] = round_to_binary64(Ratio(-dot(column, eye), n));
+  }
+  return view;
+}
+
+ExactVector3 rotate(const Matrix3& R, const ExactVector3& X) {
+  const auto row = [&](int i) { return dot(ExactVector3{R[i][0], R[i][1], R[i][2]}, X); };
+  return {row(0), row(1), row(2)};
+}
+
+Pose pose_that_takes(const Matrix3& R, const ExactVector3& X, const ExactVector3& target) {
+  const ExactVector3 rotated = rotate(R, X);
+  Pose pose;
+  for (int i = 0; i < 3; ++i)
+    pose[i] = {R[i][0], R[i][1], R[i][2], round_to_binary64(Ratio(target[i] - rotated[i]))};
+  return pose;
+}
+
+// The rows of the adjugate are the cross products of the columns of A.
+Adjugate adjugate(const Pose& pose) {
+  const auto column = [&](std::size_t k) {
+    return ExactVector3{pose[0][k], pose[1][k], pose[2][k]};
+  };
+  const ExactVector3 a0 = column(0), a1 = column(1), a2 = column(2);
+  return {{cross(a1, a2), cross(a2, a0), cross(a0, a1)}, determinant(a0, a1, a2), column(3)};
+}
+
+std::optional<std::array<std::array<Ratio, 4>, 3>> exact_inverse(const Pose& pose) {
+  const auto [rows, det, b] = adjugate(pose);
+  if (det.is_zero()) return std::nullopt;
+  std::array<std::array<Ratio, 4>, 3> inverse;
+  for (std::size_t i = 0; i < 3; ++i)
+    inverse[i] = {Ratio(rows[i][0], det), Ratio(rows[i][1], det), Ratio(rows[i][2], det),
+                  Ratio(-dot(rows[i], b), det)};
+  return inverse;
+}
+
+std::optional<Pose> inverse(const Pose& pose) {
+  const auto exact = exact_inverse(pose);
+  if (!exact) return std::nullopt;
+  Pose rounded;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 4; ++k) rounded[i][k] = round_to_binary64((*exact)[i][k]);
+  return rounded;
+}
+
+}  // namespace fathom::camera

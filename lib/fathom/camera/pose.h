@@ -1,10 +1,22 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <string_view>
 
 #include "fathom/geometry/frames.h"
+#include "fathom/numeric/certified.h"
+#include "fathom/numeric/ratio.h"
 
 namespace fathom {
+
+/// Where points and directions are.
+enum class PointFrame { world, camera };
+inline constexpr std::array all_point_frames{PointFrame::world, PointFrame::camera};
+/// "world" or "camera".
+constexpr std::string_view name_of(PointFrame frame) {
+  return frame == PointFrame::world ? "world" : "camera";
+}
 
 /// Where a camera stands, or another affine map of points: [R | t], 3×4; R need not be a rotation.
 /// Every number is the real number that it denotes.
@@ -21,3 +33,41 @@ CameraPoint to_camera(const Pose& world_to_camera, const WorldPoint& X);
 Pose camera_to_world(const Pose& world_to_camera);
 
 }  // namespace fathom
+
+/// Poses whose entries are rounded once. Only for .cpp files of this module and of scene/.
+namespace fathom::camera {
+
+using Matrix3 = std::array<std::array<double, 3>, 3>;
+
+/// `v` scaled to length 1, each entry the exact one rounded to nearest. v must not be zero.
+std::array<double, 3> unit_vector(const ExactVector3& v);
+
+/// The rotation of a Hamilton quaternion (w, x, y, z) of any length but 0, each entry the exact one
+/// rounded once.
+Matrix3 rotation_of(const std::array<double, 4>& quaternion);
+
+/// World to camera, [R⁻¹ | −R⁻¹·eye], of a camera at `eye` whose axes in the world are the columns
+/// of that rotation R: each entry the exact one rounded once.
+Pose view_from(const ExactVector3& eye, const std::array<double, 4>& quaternion);
+
+/// R·X, exactly.
+ExactVector3 rotate(const Matrix3& R, const ExactVector3& X);
+
+/// [R | target − R·X]: the pose that takes the world point X to the camera point `target`; its
+/// translation is the exact one rounded once.
+Pose pose_that_takes(const Matrix3& R, const ExactVector3& X, const ExactVector3& target);
+
+/// Of a pose [A | b]: the rows of adj A, which are those of A⁻¹ times det A; det A; and b, exactly.
+struct Adjugate {
+  std::array<ExactVector3, 3> rows;
+  Dyadic determinant;
+  ExactVector3 translation;
+};
+Adjugate adjugate(const Pose& pose);
+
+/// [A⁻¹ | −A⁻¹·b] of a pose [A | b], exactly; nothing where A is singular.
+std::optional<std::array<std::array<Ratio, 4>, 3>> exact_inverse(const Pose& pose);
+/// The same, each entry rounded once.
+std::optional<Pose> inverse(const Pose& pose);
+
+}  // namespace fathom::camera

@@ -1,8 +1,10 @@
+
 #include "fathom/camera/sun_position.h"
 
 #include <cmath>
 #include <numbers>
 
+#include "fathom/camera/rounded_angles.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
@@ -61,6 +63,18 @@ SunPosition sun_position(const EarthPlace& place, UnixSeconds time) {
                to_north = north * cosine(place.latitude) - to_meridian * sine(place.latitude);
   return {turned(std::atan2(to_east, to_north) / degree),
           std::atan2(up, std::hypot(to_east, to_north)) / degree};
+}
+
+std::array<double, 3> compass_direction(double azimuth, double elevation) {
+  const StandardArithmetic standard;
+  if (!std::isfinite(azimuth)) throw UsageError("the azimuth is not finite");
+  if (!(elevation >= -90 && elevation <= 90)) {
+    throw UsageError("the elevation must be between -90 and 90 degrees");
+  }
+  const camera::SineCosine a = camera::sine_and_cosine(azimuth),
+                           e = camera::sine_and_cosine(elevation);
+  return {camera::rounded_product(e.cosine, a.sine), camera::rounded_product(e.cosine, a.cosine),
+          e.sine.rounded};
 }
 
 }  // namespace fathom

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace fathom {
@@ -35,5 +36,14 @@ inline constexpr UnixSeconds first_second_of_sun = -631152000, end_of_sun = 2556
 ///          outside these years.
 /// Source   [Mic88]
 SunPosition sun_position(const EarthPlace& place, UnixSeconds time);
+
+/// The direction of an azimuth and an elevation in degrees, as tables of the sun's position have
+/// them: x east, y north, z up. (The azimuth of a View turns the other way.)
+///
+/// azimuth    clockwise from north, seen from above: 0 is +y, 90 is +x; any finite number.
+/// elevation  above the horizon, −90 to 90.
+/// Exact      (cos e·sin a, cos e·cos a, sin e), each number rounded once.
+/// Fails      UsageError for an azimuth that is not finite and for another elevation.
+std::array<double, 3> compass_direction(double azimuth, double elevation);
 
 }  // namespace fathom

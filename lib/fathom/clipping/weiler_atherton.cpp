@@ -7,9 +7,8 @@
 #include "fathom/clipping/weiler_atherton/contacts.h"
 #include "fathom/clipping/weiler_atherton/nesting.h"
 #include "fathom/clipping/weiler_atherton/numbered_points.h"
+#include "fathom/clipping/weiler_atherton/side_contacts.h"
 #include "fathom/clipping/weiler_atherton/weiler_atherton_lists.h"
-#include "fathom/clipping/weiler_atherton/weiler_atherton_sides.h"
-#include "fathom/clipping/weiler_atherton/weiler_atherton_walk.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::clipping {

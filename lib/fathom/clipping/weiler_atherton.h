@@ -16,13 +16,13 @@
 ///                 (weiler_atherton_lists.h)
 ///   3  walk       from an entering contact along the subject to the next contact, which is
 ///                 leaving; there over to the clip list, along it to the next entering contact and
-///                 back to the subject, until the start is reached (weiler_atherton_walk.h). Rings
+///                 back to the subject, until the start is reached (weiler_atherton_lists.h). Rings
 ///                 without a crossing belong to the result or do not, as a whole
 ///   4  pieces     each clockwise ring goes to the outline around it (weiler_atherton/nesting.h)
 ///
 /// Degenerate contacts need two more things. Before, rings of one side that touch each other are
 /// made lists that bound one wedge of their polygon wherever they pass through a point, and edges
-/// that two of them share are dropped (weiler_atherton_sides.h). After, walks that pass through a
+/// that two of them share are dropped (side_contacts.h). After, walks that pass through a
 /// point again are made such lists too (weiler_atherton/nesting.h). Nothing is moved: where edges
 /// of subject and clip run along each other, the *order* of edges about a point is that of a
 /// subject that lies a little further inside itself (for a union, outside itself), and that alone

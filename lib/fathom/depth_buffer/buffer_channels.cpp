@@ -3,7 +3,7 @@
 #include <bit>
 #include <limits>
 
-#include "fathom/numeric/binary16.h"
+#include "fathom/numeric/rounding.h"
 
 namespace fathom::depth_buffer {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "fathom/depth_format/stored_depth.h"
+#include "fathom/depth_format/encode.h"
 #include "fathom/image/depth_map.h"
 
 namespace fathom::depth_buffer {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "fathom/area/triangle_bands.h"
+#include "fathom/area/coverage_image.h"
 #include "fathom/depth_buffer/buffer_channels.h"
 #include "fathom/depth_buffer/depth_buffer.h"
 

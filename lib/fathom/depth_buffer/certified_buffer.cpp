@@ -8,9 +8,9 @@
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
-#include "fathom/triangle/certified_surfaces.h"
+#include "fathom/triangle/double_word_surface.h"
+#include "fathom/triangle/projected_triangle.h"
 #include "fathom/triangle/referee.h"
-#include "fathom/triangle/sampling.h"
 
 // How to read this file: fill_certified() at the end is the whole story; exact_buffer.cpp does the
 // same without bounds. Each value is tried in binary64, then in double-words, then in exact

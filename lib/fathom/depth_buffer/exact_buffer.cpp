@@ -7,7 +7,6 @@
 #include "fathom/depth_format/encode.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/projected_triangle.h"
-#include "fathom/triangle/sampling.h"
 
 // How to read this file: fill_exactly() at the end is the whole story. Every number is exact and
 // rounded once.

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/numeric/binary16.h"
 #include "fathom/numeric/certified_logarithm.h"
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/fused_multiply_add.h"
-#include "fathom/numeric/logarithm.h"
+#include "fathom/numeric/rounding.h"
+#include "fathom/numeric/transcendental.h"
 
 // Constants are exact numbers rounded to double-words, with errors below ε = epsilon<T>; binary64
 // takes their leading parts: also ε. Everything else is Certified, whose operations carry the

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "fathom/depth_format/depth_format.h"
-#include "fathom/depth_format/stored_depth.h"
+#include "fathom/depth_format/encode.h"
 #include "fathom/numeric/certified_value.h"
 
 /// encode() and decode() in floating point, with proved bounds: they return the exact result, or

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fathom/failures/errors.h"
-#include "fathom/failures/other_names.h"
+#include "fathom/failures/unknown_name.h"
 
 namespace fathom {
 namespace {

@@ -1,14 +1,54 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "fathom/depth_format/depth_format.h"
-#include "fathom/depth_format/stored_depth.h"
 #include "fathom/numeric/real.h"
+
+namespace fathom {
+
+/// A stored depth value in [0, 1]: the code of a unorm storage, the bits of a float storage. In
+/// both kinds greater values have greater `bits`, and neighbouring values have `bits` that differ
+/// by one. It does not know its storage.
+struct StoredDepth {
+  std::uint64_t bits = 0;
+  friend constexpr bool operator==(StoredDepth, StoredDepth) = default;
+  friend constexpr bool operator<(StoredDepth a, StoredDepth b) { return a.bits < b.bits; }
+  friend constexpr bool operator>(StoredDepth a, StoredDepth b) { return a.bits > b.bits; }
+};
+
+/// The stored value 1, the greatest; the least is 0.
+StoredDepth greatest_stored(Storage storage);
+
+/// The number in [0, 1] that a stored value represents; exact.
+Ratio value_of(Storage storage, StoredDepth stored);
+
+/// The stored value nearest to a number in [0, 1], ties to even.
+/// Throws std::domain_error outside [0, 1].
+StoredDepth round_to_storage(Storage storage, const Real& value);
+
+/// The number halfway between a stored value, which must not be the greatest, and the next greater
+/// one, where rounding steps.
+Ratio boundary_above(Storage storage, StoredDepth stored);
+
+// Depth buffers as OpenGL describes and reads them.
+
+/// The storage of an attachment for which OpenGL reports so many bits per depth, as integers or
+/// floating-point numbers.
+///
+/// Fails    InputError unless it has 16, 24 or 32 bits or is binary32.
+Storage storage_of_attachment(int bits, bool is_floating_point);
+
+/// The window depth, 0 to 1, of an integer as glReadPixels returns it for a unorm storage: 16 bits
+/// as GL_UNSIGNED_SHORT, otherwise GL_UNSIGNED_INT, in which OpenGL puts 24 bits into the upper
+/// bits.
+///
+/// Exact    rounded once.
+double window_depth_of_pixel(Storage storage, std::uint32_t pixel);
 
 /// The map f of a depth format and its inverse, exactly. Neither depends on the storage or on
 /// whether the depth is between near and far.
-namespace fathom {
 
 /// f(D), for D > 0, and D ≥ near for log-ulrich.
 Real stored_value(const DepthFormat& format, const Ratio& depth);

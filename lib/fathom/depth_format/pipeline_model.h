@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "fathom/depth_format/stored_depth.h"
+#include "fathom/depth_format/encode.h"
 
 /// A graphics pipeline's computation of a depth before it is stored: matrices, transform, division
 /// and interpolation in binary32, each operation rounded (specification, section 9). Every source

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <span>
 
-#include "fathom/evaluation/placed_cloud.h"
+#include "fathom/evaluation/placed_points.h"
 #include "fathom/threads/interruption.h"
 #include "fathom/threads/threads.h"
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "fathom/evaluation/bounds.h"
+#include "fathom/evaluation/box_tree.h"
 #include "fathom/numeric/certified.h"
 
 namespace fathom::evaluation {

@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "fathom/evaluation/box_tree.h"
-#include "fathom/evaluation/placed_cloud.h"
-#include "fathom/evaluation/surface_points.h"
+#include "fathom/evaluation/placed_points.h"
 #include "fathom/geometry/frames.h"
 #include "fathom/numeric/ratio.h"
 

@@ -4,7 +4,7 @@
 
 #include "fathom/evaluation/box_tree.h"
 #include "fathom/evaluation/nearest_surface.h"
-#include "fathom/evaluation/placed_cloud.h"
+#include "fathom/evaluation/placed_points.h"
 #include "fathom/failures/errors.h"
 #include "fathom/rays/camera_sight.h"
 #include "fathom/rays/ray_tree.h"

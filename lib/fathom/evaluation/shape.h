@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
+#include "fathom/evaluation/placed_points.h"
 #include "fathom/evaluation/surface_distances.h"
-#include "fathom/evaluation/surface_points.h"
 #include "fathom/numeric/ratio.h"
 #include "fathom/scene/scene.h"
 

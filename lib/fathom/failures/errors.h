@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 /// The three ways in which a user's request can fail. The message is one line: what is wrong and
 /// what was expected, beginning with "FILE: " or "FILE: line N: " if a file is to blame.
@@ -45,5 +46,8 @@ class OutputError : public Error {
  public:
   using Error::Error;
 };
+
+/// What a reader noticed that is not an error: one line each, with a count if it recurs.
+using Warnings = std::vector<std::string>;
 
 }  // namespace fathom

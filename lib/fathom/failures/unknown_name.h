@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <ranges>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,5 +58,19 @@ std::optional<std::ranges::range_value_t<Values>> value_named(const Values& valu
     if (name_of(value) == name) return value;
   return std::nullopt;
 }
+
+/// What other programs and people call a thing, in small letters and digits alone, and its name.
+struct OtherName {
+  std::string_view other, name;
+};
+
+/// The name that `others` lists for this one; nothing if there is none, or more than one.
+std::optional<std::string_view> name_meant_by(std::string_view name,
+                                              std::span<const OtherName> others);
+
+/// The failure for a name that is none of `names`. Unless the name is nearly one of them, it
+/// suggests those that `others` lists for it; upper case, hyphens and underscores do not matter.
+UnknownName unknown_name(const std::string& message, const std::string& name,
+                         std::vector<std::string> names, std::span<const OtherName> others);
 
 }  // namespace fathom

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "fathom/fast/channels/fast_output.h"
+#include "fathom/fast/channels/resolve.h"
 #include "fathom/fast/coverage/tile_coverage.h"
 #include "fathom/fast/render_lens.h"
 #include "fathom/fast/render_memory_parts.h"

@@ -1,10 +1,15 @@
+
 #include "fathom/fast/render_lens.h"
 
+#include <algorithm>
+#include <bit>
 #include <memory>
+#include <optional>
 #include <utility>
+#include <vector>
 
-#include "fathom/fast/channels/fast_output.h"
-#include "fathom/fast/lens_drawing.h"
+#include "fathom/fast/channels/resolve.h"
+#include "fathom/fast/lenses/lens_output.h"
 #include "fathom/fast/lenses/places.h"
 #include "fathom/fast/lenses/window.h"
 #include "fathom/fast/render_memory_parts.h"
@@ -12,6 +17,133 @@
 #include "fathom/rendering/map_of_camera.h"
 #include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"
+#include "fathom/threads/threads.h"
+
+namespace fathom::fast {
+using namespace triangle;
+
+namespace {
+
+/// The triangles of one side in tiles of the window, each once.
+class Gathered {
+ public:
+  Gathered(std::vector<TileEntry>& entries, std::vector<std::uint64_t>& taken,
+           std::uint32_t first_number)
+      : entries_(entries), taken_(taken), first_number_(first_number) {
+    entries_.clear();
+  }
+  ~Gathered() {
+    for (const TileEntry& entry : entries_) word_of(entry) = 0;
+  }
+  Gathered(const Gathered&) = delete;
+  Gathered& operator=(const Gathered&) = delete;
+
+  void add(const std::vector<Bins>& all_bins, std::uint32_t tile, Side side) {
+    for (const Bins& bins : all_bins) {
+      for (const TileEntry& entry : bins.in_tile(tile, side)) {
+        const std::uint64_t bit = std::uint64_t{1} << (entry.number - first_number_) % 64;
+        if (word_of(entry) & bit) continue;
+        word_of(entry) |= bit;
+        entries_.push_back(entry);
+      }
+    }
+  }
+  /// Leaves out what is certainly hidden by surfaces that are nowhere farther than a q.
+  void leave_out_behind(float farthest) {
+    const auto is_hidden = [&](const TileEntry& entry) {
+      return std::bit_cast<float>(entry.nearness & nearness_of_q) < farthest;
+    };
+    for (const TileEntry& entry : entries_)
+      if (is_hidden(entry)) word_of(entry) = 0;
+    std::erase_if(entries_, is_hidden);
+  }
+
+ private:
+  std::uint64_t& word_of(const TileEntry& entry) {
+    return taken_[(entry.number - first_number_) / 64];
+  }
+
+  std::vector<TileEntry>& entries_;
+  std::vector<std::uint64_t>& taken_;
+  std::uint32_t first_number_;
+};
+
+/// Calls visit(number) for the tiles of the window that an area meets.
+template <class Visit>
+void for_each_tile(const PixelBox& area, const TileGrid& grid, const Visit& visit) {
+  for (std::uint32_t row = area.first_row / Tile::size; row <= area.last_row / Tile::size; ++row) {
+    for (std::uint32_t column = area.first_column / Tile::size;
+         column <= area.last_column / Tile::size; ++column) {
+      visit(row * grid.columns + column);
+    }
+  }
+}
+
+void draw_side(LensTile& tile, Side side, const WindowScene& scene,
+               std::vector<std::uint64_t>& taken, const LensContext& context) {
+  const DrawContext& window = context.window;
+  Gathered gathered(window.visible.entries(), taken, scene.first_number);
+  for_each_tile(tile.where().area, scene.grid,
+                [&](std::uint32_t number) { gathered.add(scene.bins, number, side); });
+  if (side == Side::back && window.switches.early_rejection)
+    gathered.leave_out_behind(tile.farthest());
+  window.visible.for_each_part(tile.tile(), false, [&](std::span<const std::uint32_t> numbers) {
+    for_each_object(numbers, scene.objects,
+                    [&](const ImageObject& object, std::span<const std::uint32_t> of_object) {
+                      tile.draw(object, of_object, context);
+                    });
+  });
+}
+
+}  // namespace
+
+void draw_lens_tile(LensTile& tile, const WindowScene& scene, std::vector<std::uint64_t>& taken,
+                    const LensContext& context) {
+  draw_side(tile, Side::front, scene, taken, context);
+  tile.begin_back_faces();
+  draw_side(tile, Side::back, scene, taken, context);
+}
+
+bool is_met(const PixelBox& area, const WindowScene& scene) {
+  bool met = false;
+  for_each_tile(area, scene.grid,
+                [&](std::uint32_t number) { met = met || is_met(scene.bins, number); });
+  return met;
+}
+
+void write_valid(const Places& places, const TileGrid& image, std::uint32_t* valid) {
+  if (valid == nullptr) return;
+  parallel_for(std::uint32_t{0}, image.count(), [&](std::uint32_t tile) {
+    const PixelBox area = image.area(tile);
+    for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
+      for (std::uint32_t column = area.first_column; column <= area.last_column; ++column) {
+        const std::size_t i = Tile::index(column - area.first_column, row - area.first_row);
+        valid[std::size_t{row} * image.width + column] = places.has_ray(tile, i) ? 1 : 0;
+      }
+    }
+  });
+}
+
+void add_view(Rendered& rendered, const FastWorkers& workers, const TriangleSource& triangles,
+              const Camera& camera) {
+  RenderStatistics of_view = sum_of(workers, triangles.count());
+  if (rendered.statistics.triangles != 0)
+    of_view.triangles = of_view.degenerate_triangles = of_view.culled_triangles = 0;
+  add(rendered.statistics, of_view);
+  const std::vector<std::uint64_t> doubtful = doubtful_pixels(workers, camera);
+  rendered.doubtful.insert(rendered.doubtful.end(), doubtful.begin(), doubtful.end());
+}
+
+Rendered write_ray_by_ray(const TriangleSource& triangles, const Camera& camera,
+                          const RenderOptions& options, DepthMap map, const Places& places) {
+  ChannelWriter writer(map, triangles, camera, options);
+  RenderStatistics statistics;
+  statistics.triangles = triangles.count();
+  FirstFault fault;
+  RayByRay{triangles, camera, options.cull, places.preimages()}.write(writer, statistics, fault);
+  if (fault.get()) fail(*fault.get(), map);
+  return {std::move(map), statistics, {}};
+}
 
 // How to read this file: LensImage::draw() is the whole story. Places contains where the rays of
 // all samples meet a plane at distance 1: of a lens of the plane z = 1, of others in one of six
@@ -19,9 +151,8 @@
 // transformed to the window and triangles sorted into its tiles, as without a lens. Each tile of
 // the image draws the triangles of those tiles of the window in which its samples lie (lens_tile),
 // and writes the visible surfaces (lens_output).
-namespace fathom::fast {
+
 using namespace rendering;
-using namespace triangle;
 
 namespace {
 
@@ -137,6 +268,145 @@ Rendered render_lens(const Scene& scene, const Camera& camera, const RenderOptio
       return render_ray_by_ray(scene, camera, options, context, places, std::move(before));
     return render_in_windows(scene, camera, options, context, places, memory, std::move(before));
   });
+}
+
+// How to read this file: StreamedView::draw() is the whole story. It does with some triangles at a
+// time what LensImage (render_lens.cpp) does with all; the tiles of a band keep what is visible so
+// far.
+
+namespace {
+
+constexpr std::uint32_t parts_of_chunk = 8;
+
+/// A tile of a lens that waits for further triangles.
+struct WaitingTile {
+  WaitingTile(const Window& window, const Places& places, const Places::View& view,
+              const TileGrid& image, std::uint32_t number) {
+    const Places::OfTile of_tile = places.of_tile(view, number, room);
+    tile.start(image.area(number), of_tile, TileInWindow(window, of_tile));
+  }
+
+  Places::Room room;
+  LensTile tile;
+};
+constexpr std::uint64_t bytes_of_tile = sizeof(WaitingTile) + Tile::most_packed_bytes;
+
+/// What all views share.
+struct StreamedImage {
+  const TriangleSource& triangles;
+  const Camera& camera;
+  const RenderOptions& options;
+  const StreamLimits& limits;
+  const Places& places;
+  TileGrid grid;
+  PerThread<LensWorker>& workers;
+  FirstFault& fault;
+};
+
+/// One view of the image.
+class StreamedView {
+ public:
+  StreamedView(const StreamedImage& image, const Places::View& view)
+      : image_(image),
+        view_(view),
+        window_(image.camera, view),
+        frame_(window_.camera, image.options),
+        rays_(image.triangles, window_.camera),
+        workers_([this] { return FastWorker(image_.triangles, window_.camera, rays_); }),
+        sorting_again_([this] { return FastWorker(image_.triangles, window_.camera, rays_); }) {
+    frame_.by_area = true;  // samples lie anywhere in a window's pixels
+    frame_.range = window_.range;
+  }
+
+  /// Draws and writes rows [first_row, end_row) of tiles; the first of them counts triangles.
+  void draw(std::uint32_t first_row, std::uint32_t end_row) {
+    const std::uint32_t first = first_row * image_.grid.columns;
+    std::vector<std::unique_ptr<WaitingTile>> tiles((end_row - first_row) * image_.grid.columns);
+    image_.triangles.for_each_part(
+        image_.limits.triangles_at_once, [&](const TriangleSource::Part& part) {
+          draw_part(part, first, tiles, first_row == 0 ? workers_ : sorting_again_);
+        });
+    parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
+      if (!tiles[i]) return;
+      const DrawContext context = frame_.context(workers_.local());
+      image_.fault.add(image_.workers.local().output.write(tiles[i]->tile, lens_of(context)));
+    });
+  }
+  [[nodiscard]] const FastWorkers& workers() const { return workers_; }
+
+ private:
+  [[nodiscard]] LensContext lens_of(const DrawContext& context) const {
+    return {context, image_.workers.local().referee, image_.places.preimages(), window_.axes};
+  }
+
+  void draw_part(const TriangleSource::Part& part, std::uint32_t first,
+                 std::vector<std::unique_ptr<WaitingTile>>& tiles, FastWorkers& sorting) {
+    ImageObjects objects;
+    objects.emplace_back(part.object, part.mesh, window_.camera, part.first_number);
+    const std::vector<Bins> bins = sort_into_tiles(
+        objects, part.first_number, objects.front().end_number(), parts_of_chunk, frame_, sorting);
+    const WindowScene scene{objects, bins, frame_.grid, part.first_number};
+    parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
+      const std::uint32_t number = first + static_cast<std::uint32_t>(i);
+      if (view_.boxes[number].is_empty()) return;
+      if (!tiles[i])
+        tiles[i] =
+            std::make_unique<WaitingTile>(window_, image_.places, view_, image_.grid, number);
+      LensTile& tile = tiles[i]->tile;
+      if (!is_met(tile.where().area, scene)) return;
+      const DrawContext context = frame_.context(workers_.local());
+      draw_lens_tile(tile, scene, image_.workers.local().taken, lens_of(context));
+      tile.tile().pack();
+    });
+  }
+
+  const StreamedImage& image_;
+  const Places::View& view_;
+  Window window_;
+  FastFrame frame_;
+  SceneRays rays_;
+  /// Those of the second sort triangles again, which their statistics would count twice.
+  FastWorkers workers_, sorting_again_;
+};
+
+/// Rows of tiles of a band: as many as fit into the memory, at least one.
+std::uint32_t rows_of_band(const TileGrid& grid, const StreamLimits& limits) {
+  const std::uint64_t rows = limits.tile_bytes / (bytes_of_tile * grid.columns);
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(rows, 1, grid.rows));
+}
+
+}  // namespace
+
+Rendered render_lens_streamed(const StreamedScene& scene, const Camera& camera,
+                              const RenderOptions& options, const StreamLimits& limits,
+                              const RenderContext& context) {
+  const TriangleSource triangles(scene);
+  const Places places(camera.projection, camera.width, camera.height);
+  DepthMap map = make_background(camera, options, context);
+  if (!places.are_usable())
+    return write_ray_by_ray(triangles, camera, options, std::move(map), places);
+  ChannelWriter writer(map, triangles, camera, options);
+  const TileGrid grid(camera.width, camera.height);
+  write_valid(places, grid, writer.values().valid);
+  PerThread<LensWorker> workers(
+      [&] { return LensWorker(triangles, camera, writer, limits.triangles_at_once); });
+  FirstFault fault;
+  const StreamedImage image{triangles, camera, options, limits, places, grid, workers, fault};
+  Progress progress(context.progress, grid.rows * places.views().size());
+  Rendered rendered;
+  for (const Places::View& each : places.views()) {
+    StreamedView view(image, each);
+    const std::uint32_t rows = rows_of_band(grid, limits);
+    for (std::uint32_t row = 0; row < grid.rows; row += rows) {
+      const std::uint32_t end = std::min(row + rows, grid.rows);
+      view.draw(row, end);
+      for (std::uint32_t i = row; i < end; ++i) progress.part_done();
+    }
+    add_view(rendered, view.workers(), triangles, camera);
+  }
+  if (fault.get()) fail(*fault.get(), map);
+  rendered.map = std::move(map);
+  return rendered;
 }
 
 }  // namespace fathom::fast

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "fathom/fast/channels/fast_output.h"
+#include "fathom/fast/channels/resolve.h"
 #include "fathom/fast/rounds/coverage_in_rounds.h"
 #include "fathom/fast/rounds/tile_store.h"
 #include "fathom/fast/tiles/frame.h"

@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "fathom/failures/errors.h"
-#include "fathom/fast/channels/fast_output.h"
+#include "fathom/fast/channels/resolve.h"
+#include "fathom/fast/render_lens.h"
 #include "fathom/fast/rounds/coverage_in_rounds.h"
-#include "fathom/fast/stream_lens.h"
 #include "fathom/fast/tiles/frame.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/rendering/map_of_camera.h"

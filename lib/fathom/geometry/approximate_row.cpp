@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/numeric/certified_arithmetic.h"
+#include "fathom/numeric/certified_value.h"
 
 namespace fathom {
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "fathom/failures/errors.h"
-#include "fathom/failures/other_names.h"
+#include "fathom/failures/unknown_name.h"
 #include "fathom/image/channel_table.h"
 #include "fathom/image/files/npy_array.h"
 

@@ -8,7 +8,6 @@
 #include "fathom/failures/unknown_name.h"
 #include "fathom/image/channel_table.h"
 #include "fathom/image/depth_map.h"
-#include "fathom/image/map_texts.h"
 
 /// Names of channels: first those that other programs look for, then errors about names.
 ///
@@ -21,7 +20,7 @@ struct ChannelName {
   std::string channel, in_file;
 };
 
-/// The map with these channels called otherwise, and the text channel_names_text (map_texts.h),
+/// The map with these channels called otherwise, and the text channel_names_text (depth_map.h),
 /// "Z=Y,distance=D", by which read_map() gives them their own names back. Files of PFM and NPY name
 /// no channel.
 /// Fails    UsageError if there is no such channel, it is named twice, a name is empty or holds one

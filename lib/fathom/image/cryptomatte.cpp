@@ -1,7 +1,9 @@
+
 #include "fathom/image/cryptomatte.h"
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <numeric>
 #include <set>
 #include <string_view>
@@ -96,6 +98,153 @@ void add_mattes(DepthMap& map, const Mattes& mattes) {
   map.texts[key + "/hash"] = "MurmurHash3_32";
   map.texts[key + "/conversion"] = "uint32_to_float32";
   map.texts[key + "/manifest"] = manifest_of(mattes.names);
+}
+
+namespace {
+
+using image::matte_channel;
+
+constexpr std::string_view prefix = "cryptomatte/", suffix = "/name";
+
+/// The names of a layer's channels that a map has, up to a level that lacks one of the four.
+std::vector<std::string> channels_of(const DepthMap& map, const std::string& layer) {
+  std::vector<std::string> names;
+  for (std::size_t level = 0;; ++level) {
+    for (const char component : {'R', 'G', 'B', 'A'}) {
+      names.push_back(matte_channel(layer, level, component));
+      if (map.values<float>(names.back()) == nullptr) {
+        names.resize(4 * level);
+        return names;
+      }
+    }
+  }
+}
+
+/// Ids are in R and B, their coverages in G and A.
+void take_shares(const DepthMap& map, MatteLayer& layer) {
+  std::vector<const Samples<float>*> values;
+  for (const std::string& name : layer.channels) values.push_back(map.values<float>(name));
+  layer.counts.assign(values.front()->size(), 0);
+  for (std::size_t pixel = 0; pixel < layer.counts.size(); ++pixel) {
+    for (std::size_t k = 0; k < values.size(); k += 2) {
+      const float coverage = (*values[k + 1])[pixel];
+      if (!(coverage > 0)) break;
+      layer.shares.push_back({std::bit_cast<std::uint32_t>((*values[k])[pixel]), coverage});
+      ++layer.counts[pixel];
+    }
+  }
+}
+
+/// {"spot":"3ae39a58"}; entries that are no ids are left out.
+void take_manifest(const std::string& manifest, MatteLayer& layer) {
+  const auto members = text::string_members_of_json(manifest);
+  if (!members) return;
+  for (const auto& [name, digits] : *members) {
+    std::uint32_t id = 0;
+    const char* const end = digits.data() + digits.size();
+    const auto [rest, error] = std::from_chars(digits.data(), end, id, 16);
+    if (error == std::errc() && rest == end) layer.names.try_emplace(id, name);
+  }
+}
+
+void name_unknown_ids(MatteLayer& layer) {
+  for (const MatteShare& share : layer.shares) {
+    if (!layer.names.contains(share.id))
+      layer.names[share.id] = "0x" + image::in_hexadecimal(share.id);
+  }
+}
+
+/// The numbers of the names, in their alphabetical order.
+std::map<std::uint32_t, std::uint32_t> numbers_of(const MatteLayer& layer) {
+  std::vector<std::pair<std::string_view, std::uint32_t>> sorted;
+  for (const auto& [id, name] : layer.names) sorted.emplace_back(name, id);
+  std::ranges::sort(sorted);
+  std::map<std::uint32_t, std::uint32_t> numbers;
+  for (const auto& [name, id] : sorted) {
+    numbers.emplace(id, static_cast<std::uint32_t>(numbers.size()));
+  }
+  return numbers;
+}
+
+std::vector<std::string> in_order(const MatteLayer& layer,
+                                  const std::map<std::uint32_t, std::uint32_t>& numbers) {
+  std::vector<std::string> names(numbers.size());
+  for (const auto& [id, number] : numbers) names[number] = layer.names.at(id);
+  return names;
+}
+
+/// Adds the channels of a layer to a map of its size.
+void add_names(const MatteLayer& layer, DepthMap& map) {
+  const auto numbers = numbers_of(layer);
+  const std::size_t pixels = layer.counts.size();
+  const std::uint32_t most = layer.counts.empty() ? 0 : *std::ranges::max_element(layer.counts);
+  for (std::uint32_t rank = 0; rank < std::max(most, 1U); ++rank) {
+    Samples<std::uint32_t> shown(pixels, no_surface);
+    Samples<float> coverage(pixels);
+    std::size_t first = 0;
+    for (std::size_t pixel = 0; pixel < pixels; first += layer.counts[pixel++]) {
+      if (rank >= layer.counts[pixel]) continue;
+      const MatteShare& share = layer.shares[first + rank];
+      shown[pixel] = numbers.at(share.id);
+      coverage[pixel] = share.coverage;
+    }
+    const std::string name = rank == 0 ? layer.name : layer.name + "." + std::to_string(rank + 1);
+    map.channels.push_back({name, std::move(shown)});
+    map.channels.push_back({name + ".coverage", std::move(coverage)});
+    map.tables[name] = in_order(layer, numbers);
+  }
+}
+
+/// Whether a channel already has a name that add_names() would give.
+bool has_channels_of(const DepthMap& map, const std::string& layer) {
+  return std::ranges::any_of(map.channels, [&](const ImageChannel& channel) {
+    return channel.name == layer || channel.name.starts_with(layer + ".");
+  });
+}
+
+}  // namespace
+
+std::vector<MatteLayer> matte_layers(const DepthMap& map) {
+  const StandardArithmetic standard;
+  require_valid(map);
+  std::vector<MatteLayer> layers;
+  for (const auto& [key, name] : map.texts) {
+    if (!key.starts_with(prefix) || !key.ends_with(suffix)) continue;
+    MatteLayer layer{.name = name, .channels = channels_of(map, name)};
+    if (layer.channels.empty()) continue;
+    take_shares(map, layer);
+    const auto manifest = map.texts.find(key.substr(0, key.size() - suffix.size()) + "/manifest");
+    if (manifest != map.texts.end()) take_manifest(manifest->second, layer);
+    name_unknown_ids(layer);
+    layers.push_back(std::move(layer));
+  }
+  return layers;
+}
+
+std::vector<MatteExtent> extents(const MatteLayer& layer) {
+  const StandardArithmetic standard;
+  const auto numbers = numbers_of(layer);
+  std::vector<MatteExtent> found;
+  for (const std::string& name : in_order(layer, numbers)) found.push_back({.name = name});
+  for (const MatteShare& share : layer.shares) {
+    MatteExtent& extent = found[numbers.at(share.id)];
+    ++extent.pixels;
+    extent.area += double{share.coverage};
+  }
+  std::erase_if(found, [](const MatteExtent& extent) { return extent.pixels == 0; });
+  return found;
+}
+
+DepthMap with_matte_names(DepthMap map) {
+  const StandardArithmetic standard;
+  for (const MatteLayer& layer : matte_layers(map)) {
+    if (has_channels_of(map, layer.name)) continue;
+    std::erase_if(map.channels, [&](const ImageChannel& channel) {
+      return std::ranges::find(layer.channels, channel.name) != layer.channels.end();
+    });
+    add_names(layer, map);
+  }
+  return map;
 }
 
 }  // namespace fathom

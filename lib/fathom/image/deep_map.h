@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "fathom/image/map_files.h"
@@ -41,5 +44,23 @@ void check_deep_compression(Compression compression);
 ///          threads.
 void write_deep_map(const DeepMap& map, const std::filesystem::path& path,
                     Compression compression = Compression::zips, int threads = 0);
+
+/// Reads a deep map back that write_deep_map() has written, bit for bit; also a file of another
+/// program that has the same channels. Nothing is allocated for more samples than the file can
+/// hold, or than `memory` allows.
+/// Fails    InputError: "PATH: what is wrong and what was expected".
+DeepMap read_deep_map(const std::filesystem::path& path, const MapMemory& memory = {});
+/// The same of a file that has been read already; `name` is its name for messages.
+DeepMap read_deep_map(std::span<const std::byte> bytes, const std::string& name,
+                      const MapMemory& memory = {});
+
+/// Whether a file begins as a deep EXR of one part does.
+bool is_deep_map(std::span<const std::byte> bytes);
+
+/// What can be drawn of a deep map, with its names and texts: `samples`, the number of samples at
+/// each pixel; `Z`, `ZBack` and `id` of the first, the nearest; and `A`, the sum of their areas.
+/// Background as of rendered maps.
+/// Needs    as many counts as pixels, and as many samples as they say.
+DepthMap flat_map(const DeepMap& deep);
 
 }  // namespace fathom

@@ -8,7 +8,6 @@
 
 #include "fathom/camera/camera_files.h"
 #include "fathom/failures/errors.h"
-#include "fathom/image/map_texts.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/counted.h"
 

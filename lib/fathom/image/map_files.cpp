@@ -7,7 +7,6 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
-#include "fathom/image/background.h"
 #include "fathom/image/channel_names.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/npy_array.h"

@@ -10,7 +10,7 @@
 
 #include "fathom/image/depth_map.h"
 #include "fathom/image/map_formats.h"
-#include "fathom/image/normal_codes.h"
+#include "fathom/image/png_files.h"
 #include "fathom/memory/available_memory.h"
 
 namespace fathom {
@@ -57,7 +57,7 @@ double memory_to_encode(MapFormat format, Compression compression, std::uint32_t
 ///   PFM   one binary32 channel, bottom row first, little endian, scale −1.
 ///   PNG   one channel of 16-bit codes, big endian as always in PNG, with the scale as text chunk
 ///         `fathom:scale`, attributes as text chunks; or identifiers up to 65534; or normals as
-///         RGB (normal_codes.h).
+///         RGB (png_files.h).
 ///   NPY   one channel, C order, shape (height, width), version 1.0; one of several parts, of one
 ///         type, has shape (height, width, parts).
 ///   NPZ   every channel as such an array, in a ZIP archive without compression, of less than 4

@@ -5,7 +5,7 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/failures/unknown_name.h"
-#include "fathom/text/small_letters.h"
+#include "fathom/text/ascii.h"
 
 namespace fathom {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/camera/point_frame.h"
+#include "fathom/camera/pose.h"
 #include "fathom/image/convert.h"
 
 namespace fathom {

@@ -2,8 +2,10 @@
 
 #include <array>
 
+#include "fathom/lens/polynomial_stage.h"
 #include "fathom/lens/sample_plane.h"
 #include "fathom/lens/stage.h"
+#include "fathom/numeric/interval.h"
 
 /// The preimages of a point under a stage as roots of one polynomial, over any arithmetic.
 ///
@@ -11,9 +13,9 @@
 /// If G(m) = y and q = |m|², then w = y − q·b(q) is known, and m is w/A with A = L + 2p·m. With
 /// W = |w|², elimination of A gives
 ///   F(q) = q·N²·W − D²·(W − 2q·p·w)² = 0,   m = q·N·w / (D·(W − 2q·p·w)).
-/// For y ≠ 0, F is negative at 0. In the disc (disc.h) it changes its sign once at most, at the
-/// preimage: A is positive there, which makes other zeroes (where w = 0) minima with the value 0,
-/// beyond the preimage.
+/// For y ≠ 0, F is negative at 0. In the disc (polynomial_stage.h) it changes its sign once at
+/// most, at the preimage: A is positive there, which makes other zeroes (where w = 0) minima with
+/// the value 0, beyond the preimage.
 namespace fathom::lens {
 
 template <class T>
@@ -35,5 +37,20 @@ Elimination<T> eliminate(const StageNumbers<T>& n, const HomogeneousPoint<T>& y,
   const T D_rest = D * rest, Nqc = N * qc;
   return {Nqc * N * y.c * W - D_rest * D_rest, {Nqc * wx, Nqc * wy, D_rest}};
 }
+
+enum class Existence { yes, no, unknown };
+
+/// The root of F (elimination.h) in the disc, as far as binary64 can tell.
+struct RootEstimate {
+  Existence existence = Existence::unknown;
+  /// F is negative at `low` and positive at `high`, both in the disc.
+  double low = 0, high = 0;
+  /// Contains (m, 1).
+  std::array<Interval, 3> box{};
+};
+
+/// Of y ≠ 0. All that is stated is proved by bounds on rounding errors; near the edge of the disc,
+/// or with very large or small numbers, nothing is.
+RootEstimate estimate_root(const PolynomialStage& stage, const DistortedPoint& y);
 
 }  // namespace fathom::lens

@@ -1,11 +1,110 @@
+
 #include "fathom/lens/polynomial_stage.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
-#include "fathom/lens/disc.h"
+#include "fathom/lens/definiteness.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::lens {
+namespace {
+
+using Verdict = Definiteness::Verdict;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double greatest = std::numeric_limits<double>::max();
+
+// With f(r) = r·L(r²) the eigenvalues of the Jacobian are f' and f/r, and f/r is positive as long
+// as f' is. D²·f' is a polynomial in q.
+double radial_disc(const Definiteness& stage) {
+  return greatest_before_positive_root(stage.radial_slope() * stage.denominator())
+      .value_or(infinity);
+}
+
+/// Finds the disc of a stage with tangential or prism terms.
+class DiscSearch {
+ public:
+  explicit DiscSearch(const Definiteness& stage)
+      : stage_(stage),
+        inner_(stage.inner_bound().value_or(0)),
+        outer_(stage.outer_bound().value_or(infinity)),
+        pole_(greatest_before_positive_root(stage.denominator()).value_or(infinity)) {}
+
+  /// A candidate is the last circle before the first one that is not regular; then the ring inside
+  /// it is looked at as a whole.
+  [[nodiscard]] double run() const {
+    if (inner_ == 0) return 0;
+    if (inner_ >= pole_) return pole_;
+    double candidate = first_candidate();
+    while (candidate > inner_) {
+      const Definiteness::RingVerdict ring = verdict_on(candidate);
+      if (ring.verdict == Verdict::holds) return candidate;
+      const double singular = ring.verdict == Verdict::fails ? enclose(ring.q).upper : infinity;
+      if (ring.verdict == Verdict::unknown || stage_.holds_on_circle(singular))
+        return greatest_proved_below(candidate);
+      candidate = last_regular(inner_, singular);
+    }
+    return inner_;
+  }
+
+ private:
+  [[nodiscard]] Definiteness::RingVerdict verdict_on(double candidate) const {
+    const double end = std::min(candidate, outer_);
+    if (end <= inner_) return {Verdict::holds, {}};
+    return stage_.holds_on_ring(inner_, std::min(end, greatest));
+  }
+
+  /// Circles are tried at steps of the factor 2.
+  [[nodiscard]] double first_candidate() const {
+    const double end = std::min({pole_, outer_, greatest});
+    double regular = inner_;
+    while (regular < end) {
+      const double q = std::min(2 * regular, end);
+      if (!stage_.holds_on_circle(q)) return last_regular(regular, q);
+      regular = q;
+    }
+    if (pole_ < infinity) return pole_;
+    return outer_ < infinity ? infinity : greatest;
+  }
+
+  /// The regular one of two neighbours in binary64. Between the ends, circles need not be regular
+  /// up to one and singular from then on: the ring shows that.
+  [[nodiscard]] double last_regular(double regular_end, double singular_end) const {
+    auto regular = std::bit_cast<std::uint64_t>(regular_end);
+    auto singular = std::bit_cast<std::uint64_t>(singular_end);
+    while (singular - regular > 1) {
+      const std::uint64_t between = regular + (singular - regular) / 2;
+      const bool holds = stage_.holds_on_circle(std::bit_cast<double>(between));
+      (holds ? regular : singular) = between;
+    }
+    return std::bit_cast<double>(regular);
+  }
+
+  /// Discs that are smaller by 2⁻⁴⁸, 2⁻²⁴, …, ½ of the candidate.
+  [[nodiscard]] double greatest_proved_below(double candidate) const {
+    for (int power = -48; power < 0; power /= 2) {
+      const double q = std::min(candidate, greatest) * (1 - std::ldexp(1.0, power));
+      if (stage_.holds_on_circle(q) && verdict_on(q).verdict == Verdict::holds) return q;
+    }
+    return inner_;
+  }
+
+  const Definiteness& stage_;
+  double inner_, outer_, pole_;
+};
+
+}  // namespace
+
+double greatest_disc(const StageNumbers<double>& numbers) {
+  const StandardArithmetic standard;
+  const Definiteness stage(as_polynomials(numbers));
+  return is_radial(numbers) ? radial_disc(stage) : DiscSearch(stage).run();
+}
+
 namespace {
 
 double disc_of(const Lens& lens, const StageNumbers<double>& stage) {

@@ -7,7 +7,7 @@
 #include "fathom/camera/lens.h"
 #include "fathom/geometry/frames.h"
 #include "fathom/lens/exact_direction.h"
-#include "fathom/lens/tilt.h"
+#include "fathom/lens/sample_plane.h"
 
 namespace fathom::lens {
 
@@ -35,8 +35,8 @@ class Preimages {
   [[nodiscard]] std::optional<ExactDirection> of_pixel(std::uint32_t column,
                                                        std::uint32_t row) const;
 
-  /// The stage and its disc, of a model that has one: a sample sees by the m in the disc with S(m) =
-  /// y, where y is what plane_map() makes of the sample; nullptr of other models.
+  /// The stage S and its disc, of a model that has one; nullptr of other models. A sample sees by
+  /// the m in the disc with S(m) = y, where y is the point that plane_map() makes of the sample.
   [[nodiscard]] const PolynomialStage* stage() const {
     return has_stage(lens_.model) ? &stage_ : nullptr;
   }

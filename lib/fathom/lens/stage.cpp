@@ -1,5 +1,9 @@
+
 #include "fathom/lens/stage.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "fathom/numeric/standard_arithmetic.h"
@@ -64,6 +68,96 @@ bool is_radial(const StageNumbers<double>& n) {
 
 bool is_identity(const StageNumbers<double>& n) {
   return n.numerator.size() == 1 && n.denominator.size() == 1 && is_radial(n);
+}
+
+namespace {
+
+/// Covers the roundings of a few operations of binary64 on positive numbers.
+constexpr double up = 1 + 0x1p-40;
+
+/// An interval in binary64. After each operation the ends are moved outwards by more than they were
+/// rounded; what is not a number at an end stays so, and no comparison holds for it.
+struct Range {
+  double low, high;
+
+  Range() = default;
+  Range(double x) : low(x), high(x) {}
+  Range(double a, double b)
+      : low(a - (std::abs(a) * unit_roundoff<double> * 2 + std::numeric_limits<double>::min())),
+        high(b + (std::abs(b) * unit_roundoff<double> * 2 + std::numeric_limits<double>::min())) {}
+};
+
+Range operator+(const Range& a, const Range& b) {
+  return {a.low + b.low, a.high + b.high};
+}
+Range operator-(const Range& a, const Range& b) {
+  return {a.low - b.high, a.high - b.low};
+}
+Range operator*(const Range& a, const Range& b) {
+  const auto [least, greatest] =
+      std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
+  return {least, greatest};
+}
+/// Needs    b.low > 0.
+Range operator/(const Range& a, const Range& b) {
+  const auto [least, greatest] =
+      std::minmax({a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high});
+  return {least, greatest};
+}
+
+double greatest_size(double a, double b) {
+  return std::max(std::abs(a), std::abs(b));
+}
+
+/// The least eigenvalue of [[xx, o], [o, yy]] is (xx + yy)/2 − √(((xx − yy)/2)² + o²).
+double least_growth(const StageJacobian<Range>& J) {
+  const double trace = (J.xx + J.yy).low;
+  const Range across = J.xx - J.yy, along = J.xy + J.yx;
+  const double difference = greatest_size(across.low, across.high);
+  const double other = greatest_size(along.low, along.high);
+  const double size = std::hypot(difference, other) * up;
+  const double growth = (trace - size) / 2;
+  return growth > (std::abs(trace) + size) * 0x1p-40 ? growth / up : 0;
+}
+
+/// The terms of S where |x| ≤ X, |y| ≤ Y and D ≥ least_D, the greater component.
+double greatest_terms(const StageNumbers<double>& n, double X, double Y, double least_D) {
+  const StagePoint<double> terms = stage_magnitudes(n, X, Y, least_D);
+  return up * std::max(terms.x, terms.y);
+}
+
+}  // namespace
+
+// The error of stage_value(), in u of the terms: q errs by 2 of itself, so that the k-th term of N
+// errs by 2k and by the 2k + 1 roundings of Horner's scheme at most; with n the degree, N errs by
+// 4n + 1, D by the same of its own terms (stage_magnitudes() has them as a factor), the quotient by
+// 8n + 3, its product with x by 8n + 4. The other terms have at most 8 roundings, and there are
+// four sums: 8n + 12 in all. Second order: 8n + 16.
+StageBounds bounds_on_box(const StageNumbers<double>& stage, const std::array<Interval, 2>& box) {
+  const StandardArithmetic standard;
+  const auto numbers = stage.in([](double x) { return Range(x); });
+  const Range x(box[0].lower, box[0].upper), y(box[1].lower, box[1].upper);
+  // The same product as in stage_jacobian(), which divides by this D.
+  const Range D = horner(numbers.denominator, x * x + y * y);
+  if (!(D.low > 0 && D.high < std::numeric_limits<double>::infinity())) return {};
+  const double degree =
+      static_cast<double>(std::max(stage.numerator.size(), stage.denominator.size()) - 1);
+  return {least_growth(stage_jacobian(numbers, x, y)),
+          greatest_terms(stage, greatest_size(x.low, x.high), greatest_size(y.low, y.high), D.low),
+          8 * degree + 16};
+}
+
+// With p = (p2, p1), S(m) = L·m + q·p + 2(m·p)·m + q·(s1 + s2·q, s3 + s4·q).
+double greatest_on_circle(const StageNumbers<double>& stage, double q) {
+  const StandardArithmetic standard;
+  const auto numbers = stage.in([](double x) { return Range(x); });
+  const Range N = horner(numbers.numerator, Range(q)), D = horner(numbers.denominator, Range(q));
+  if (!(D.low > 0)) return std::numeric_limits<double>::infinity();
+  const Range L = N / D;
+  const double prism = std::hypot(std::abs(stage.s1) + std::abs(stage.s2) * q,
+                                  std::abs(stage.s3) + std::abs(stage.s4) * q);
+  return up * (std::sqrt(q) * greatest_size(L.low, L.high) +
+               q * (3 * std::hypot(stage.p1, stage.p2) + prism));
 }
 
 }  // namespace fathom::lens

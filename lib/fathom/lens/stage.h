@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "fathom/camera/lens.h"
 #include "fathom/numeric/exact_polynomial.h"
+#include "fathom/numeric/interval.h"
 
 /// The stage S of the specification (section 2), over any arithmetic T:
 ///   (x, y) ↦ (x·L + 2p1·xy + p2·(q + 2x²) + s1·q + s2·q²,
@@ -110,5 +112,23 @@ StagePoint<T> stage_magnitudes(const StageNumbers<T>& n, const T& x, const T& y)
   using std::abs;
   return stage_magnitudes<T>(n, x, y, abs(horner(n.denominator, x * x + y * y)));
 }
+
+/// What is known of a stage S on a box of the plane, for certificates in binary64.
+struct StageBounds {
+  /// (S(m) − S(m'))·(m − m') ≥ growth·|m − m'|² for all m and m' in the box: a lower bound on the
+  /// least eigenvalue of the symmetric part of the Jacobian. 0: nothing is known.
+  double growth = 0;
+  /// A bound on the magnitudes of the terms of each component of S in the box, added up.
+  double terms = 0;
+  /// So many units of roundoff of `terms` bound the error of stage_value() in binary64, with any of
+  /// its products and sums fused or not.
+  double roundings = 0;
+};
+
+/// Of a box with finite ends.
+StageBounds bounds_on_box(const StageNumbers<double>& stage, const std::array<Interval, 2>& box);
+
+/// A bound on |S(m)| where |m|² = q; +∞ if none is known.
+double greatest_on_circle(const StageNumbers<double>& stage, double q);
 
 }  // namespace fathom::lens

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "fathom/camera/projection.h"
 
@@ -33,5 +34,12 @@ struct WithoutRay {
 ///          sensor shows only a part of the disc.
 std::optional<WithoutRay> find_samples_without_ray(const Projection& projection,
                                                    std::uint32_t width, std::uint32_t height);
+
+/// Why a pixel of a camera with a lens has no ray, in a few words: "the lens folds nearer to its
+/// axis".
+/// Needs    a valid projection with a lens, and a pixel of which Preimages::of_pixel() finds no
+///          direction.
+/// Cost     as to make Preimages.
+std::string why_no_ray(const Projection& projection, std::uint32_t column, std::uint32_t row);
 
 }  // namespace fathom::lens

@@ -4,12 +4,22 @@
 #include <span>
 #include <string>
 
-#include "fathom/failures/warnings.h"
-#include "fathom/mesh/element_counts.h"
+#include "fathom/failures/errors.h"
 #include "fathom/mesh/mesh.h"
 
-/// From the faces of a file to the triangles of a mesh.
+/// How many triangles, vertices and faces can be numbered, in a mesh and in a scene.
 namespace fathom::mesh {
+
+/// The most triangles, vertices or faces that are allowed: the next number means "none".
+inline constexpr std::uint64_t most_elements = 0xFFFFFFFE;
+
+/// Throws InputError "FILE: N WHAT are more than …" where `count` is above most_elements.
+void expect_countable(std::uint64_t count, const char* what, const std::string& file);
+
+/// Throws the InputError of a file with more than most_elements triangles or faces.
+[[noreturn]] void fail_too_many_triangles(const std::string& file);
+
+/// From the faces of a file to the triangles of a mesh.
 
 /// Warns of faces that were skipped, and of `odd` ones that were cut in spite of their shape.
 void warn_of_faces(std::uint64_t skipped, std::uint64_t odd, const std::string& file,

@@ -8,10 +8,9 @@
 #include <optional>
 #include <queue>
 
-#include "fathom/mesh/corner_tree.h"
 #include "fathom/mesh/planar_ring.h"
 #include "fathom/numeric/dyadic.h"
-#include "fathom/numeric/unit_roundoff.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::mesh {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "fathom/failures/warnings.h"
+#include "fathom/failures/errors.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::mesh_files {

@@ -1,13 +1,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "fathom/failures/warnings.h"
+#include "fathom/failures/errors.h"
+#include "fathom/files/input_file.h"
 #include "fathom/files/source.h"
 #include "fathom/mesh/mesh.h"
 #include "fathom/mesh/object.h"
@@ -18,7 +21,7 @@
 /// for messages. All fail with InputError: "FILE: line N: …" (text) or "FILE: byte N: …" (binary).
 namespace fathom::mesh_files {
 
-/// Wavefront OBJ: v, vt, vn and f lines, and, if asked for, o, g and usemtl (obj_segments.h has how
+/// Wavefront OBJ: v, vt, vn and f lines, and, if asked for, o, g and usemtl (obj_counts.h has how
 /// names are read); s, mtllib and the like are ignored, other keywords are ignored with a warning.
 /// Indices count from 1, negative ones backwards from the last one read; positive ones may point
 /// forward. `v x y z w` is the point (x/w, y/w, z/w), with a warning unless w is 1. `v x y z r g b
@@ -84,5 +87,23 @@ GltfAsset read_gltf(std::span<const std::byte> bytes, const std::filesystem::pat
 /// white, as where there is none. With a warning that says how many. Normals 0, 0, 0 are left out
 /// too, without one: in STL files they say that the normal is that of the triangle.
 void leave_out_odd_attributes(Mesh& mesh, const std::string& file, Warnings& warnings);
+
+/// What a file is: by its content or, if that does not tell (an OBJ or OFF without a word that
+/// gives it away, an STL whose header is arbitrary), by the suffix of its path, in any case.
+/// Foreign formats (foreign_formats.h) are recognised by their suffix alone.
+/// nullopt if neither tells. `bytes` is the whole file of `size` bytes, or its beginning if only
+/// binary formats matter.
+std::optional<FileFormat> recognise_format(std::span<const std::byte> bytes, std::uint64_t size,
+                                           const std::filesystem::path& path);
+inline std::optional<FileFormat> recognise_format(std::span<const std::byte> bytes,
+                                                  const std::filesystem::path& path) {
+  return recognise_format(bytes, bytes.size(), path);
+}
+
+/// How files are read.
+inline files::InputFile::Reading reading_of(const ReadOptions& options) {
+  using Reading = files::InputFile::Reading;
+  return options.map_large_files ? Reading::mapped_where_large : Reading::copied;
+}
 
 }  // namespace fathom::mesh_files

@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "fathom/failures/warnings.h"
+#include "fathom/failures/errors.h"
 
 namespace fathom {
 

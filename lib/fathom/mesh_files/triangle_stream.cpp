@@ -5,7 +5,7 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/files/sha256.h"
-#include "fathom/mesh_files/recognise_format.h"
+#include "fathom/mesh_files/read_mesh.h"
 #include "fathom/mesh_files/stl/stl_binary.h"
 #include "fathom/mesh_files/streams.h"
 #include "fathom/numeric/standard_arithmetic.h"

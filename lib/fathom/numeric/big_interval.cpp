@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "fathom/numeric/big_float.h"
+#include "fathom/numeric/big_numbers.h"
 
 namespace fathom {
 namespace {

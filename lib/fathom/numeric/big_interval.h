@@ -2,7 +2,7 @@
 
 #include <mpfr.h>
 
-#include "fathom/numeric/dyadic_interval.h"
+#include "fathom/numeric/dyadic.h"
 
 /// Intervals of MPFR's numbers. Only for .cpp files, of this module and of lens.
 namespace fathom {

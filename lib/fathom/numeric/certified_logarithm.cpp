@@ -1,6 +1,6 @@
 #include "fathom/numeric/certified_logarithm.h"
 
-#include "fathom/numeric/logarithm.h"
+#include "fathom/numeric/transcendental.h"
 
 namespace fathom {
 namespace {

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "fathom/numeric/double_word.h"
+#include "fathom/numeric/interval.h"
 
 /// Numbers in binary64 or double-words with bounds on their errors, and what arithmetic makes of
 /// the bounds.
@@ -63,6 +66,51 @@ Certified<Real> quotient(const Certified<Real>& x, const Certified<Real>& y) {
   const double magnitude = std::abs(nearest(value));
   const double of_operands = (x.error + magnitude * y.error + most_underflow) / size;
   return {value, (of_operands + epsilon<Real> * magnitude + most_underflow) * slack};
+}
+
+/// Arithmetic of binary64 numbers with bounds that count every rounding of their own, so that many
+/// operations may follow each other; a divisor may err by almost all of itself. sum(), product()
+/// and quotient() of certified_value.h serve double-words too.
+
+/// More than at most 6 roundings of a bound's own terms, none of them negative, can take from it.
+inline constexpr double bound_rounding = 1 + 0x1p-48;
+
+Certified<double> operator+(const Certified<double>& a, const Certified<double>& b);
+Certified<double> operator*(const Certified<double>& a, const Certified<double>& b);
+/// The bound is +∞ if b may be 0.
+Certified<double> operator/(const Certified<double>& a, const Certified<double>& b);
+
+/// An interval that contains the exact number; [−∞, ∞] if the bound is +∞ or not known.
+Interval enclose(const Certified<double>& x);
+/// The exact number rounded to binary32, if the bound settles that. For a number that is not
+/// negative, the result is not negative either.
+std::optional<float> settled_binary32(const Certified<double>& not_negative);
+
+/// What certified_value.h lacks for formulas that begin with an interval and end with a sign.
+
+inline Certified<double> operator-(const Certified<double>& x) {
+  return {-x.value, x.error};
+}
+
+inline Certified<double> operator-(const Certified<double>& a, const Certified<double>& b) {
+  return a + -b;
+}
+
+/// A number in the interval; the bound is +∞ where an end is infinite or not known.
+inline Certified<double> to_certified(const Interval& x) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  // Half of a subnormal number may be rounded.
+  if (x.lower == x.upper && std::isfinite(x.lower)) return {x.lower, 0};
+  const double middle = x.lower / 2 + x.upper / 2;
+  const double error = std::max(x.upper - middle, middle - x.lower);
+  if (!(error < infinity)) return {0, infinity};
+  return {middle, std::nextafter(error, infinity)};
+}
+
+/// The sign, if the bound settles it; otherwise Sign::zero.
+inline Sign certain_sign(const Certified<double>& x) {
+  if (!(std::abs(x.value) > x.error)) return Sign::zero;
+  return x.value > 0 ? Sign::positive : Sign::negative;
 }
 
 }  // namespace fathom

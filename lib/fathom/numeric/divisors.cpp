@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "fathom/numeric/integer.h"
+#include "fathom/numeric/big_numbers.h"
 
 namespace fathom {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "fathom/numeric/unit_roundoff.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 /// Double-word ("double-double") arithmetic: a number is kept as the unevaluated sum of two
 /// binary64 numbers, hi being the one nearest to the sum.

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
+#include "fathom/numeric/certified.h"
 #include "fathom/numeric/dyadic.h"
 
 namespace fathom {
@@ -79,5 +81,22 @@ std::optional<double> greatest_before_positive_root(const ExactPolynomial& p);
 /// which is at most ‖f‖₂ (Landau).
 /// (Mignotte, Mathematics for Computer Algebra.)
 long zero_bound_bits(const ExactPolynomial& f, const ExactPolynomial& h);
+
+/// A quadratic form on three coordinates with exact coefficients: squares of linear forms, and sums
+/// of such squares, on the directions of rays.
+struct QuadraticForm {
+  /// Of x², y², z², xy, xz and yz.
+  std::array<Dyadic, 6> coefficients;
+
+  QuadraticForm& operator+=(const QuadraticForm& other);
+  QuadraticForm& operator-=(const QuadraticForm& other);
+  friend QuadraticForm operator*(const Dyadic& factor, QuadraticForm form);
+  [[nodiscard]] Dyadic at(const ExactVector3& d) const;
+};
+
+/// (l·d)²
+QuadraticForm square_of(const ExactVector3& l);
+/// d·d
+QuadraticForm squared_length();
 
 }  // namespace fathom

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 namespace fathom {
 
 /// A closed interval of binary64 numbers that contains an exact value.
@@ -22,6 +25,16 @@ constexpr Sign operator*(Sign a, Sign b) {
 }
 constexpr Sign sign_of(int value) {
   return static_cast<Sign>((value > 0) - (value < 0));
+}
+
+/// The greatest binary32 number that is at most x.
+inline float round_down(double x) {
+  const auto nearest = static_cast<float>(x);
+  return nearest <= x ? nearest : std::nextafter(nearest, -std::numeric_limits<float>::infinity());
+}
+/// The least binary32 number that is at least x.
+inline float round_up(double x) {
+  return -round_down(-x);
 }
 
 }  // namespace fathom

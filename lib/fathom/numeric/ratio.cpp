@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fathom/numeric/integer.h"
+#include "fathom/numeric/big_numbers.h"
 
 namespace fathom {
 

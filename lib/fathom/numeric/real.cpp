@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "fathom/numeric/integer.h"
+#include "fathom/numeric/big_numbers.h"
 
 namespace fathom {
 

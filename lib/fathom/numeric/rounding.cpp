@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "fathom/numeric/integer.h"
+#include "fathom/numeric/big_numbers.h"
 
 namespace fathom {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "fathom/depth_format/depth_bias.h"
 #include "fathom/depth_format/depth_format.h"
-#include "fathom/mesh/normal_source.h"
+#include "fathom/mesh/vertex_normals.h"
 
 /// The choices that a pipeline leaves open.
 namespace fathom::pipeline {

@@ -4,8 +4,8 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/pipeline/geometry/surface_motion.h"
-#include "fathom/pipeline/rasterization/grid_samples.h"
+#include "fathom/pipeline/geometry/subpixel_grid.h"
+#include "fathom/pipeline/output/temporal_history.h"
 #include "fathom/threads/interruption.h"
 
 namespace fathom::pipeline {

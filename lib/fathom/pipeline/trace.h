@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "fathom/pipeline/fragments/depth_test.h"
+#include "fathom/pipeline/fragments/fragment.h"
 #include "fathom/pipeline/fragments/shading.h"
 #include "fathom/pipeline/geometry/painters_algorithm.h"
 #include "fathom/pipeline/output/output_merger.h"

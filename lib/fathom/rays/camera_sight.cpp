@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "fathom/numeric/ratio.h"
-#include "fathom/rays/cast_lanes.h"
 #include "fathom/rays/ray_tree.h"
 #include "fathom/rays/walk_ray.h"
 #include "fathom/triangle/projected_triangle.h"

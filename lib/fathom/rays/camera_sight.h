@@ -7,9 +7,8 @@
 #include "fathom/camera/camera.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/rays/cast.h"
-#include "fathom/rays/sight_end.h"
 #include "fathom/rays/sight_line.h"
-#include "fathom/rays/tested_triangle.h"
+#include "fathom/rays/walk_ray.h"
 #include "fathom/rendering/options.h"
 
 namespace fathom::rays {

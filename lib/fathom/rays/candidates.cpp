@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "fathom/numeric/round_outwards.h"
+#include "fathom/numeric/interval.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/rays/ray_bounds.h"
 

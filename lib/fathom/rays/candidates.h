@@ -8,7 +8,6 @@
 
 #include "fathom/rays/exact_ray.h"
 #include "fathom/rays/ray_tree.h"
-#include "fathom/rays/tested_triangle.h"
 #include "fathom/rays/walk_ray.h"
 
 namespace fathom::rays {

@@ -1,8 +1,6 @@
 // The walk along a ray: eight boxes and four triangles at a time, with the bounds of ray_bounds.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fathom/rays/cast_lanes.cpp"
-#include "fathom/rays/cast_lanes.h"
-
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
@@ -14,6 +12,7 @@
 
 #include "fathom/rays/test_boxes-inl.h"
 #include "fathom/rays/test_triangles-inl.h"
+#include "fathom/rays/walk_ray.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::rays::HWY_NAMESPACE {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fathom/numeric/unit_roundoff.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 /// Bounds of the walk along a ray and of the tests of triangles in binary64. Coordinates of the
 /// scene are below 1, of the origin below 8, of the direction below 2; u = 2⁻⁵³. The proofs are in

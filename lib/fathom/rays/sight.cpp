@@ -8,11 +8,10 @@
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/rays/camera_sight.h"
-#include "fathom/rays/cast_lanes.h"
 #include "fathom/rays/exact_ray.h"
 #include "fathom/rays/ray_tree.h"
-#include "fathom/rays/sight_end.h"
 #include "fathom/rays/sight_line.h"
+#include "fathom/rays/walk_ray.h"
 #include "fathom/threads/interruption.h"
 #include "fathom/threads/threads.h"
 

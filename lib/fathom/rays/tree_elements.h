@@ -5,9 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "fathom/rays/placed_triangles.h"
+#include "fathom/rays/ray_tree.h"
+#include "fathom/scene/triangle_source.h"
 
 /// Triangles while a tree around them is built.
 namespace fathom::rays {
@@ -49,5 +52,37 @@ std::vector<Element> elements_of(const TriangleSource& source, const PlacedTrian
 /// loses nothing below 2⁻¹⁰⁷⁴.
 std::vector<bool> objects_with_exact_corners(const TriangleSource& source, long power);
 bool are_in_binary32(const PlacedTriangles& triangles);
+
+using Elements = std::span<Element>;
+
+/// Some elements, the box around them, and the box around their centres.
+struct Part {
+  Elements elements;
+  FloatBox box, centres;
+
+  explicit Part(Elements some) : elements(some) {
+    for (const Element& e : elements) {
+      box.add(e.box);
+      const std::array<float, 3> centre{e.centre(0), e.centre(1), e.centre(2)};
+      centres.add({centre, centre});
+    }
+  }
+};
+
+/// Whether no plane separates the elements: their centres are equal, as those of equal triangles.
+bool is_crowd(Elements elements);
+
+/// Two to eight parts of more than triangles_together elements, or one part of fewer. The part with
+/// the largest box is split again and again: where the surface-area heuristic says or, if
+/// `by_number`, into halves. A crowd is split only if it is all that there is. Elements are sorted
+/// by part.
+/// Source   [WBB08]
+std::vector<Part> split_into_children(Elements elements, bool by_number);
+
+/// Elements of a crowd without repeated triangles, which are added to `repeated`. Sorts the
+/// elements; the first of equal ones, which remains, has the lowest number.
+/// Exact    corners are compared in binary64, and then as exact numbers.
+Elements without_repetitions(Elements crowd, const PlacedTriangles& triangles,
+                             const TriangleSource& source, std::vector<Repetition>& repeated);
 
 }  // namespace fathom::rays

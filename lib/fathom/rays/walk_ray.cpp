@@ -6,7 +6,7 @@
 
 #include "fathom/numeric/double_word.h"
 #include "fathom/numeric/dyadic.h"
-#include "fathom/numeric/round_outwards.h"
+#include "fathom/numeric/interval.h"
 #include "fathom/rays/ray_bounds.h"
 
 namespace fathom::rays {

@@ -9,7 +9,6 @@
 #include "fathom/scene/triangle_source.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/projected_triangle.h"
-#include "fathom/triangle/sampling.h"
 
 namespace fathom {
 using namespace triangle;

@@ -10,12 +10,11 @@
 #include "fathom/lens/preimages.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/ray_decisions.h"
-#include "fathom/rendering/deciders.h"
+#include "fathom/rendering/rendered.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "fathom/triangle/ray_values.h"
-#include "fathom/triangle/sampling.h"
 #include "fathom/triangle/stored_quantity.h"
 #include "fathom/triangle/triangle_boxes.h"
 

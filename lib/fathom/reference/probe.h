@@ -35,7 +35,7 @@ struct CoveringTriangle {
   bool facing_by_interval = false;
   std::array<bool, 3> edge_by_interval{};
   /// Which arithmetic settles the sign of Δ, and that of the edge function of corner i
-  /// (deciders.h).
+  /// (rendered.h).
   [[nodiscard]] std::string_view facing_decided_by() const;
   [[nodiscard]] std::string_view edge_decided_by(std::size_t i) const;
   /// Exact planar depth at the sample, in scene units. Along the ray of a lens it may be

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "fathom/camera/camera.h"
-#include "fathom/numeric/quadratic_form.h"
+#include "fathom/numeric/exact_polynomial.h"
 #include "fathom/triangle/projected_triangle.h"
 
 /// Decisions about triangles that cover a sample, as signs of exact forms (specification, section

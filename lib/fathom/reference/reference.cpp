@@ -13,7 +13,6 @@
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/projected_triangle.h"
-#include "fathom/triangle/sampling.h"
 
 // How to read this file: render_reference() at the end is the whole story. The image is cut into
 // bands of rows. For each band, every triangle whose box meets it is tested at every sample of its

@@ -12,7 +12,6 @@
 #include "fathom/area/coverage.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/reference/verify_rays.h"
 #include "fathom/reference/verify_samples.h"
 #include "fathom/reference/view.h"
 #include "fathom/rendering/map_of_camera.h"
@@ -20,7 +19,6 @@
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/projected_triangle.h"
-#include "fathom/triangle/sampling.h"
 #include "fathom/triangle/triangle_boxes.h"
 
 // How to read this file: verify() at the end is the whole story. The chosen pixels are taken in

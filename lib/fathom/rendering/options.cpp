@@ -1,3 +1,4 @@
+
 #include "fathom/rendering/options.h"
 
 #include <cmath>
@@ -22,6 +23,20 @@ void require_meaningful(const RenderOptions& options) {
   if (!(options.fast.widening >= 1 && std::isfinite(options.fast.widening))) {
     throw UsageError(Setting{"fast.widening"}, "expected a number of at least 1");
   }
+}
+
+std::string_view name_of(Engine engine) {
+  return engine == Engine::fast ? "fast" : "reference";
+}
+
+std::string_view name_of(Cull cull) {
+  return cull == Cull::back ? "back" : cull == Cull::front ? "front" : "none";
+}
+
+std::string_view name_of(StoredType type) {
+  return type == StoredType::binary32   ? "float32"
+         : type == StoredType::binary64 ? "float64"
+                                        : "uint16";
 }
 
 }  // namespace fathom

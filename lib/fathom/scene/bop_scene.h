@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
-#include "fathom/failures/warnings.h"
+#include "fathom/failures/errors.h"
 #include "fathom/mesh_files/read_options.h"
 #include "fathom/scene/scene.h"
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fathom/camera/rounded_poses.h"
+#include "fathom/camera/pose.h"
 #include "fathom/lens/without_ray.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/view_warnings.h"

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "fathom/failures/errors.h"
-#include "fathom/mesh/element_counts.h"
+#include "fathom/mesh/mesh_faces.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/element_checks.h"
 #include "fathom/text/counted.h"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "fathom/files/input_file.h"
-#include "fathom/scene/draw_state.h"
+#include "fathom/scene/scene.h"
 #include "fathom/text/json_value.h"
 
 namespace fathom::scene {

@@ -1,6 +1,6 @@
 #include "fathom/scene/streamed_scene.h"
 
-#include "fathom/mesh/element_counts.h"
+#include "fathom/mesh/mesh_faces.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/scene/triangle_source.h"

@@ -8,12 +8,11 @@
 #include <iterator>
 #include <optional>
 
-#include "fathom/camera/rounded_poses.h"
+#include "fathom/camera/pose.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/scene/sight.h"
-#include "fathom/scene/winding.h"
 
 namespace fathom {
 using namespace camera;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fathom/camera/camera.h"
-#include "fathom/failures/warnings.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/scene.h"
 
 /// Warnings about suspicious cameras: mistakes that give a map of the right size that is empty or

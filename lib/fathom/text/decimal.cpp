@@ -10,8 +10,6 @@
 #include <system_error>
 #include <type_traits>
 
-#include "fathom/text/digits.h"
-
 namespace fathom::text {
 namespace {
 

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "fathom/text/decimal.h"
-#include "fathom/text/digits.h"
 
 namespace fathom::text {
 

@@ -17,7 +17,6 @@
 
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/threads/interruption.h"
-#include "fathom/threads/startable_threads.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "fathom/failures/errors.h"
-#include "fathom/image/pixel_place.h"
+#include "fathom/image/depth_map.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/triangle/stored_quantity.h"
 

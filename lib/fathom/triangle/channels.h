@@ -6,14 +6,14 @@
 #include <string>
 
 #include "fathom/image/depth_map.h"
-#include "fathom/rendering/channel_values.h"
+#include "fathom/rendering/map_of_camera.h"
 #include "fathom/rendering/options.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/scene/triangle_source.h"
 #include "fathom/threads/per_thread.h"
-#include "fathom/triangle/code_factor.h"
 #include "fathom/triangle/corner_normals.h"
 #include "fathom/triangle/projected_triangle.h"
+#include "fathom/triangle/stored_quantity.h"
 
 namespace fathom::triangle {
 

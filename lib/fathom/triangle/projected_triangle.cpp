@@ -1,9 +1,18 @@
+
 #include "fathom/triangle/projected_triangle.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fathom::triangle {
+
+bool is_in_range(const Ratio& depth, const Camera& camera) {
+  if (depth.sign() != Sign::positive || depth < Ratio(Dyadic(camera.near))) return false;
+  return camera.far == std::numeric_limits<double>::infinity() ||
+         !(Ratio(Dyadic(camera.far)) < depth);
+}
+
 namespace {
 
 ExactVector3 operator*(Sign sign, ExactVector3 v) {

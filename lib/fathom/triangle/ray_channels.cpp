@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "fathom/numeric/quadratic_form.h"
+#include "fathom/numeric/exact_polynomial.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/ray_values.h"

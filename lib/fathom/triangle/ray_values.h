@@ -1,11 +1,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 
 #include "fathom/lens/exact_direction.h"
-#include "fathom/numeric/quadratic_form.h"
+#include "fathom/numeric/exact_polynomial.h"
 #include "fathom/numeric/real.h"
+#include "fathom/rendering/map_of_camera.h"
 #include "fathom/triangle/projected_triangle.h"
 
 /// Values of a surface along the ray of a sample, where a camera bends rays: quotients of forms of
@@ -42,5 +44,35 @@ std::optional<float> distance_in(const RayBox& box, const Dyadic& volume, const 
 /// Exact    rational() knows the value where rounding of its square root steps there, too.
 Real quotient_at(const lens::ExactDirection& d, const QuadraticForm& numerator,
                  const QuadraticForm& denominator);
+
+/// A visible triangle of a camera that bends rays, prepared for many of its pixels: P, bary,
+/// distance and Z in binary32, as far as binary64 settles them.
+class RaySurface {
+ public:
+  /// The channels that it writes, of those that were asked for; Z where a caller sets that.
+  struct Wanted {
+    explicit Wanted(const rendering::ChannelValues& values)
+        : position(values.position[0] != nullptr),
+          barycentric(values.barycentric[0] != nullptr),
+          distance(values.distance.binary32 != nullptr) {}
+    [[nodiscard]] bool any() const { return position || barycentric || distance || depth; }
+
+    bool position, barycentric, distance, depth = false;
+  };
+
+  RaySurface(const ProjectedTriangle& triangle, const Wanted& wanted);
+
+  /// Writes them at a pixel whose ray lies in the box. False where one of them is not settled: the
+  /// pixel then has to be written from exact numbers.
+  [[nodiscard]] bool write(std::size_t pixel, const RayBox& box,
+                           const rendering::ChannelValues& values) const;
+
+ private:
+  Wanted wanted_;
+  std::array<LinearForm, 3> position_;
+  std::array<LinearForm, 2> barycentric_;
+  LinearForm depth_, weight_;
+  Dyadic volume_;
+};
 
 }  // namespace fathom::triangle

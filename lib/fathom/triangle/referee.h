@@ -1,15 +1,47 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <unordered_map>
 
+#include "fathom/lens/exact_direction.h"
 #include "fathom/rendering/rendered.h"
 #include "fathom/scene/triangle_source.h"
 #include "fathom/triangle/double_word_referee.h"
 #include "fathom/triangle/projected_triangle.h"
-#include "fathom/triangle/remembered_triangles.h"
 
 namespace fathom::triangle {
+
+/// The exact triangles that a referee was asked about last: about 5 kB each.
+class RememberedTriangles {
+ public:
+  RememberedTriangles(const TriangleSource& triangles, const Camera& camera)
+      : triangles_(triangles), camera_(camera) {}
+
+  /// Forgets everything if there is no room for two more.
+  void make_room() {
+    if (remembered_.size() + 2 > most) remembered_.clear();
+  }
+  /// Valid until make_room().
+  const ProjectedTriangle& get(std::uint32_t number) {
+    auto& slot = remembered_[number];
+    if (!slot) {
+      TierCounts counted_before;  // facing is counted when triangles are binned
+      slot = std::make_unique<ProjectedTriangle>(
+          project(triangles_.world_corners(number), number, camera_, counted_before));
+    }
+    return *slot;
+  }
+
+ private:
+  static constexpr std::size_t most = 2048;
+
+  TriangleSource triangles_;
+  const Camera& camera_;
+  std::unordered_map<std::uint32_t, std::unique_ptr<ProjectedTriangle>> remembered_;
+};
 
 /// Settles with exact numbers what a bound did not settle. One for each thread: it remembers the
 /// triangles that it was asked about last.
@@ -46,6 +78,35 @@ class Referee {
   /// The pair asked about last, lower number first, and whether they lie in one plane.
   std::uint32_t first_ = 0, second_ = 0;
   bool same_plane_ = false;
+};
+
+/// The referee of a camera that bends rays: settles with exact numbers, along the ray of a sample,
+/// what a bound did not settle. One for each thread: it remembers the triangles that it was asked
+/// about last.
+class RayReferee {
+ public:
+  RayReferee(const TriangleSource& triangles, const Camera& camera)
+      : camera_(camera), remembered_(triangles, camera) {}
+
+  /// Valid until the next question.
+  const ProjectedTriangle& projected(std::uint32_t number) {
+    remembered_.make_room();
+    return remembered_.get(number);
+  }
+
+  bool covers(std::uint32_t number, const lens::ExactDirection& d, RenderStatistics& statistics);
+  /// Whether D > 0 and near ≤ D ≤ far, where the triangle covers the sample; of a camera whose
+  /// limits bound ray distances, whether those are between them.
+  bool is_in_range(std::uint32_t number, const lens::ExactDirection& d,
+                   RenderStatistics& statistics);
+  /// Whether, at a sample that both cover, `a` hides `b`: it is nearer along the ray, or as near
+  /// with the lower number.
+  bool hides(std::uint32_t a, std::uint32_t b, const lens::ExactDirection& d,
+             RenderStatistics& statistics);
+
+ private:
+  const Camera& camera_;
+  RememberedTriangles remembered_;
 };
 
 }  // namespace fathom::triangle

@@ -6,7 +6,7 @@
 
 #include "fathom/camera/camera.h"
 #include "fathom/geometry/approximate_row.h"
-#include "fathom/geometry/pixel_box.h"
+#include "fathom/geometry/frames.h"
 #include "fathom/mesh/mesh.h"
 #include "fathom/mesh/object.h"
 

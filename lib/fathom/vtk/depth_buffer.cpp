@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <array>
 
-#include "fathom/depth_format/stored_depth.h"
+#include "fathom/depth_format/encode.h"
 
 namespace fathom::vtk {
 namespace {

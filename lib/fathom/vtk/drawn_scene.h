@@ -2,11 +2,39 @@
 
 #include <vtkSmartPointer.h>
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "fathom/attribution/model/renderer_model.h"
+#include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
 #include "fathom/vtk/explain_depth.h"
+
+class vtkRenderer;
+
+namespace fathom::vtk {
+
+/// The renderer's camera, including near and far, from the binary64 matrices that VTK's mappers
+/// get.
+/// Fails    InputError if no Camera has such matrices, or if the camera is not of VTK's OpenGL.
+Camera camera_of(vtkRenderer& renderer);
+
+}  // namespace fathom::vtk
+
+class vtkRenderer;
+
+namespace fathom::vtk {
+
+/// Checks that the camera of VTK's matrices follows from the position, focal point, view up, view
+/// angle or parallel scale, window centre, model transform and clipping range of its vtkCamera, up
+/// to the roundings of sums in binary64. Returns the difference as a clause, or nothing. Returns
+/// nothing if the vtkCamera has a user's view transform, an explicit projection, shear or an
+/// off-axis projection, which are matrices themselves.
+/// Source   vtkCamera's documentation of these properties.
+std::optional<std::string> fault_of_matrices(vtkRenderer& renderer, const Camera& of_matrices);
+
+}  // namespace fathom::vtk
 
 class vtkOpenGLPolyDataMapper;
 class vtkProp;

@@ -13,13 +13,11 @@
 #include <utility>
 
 #include "fathom/attribution/attribution.h"
-#include "fathom/attribution/cause.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/attribution/truth.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/vtk/camera_of.h"
 #include "fathom/vtk/depth_buffer.h"
 #include "fathom/vtk/drawn_scene.h"
 

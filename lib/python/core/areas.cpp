@@ -13,10 +13,8 @@
 #include <vector>
 
 #include "bindings.h"
-#include "fathom/area/area_items.h"
-#include "fathom/rendering/option_names.h"
+#include "fathom/rendering/options.h"
 #include "fathom/threads/threads.h"
-#include "objects.h"
 #include "options.h"
 #include "running.h"
 #include "values.h"

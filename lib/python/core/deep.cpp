@@ -8,11 +8,9 @@
 #include <utility>
 
 #include "bindings.h"
-#include "fathom/image/deep_files.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/map_files.h"
 #include "fathom/render.h"
-#include "objects.h"
 #include "options.h"
 #include "running.h"
 #include "values.h"

@@ -4,8 +4,7 @@
 
 #include "bindings.h"
 #include "fathom/evaluate.h"
-#include "fathom/rendering/option_names.h"
-#include "objects.h"
+#include "fathom/rendering/options.h"
 #include "options.h"
 #include "running.h"
 #include "values.h"

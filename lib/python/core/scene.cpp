@@ -16,7 +16,6 @@
 #include "fathom/scene/bounds.h"
 #include "fathom/scene/read_scene.h"
 #include "fathom/scene/scene_segments.h"
-#include "objects.h"
 #include "running.h"
 #include "values.h"
 

@@ -12,9 +12,9 @@
 
 #include "apps/study/study.h"
 #include "apps/study/table.h"
+#include "bindings.h"
 #include "entry_points.h"
 #include "fathom/failures/errors.h"
-#include "objects.h"
 #include "running.h"
 
 namespace py = pybind11;

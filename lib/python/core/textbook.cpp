@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "apps/options/pipeline_options.h"
-#include "apps/options/pipeline_words.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/program.h"
 #include "apps/shell/values.h"
@@ -19,11 +18,11 @@
 #include "apps/textbook/pipeline/pipeline_report.h"
 #include "apps/textbook/pipeline/stage_cases.h"
 #include "apps/textbook/scan/scan_cases.h"
+#include "bindings.h"
 #include "entry_points.h"
 #include "fathom/failures/errors.h"
 #include "fathom/pipeline/geometry/window_transform.h"
 #include "fathom/render_by_pipeline.h"
-#include "objects.h"
 #include "running.h"
 #include "values.h"
 

@@ -1,9 +1,9 @@
-#include "fathom/attribution/faults/deviation_choice.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
+
+#include "fathom/attribution/faults/deviation_fit.h"
 
 namespace fathom::attribution {
 namespace {

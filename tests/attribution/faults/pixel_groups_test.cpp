@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "fathom/attribution/faults/pixels_at_fault.h"
+#include "fathom/attribution/faults/local_faults.h"
 
 namespace fathom::attribution {
 namespace {

@@ -1,11 +1,10 @@
-#include "fathom/attribution/faults/pixels_at_fault.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 
+#include "fathom/attribution/faults/local_faults.h"
 #include "tests/attribution/hand_made.h"
 
 namespace fathom::attribution {

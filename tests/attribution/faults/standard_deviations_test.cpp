@@ -1,5 +1,3 @@
-#include "fathom/attribution/faults/standard_deviations.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "fathom/attribution/attribution.h"
+#include "fathom/attribution/faults/residuals.h"
 #include "fathom/attribution/model/named_models.h"
 #include "tests/attribution/float_rasterizer.h"
 #include "tests/effort.h"

@@ -1,5 +1,3 @@
-#include "fathom/attribution/faults/stored_planes.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/attribution/faults/storage.h"
 #include "fathom/attribution/judgement.h"
 #include "fathom/attribution/model/named_models.h"
 #include "tests/attribution/sphere_maps.h"

@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "fathom/attribution/model/renderer_camera.h"
+#include "fathom/attribution/model/renderer_input.h"
 
 /// Our camera as rays and as OpenGL's matrices: both say what the specification says.
 namespace fathom::attribution {

@@ -1,5 +1,3 @@
-#include "fathom/attribution/model/recorded_depth.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,6 +6,7 @@
 #include <random>
 #include <utility>
 
+#include "fathom/attribution/model/window_depth.h"
 #include "tests/attribution/halfs.h"
 
 namespace fathom::attribution {

@@ -4,7 +4,7 @@
 
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/failures/errors.h"
-#include "fathom/numeric/unit_roundoff.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::attribution {
 namespace {

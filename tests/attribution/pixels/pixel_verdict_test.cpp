@@ -1,10 +1,9 @@
-#include "fathom/attribution/pixels/pixel_verdict.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <vector>
 
+#include "fathom/attribution/pixels/pixel_judge.h"
 #include "fathom/attribution/truth.h"
 
 /// What fragments allow together: a square of two triangles, the sample near their diagonal.

@@ -1,5 +1,3 @@
-#include "fathom/attribution/raster/matrix_roundings.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,9 +6,10 @@
 #include <random>
 
 #include "fathom/attribution/attribution.h"
-#include "fathom/attribution/model/renderer_camera.h"
+#include "fathom/attribution/model/renderer_input.h"
+#include "fathom/attribution/raster/clip_vertex.h"
 #include "fathom/camera/camera_making.h"
-#include "fathom/numeric/unit_roundoff.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 /// Held against matrices each entry of which is off by a rounding.
 namespace fathom::attribution {

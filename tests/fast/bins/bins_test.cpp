@@ -11,7 +11,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/fast/bins/tile_shape.h"
 #include "fathom/image/depth_map.h"
-#include "fathom/triangle/sampling.h"
+#include "fathom/triangle/projected_triangle.h"
 #include "tests/inputs/scene_building.h"
 #include "tests/inputs/soup.h"
 

@@ -9,7 +9,7 @@
 
 #include "fathom/fast/bins/bins.h"
 #include "fathom/scene/element_checks.h"
-#include "fathom/triangle/sampling.h"
+#include "fathom/triangle/projected_triangle.h"
 #include "tests/inputs/random_scenes.h"
 
 namespace fathom {

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 
-#include "fathom/fast/coverage/area_bounds.h"
-#include "fathom/fast/coverage/pixel_union.h"
-#include "fathom/fast/coverage/pixel_winding.h"
+#include "fathom/fast/coverage/pixel_area.h"
+#include "fathom/fast/coverage/square_edges.h"
 #include "tests/effort.h"
 #include "tests/fast/coverage/square_triangles.h"
 #include "tests/numeric/error_shares.h"

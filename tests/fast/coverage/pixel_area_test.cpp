@@ -1,10 +1,10 @@
 // Areas within a pixel by binary64: their bounds hold, and are not much wider than they need be.
+#include "fathom/fast/coverage/pixel_area.h"
+
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "fathom/fast/coverage/pixel_union.h"
-#include "fathom/fast/coverage/pixel_winding.h"
 #include "fathom/fast/vertices/vertex.h"
 #include "tests/effort.h"
 #include "tests/fast/coverage/square_triangles.h"

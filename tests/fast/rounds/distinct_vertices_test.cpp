@@ -1,10 +1,10 @@
-#include "fathom/fast/rounds/distinct_vertices.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <map>
 #include <random>
+
+#include "fathom/fast/rounds/kept_triangles.h"
 
 namespace fathom::fast {
 namespace {

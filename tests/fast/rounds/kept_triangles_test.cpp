@@ -7,7 +7,6 @@
 #include <numeric>
 #include <set>
 
-#include "fathom/fast/rounds/gathered_triangles.h"
 #include "tests/inputs/soup.h"
 
 namespace fathom {

@@ -1,10 +1,9 @@
-#include "fathom/fast/setup/depth_range.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "fathom/fast/setup/setup.h"
 #include "fathom/numeric/ratio.h"
 #include "tests/inputs/scene_building.h"
 

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "fathom/triangle/sampling.h"
+#include "fathom/triangle/projected_triangle.h"
 #include "tests/effort.h"
 #include "tests/fast/image_triangles.h"
 #include "tests/numeric/error_shares.h"

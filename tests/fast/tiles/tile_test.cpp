@@ -10,9 +10,9 @@
 #include <map>
 
 #include "fathom/fast/bins/bins.h"
-#include "fathom/fast/rounds/packed_tile.h"
+#include "fathom/fast/rounds/tile_store.h"
 #include "fathom/fast/tiles/visible_triangles.h"
-#include "fathom/triangle/sampling.h"
+#include "fathom/triangle/projected_triangle.h"
 #include "tests/inputs/soup.h"
 
 namespace fathom {

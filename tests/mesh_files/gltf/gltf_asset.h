@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "fathom/failures/errors.h"
-#include "fathom/failures/warnings.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/scene/scene.h"
 #include "tests/scratch_folder.h"

@@ -8,11 +8,10 @@
 #include <random>
 #include <set>
 
+#include "fathom/pipeline/scan/area_fill.h"
 #include "fathom/pipeline/scan/diamond_exit.h"
 #include "fathom/pipeline/scan/edge_function.h"
-#include "fathom/pipeline/scan/flood_fill.h"
 #include "fathom/pipeline/scan/line.h"
-#include "fathom/pipeline/scan/polygon_fill.h"
 #include "fathom/pipeline/scan/polygon_tests.h"
 
 namespace fathom::pipeline {

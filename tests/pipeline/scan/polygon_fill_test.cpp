@@ -1,7 +1,5 @@
 // Scan-line fill against the parity of a ray at every pixel centre.
 
-#include "fathom/pipeline/scan/polygon_fill.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "fathom/pipeline/scan/flood_fill.h"
+#include "fathom/pipeline/scan/area_fill.h"
 #include "tests/effort.h"
 #include "tests/pipeline/scan/rings.h"
 

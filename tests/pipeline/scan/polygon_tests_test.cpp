@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <random>
 
+#include "fathom/pipeline/scan/area_fill.h"
 #include "fathom/pipeline/scan/edge_function.h"
-#include "fathom/pipeline/scan/polygon_fill.h"
 #include "fathom/pipeline/scan/tessellate.h"
 #include "tests/effort.h"
 #include "tests/pipeline/scan/rings.h"

@@ -9,8 +9,8 @@
 #include <set>
 
 #include "fathom/pipeline/geometry/subpixel_grid.h"
+#include "fathom/pipeline/scan/area_fill.h"
 #include "fathom/pipeline/scan/edge_function.h"
-#include "fathom/pipeline/scan/polygon_fill.h"
 #include "tests/effort.h"
 
 namespace fathom::pipeline {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/bench/masked_occlusion_culling/masked_buffer.h"
-#include "fathom/attribution/world_mesh.h"
+#include "fathom/attribution/model/renderer_input.h"
 #include "fathom/render.h"
 #include "validation/scenes/made/made_meshes.h"
 #include "validation/scenes/scenes.h"

@@ -6,8 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/bench/measurement.h"
-#include "validation/child/read_fields.h"
-#include "validation/child/write_fields.h"
+#include "validation/child/fields.h"
 
 namespace fathom::bench {
 namespace {

@@ -5,14 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/study/antialiasing/curve.h"
-#include "apps/study/antialiasing/judged_scenes.h"
+#include "apps/study/antialiasing/coverage.h"
 #include "apps/study/antialiasing/methods.h"
-#include "apps/study/antialiasing/nyquist.h"
-#include "apps/study/antialiasing/temporal.h"
+#include "apps/study/antialiasing/sampling.h"
 #include "apps/study/effort.h"
-#include "apps/study/exact_picture.h"
 #include "apps/study/pipeline_scenes.h"
+#include "apps/study/study_scene.h"
 #include "fathom/failures/errors.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/render.h"

@@ -1,7 +1,8 @@
 // The study of blending: its judge by hand, and its figures.
+#include "apps/study/blending/blending.h"
+
 #include <gtest/gtest.h>
 
-#include "apps/study/blending/blended.h"
 #include "apps/study/pipeline_scenes.h"
 
 namespace fathom::studies {

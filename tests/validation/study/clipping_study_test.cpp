@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/study/clipping/beside_cgal.h"
-#include "apps/study/studies.h"
+#include "apps/study/study.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::studies {

@@ -6,8 +6,6 @@
 
 #include <cmath>
 
-#include "apps/study/z_fighting/pair_sweeps.h"
-
 namespace fathom::studies {
 namespace {
 

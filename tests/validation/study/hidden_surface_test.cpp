@@ -11,7 +11,6 @@
 #include "apps/study/hidden_surface/comparison.h"
 #include "apps/study/hidden_surface/sight.h"
 #include "apps/study/pipeline_scenes.h"
-#include "apps/study/scene_files.h"
 #include "apps/study/study_scene.h"
 #include "fathom/failures/errors.h"
 #include "fathom/scene/framing.h"

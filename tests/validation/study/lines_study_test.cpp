@@ -6,8 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "apps/study/lines/line_drift.h"
-#include "apps/study/lines/step_costs.h"
+#include "apps/study/lines/lines.h"
 
 namespace fathom::studies {
 namespace {

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "apps/study/antialiasing/coverage_by_samples.h"
-#include "apps/study/studies.h"
-#include "apps/study/subpixel/snapped_raster.h"
-#include "apps/study/z_fighting/layers.h"
+#include "apps/study/antialiasing/coverage.h"
+#include "apps/study/study.h"
+#include "apps/study/subpixel/subpixel.h"
 #include "apps/study/z_fighting/scene_fights.h"
 #include "fathom/failures/errors.h"
 

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "apps/validate/faults/fault_report.h"
 #include "apps/validate/faults/fault_study.h"
 #include "fathom/attribution/model/named_models.h"
 #include "tests/effort.h"

@@ -7,8 +7,6 @@
 
 #include "apps/validate/report/report_formats.h"
 #include "apps/validate/report/validation_case.h"
-#include "apps/validate/report/xml.h"
-#include "apps/validate/report/z_fighting.h"
 #include "tests/apps/run_program.h"
 #include "tests/apps/test_folder.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "apps/validate/faults/fault_study.h"
-#include "fathom/attribution/cause.h"
+#include "fathom/attribution/attribution.h"
 #include "fathom/attribution/judgement.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/attribution/other_scene.h"

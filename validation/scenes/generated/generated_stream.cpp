@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "validation/scenes/generated/terrain_heights.h"
+#include "validation/scenes/generated/generated_scene.h"
 #include "validation/scenes/made/random.h"
 
 namespace fathom::bench {

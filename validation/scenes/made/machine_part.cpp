@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "validation/scenes/made/made_meshes.h"
-#include "validation/scenes/made/mesh_building.h"
 
 namespace fathom::bench {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fathom/numeric/unit_roundoff.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 /// Signs on the plane that hold for certain: each point has a bound on the error of its
 /// coordinates, and a sign that the bounds do not settle is unknown. Nothing here is exact; callers

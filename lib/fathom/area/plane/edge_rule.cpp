@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "fathom/area/visible_fragments.h"
-#include "fathom/camera/sine_cosine.h"
+#include "fathom/camera/rounded_angles.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::area {

@@ -78,9 +78,9 @@ namespace {
 /// The foot of the origin on a line.
 class Foot {
  public:
-  // The coefficients err by 2u of themselves (half_plane.h), squares by 5u, their sum by 6u, the
-  // quotient by 2u + 6u + u with terms of second order below u, its products with a coefficient by
-  // 10u + 2u + u.
+  // The coefficients err by 2u of themselves (convex_polygon.h), squares by 5u, their sum by 6u,
+  // the quotient by 2u + 6u + u with terms of second order below u, its products with a
+  // coefficient by 10u + 2u + u.
   explicit Foot(const HalfPlane& e) {
     const auto& [eu, ev, ew] = e.approximate();
     const double squares = eu * eu + ev * ev;

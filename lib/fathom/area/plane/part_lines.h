@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "fathom/area/half_plane.h"
+#include "fathom/area/convex_polygon.h"
 
 namespace fathom::area {
 

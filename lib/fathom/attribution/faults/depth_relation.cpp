@@ -9,7 +9,7 @@
 #include <limits>
 #include <optional>
 
-#include "fathom/numeric/unit_roundoff.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::attribution {
 namespace {

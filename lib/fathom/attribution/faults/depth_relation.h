@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/attribution/model/recorded_depth.h"
+#include "fathom/attribution/model/window_depth.h"
 #include "fathom/attribution/other_map.h"
 #include "fathom/attribution/truth.h"
 

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "fathom/attribution/pixels/stored_values.h"
-#include "fathom/camera/clip_planes.h"
+#include "fathom/camera/camera.h"
 #include "fathom/geometry/eigen_arrays.h"
 
 namespace fathom::attribution {

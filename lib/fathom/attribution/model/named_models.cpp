@@ -4,10 +4,10 @@
 #include <cmath>
 #include <variant>
 
-#include "fathom/camera/clip_planes.h"
+#include "fathom/camera/camera.h"
 #include "fathom/failures/errors.h"
 #include "fathom/failures/unknown_name.h"
-#include "fathom/numeric/unit_roundoff.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::attribution {
 namespace {

@@ -7,7 +7,6 @@
 #include <variant>
 #include <vector>
 
-#include "fathom/attribution/model/recorded_depth.h"
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/depth_format/depth_format.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fathom/attribution/model/renderer_model.h"
-#include "fathom/numeric/unit_roundoff.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 // docs/validation.md, "Window depth", derives what stands here.
 namespace fathom::attribution {

@@ -7,10 +7,8 @@
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/rings.h"
 #include "fathom/clipping/weiler_atherton/contacts.h"
-#include "fathom/clipping/weiler_atherton/ring_crossings.h"
-#include "fathom/clipping/weiler_atherton/sweep.h"
-#include "fathom/clipping/weiler_atherton/touches.h"
-#include "fathom/clipping/weiler_atherton/wedges.h"
+#include "fathom/clipping/weiler_atherton/edge_order.h"
+#include "fathom/clipping/weiler_atherton/side_contacts.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::clipping {

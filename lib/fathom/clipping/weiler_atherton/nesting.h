@@ -28,7 +28,8 @@ std::vector<std::optional<std::size_t>> outlines_around(const NumberedRings& rin
 
 /// The polygons of a region that lies to the left of closed lists; see weiler_atherton() for their
 /// order. Where lists pass through a point again, with others or alone, parts of the region that
-/// only touch are taken apart there (wedges.h). Each clockwise ring goes to the outline around it.
+/// only touch are taken apart there (edge_order.h). Each clockwise ring goes to the outline
+/// around it.
 /// Fails    InputError where rounding has left a hole without an outline
 template <class Number>
 std::vector<Polygon<Number>> pieces_of(const NumberedRings& lists, const PointOrder& order,

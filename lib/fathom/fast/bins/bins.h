@@ -7,7 +7,7 @@
 
 #include "fathom/fast/bins/boxes.h"
 #include "fathom/fast/bins/nearness.h"
-#include "fathom/fast/vertices/image_object.h"
+#include "fathom/fast/vertices/vertex.h"
 #include "fathom/triangle/referee.h"
 
 namespace fathom::fast {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "fathom/geometry/pixel_box.h"
+#include "fathom/geometry/frames.h"
 
 namespace fathom::fast {
 

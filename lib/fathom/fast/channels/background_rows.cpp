@@ -1,6 +1,6 @@
-#include "fathom/fast/channels/background_rows.h"
-
 #include <cstddef>
+
+#include "fathom/fast/channels/map_rows.h"
 
 namespace fathom::fast {
 

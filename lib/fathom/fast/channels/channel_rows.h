@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "fathom/fast/channels/map_rows.h"
-#include "fathom/triangle/code_factor.h"
 #include "fathom/triangle/double_word_surface.h"
+#include "fathom/triangle/stored_quantity.h"
 
 namespace fathom::fast {
 

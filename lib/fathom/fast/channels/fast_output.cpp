@@ -1,7 +1,7 @@
-#include "fathom/fast/channels/fast_output.h"
-
 #include <algorithm>
 #include <utility>
+
+#include "fathom/fast/channels/resolve.h"
 
 namespace fathom::fast {
 using namespace rendering;

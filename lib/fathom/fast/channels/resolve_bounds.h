@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fathom/numeric/unit_roundoff.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 // Constants of the interval of D at a sample (depth_interval-inl.h).
 // validation/proofs/depth/depth_*.gappa.in and weight_row.gappa.in prove each.

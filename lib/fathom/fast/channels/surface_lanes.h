@@ -5,7 +5,7 @@
 #include <span>
 
 #include "fathom/fast/channels/channel_rows.h"
-#include "fathom/fast/pixels/surface_facts.h"
+#include "fathom/fast/pixels/surface_values.h"
 
 // The binary64 tier of what channels need to know of visible triangles, several of them at once.
 // triangle/certified_surface.h does the same for one triangle, and says why.

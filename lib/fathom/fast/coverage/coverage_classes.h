@@ -5,7 +5,7 @@
 
 #include "fathom/fast/bins/bins.h"
 #include "fathom/fast/coverage/tile_rows.h"
-#include "fathom/fast/setup/depth_range.h"
+#include "fathom/fast/setup/setup.h"
 
 namespace fathom::fast {
 

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fathom/fast/coverage/area_bounds.h"
-#include "fathom/numeric/unit_roundoff.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::fast {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "fathom/fast/coverage/area_bounds.h"
+#include "fathom/fast/coverage/square_edges.h"
 #include "fathom/fast/lanes/each_bit.h"
 #include "fathom/numeric/rounding.h"
 

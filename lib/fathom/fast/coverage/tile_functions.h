@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "fathom/fast/coverage/pixel_union.h"
+#include "fathom/fast/coverage/pixel_area.h"
 #include "fathom/fast/setup/setup.h"
 
 // Affine functions that are positive inside a triangle, in pixels from a tile's top left corner.

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "fathom/fast/coverage/area_bounds.h"
+#include "fathom/fast/coverage/square_edges.h"
 #include "fathom/fast/lanes/each_bit.h"
 
 namespace fathom::fast {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "fathom/fast/channels/map_rows.h"
-#include "fathom/fast/coverage/pixel_union.h"
+#include "fathom/fast/coverage/pixel_area.h"
 #include "fathom/fast/tiles/tile.h"
 
 // Rows of a tile's pixels as words, a bit for each column, several rows at once.

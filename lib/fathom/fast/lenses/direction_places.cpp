@@ -6,9 +6,9 @@
 #include <limits>
 #include <numbers>
 
-#include "fathom/fast/lenses/place_arithmetic.h"
+#include "fathom/fast/lenses/plane_places.h"
 #include "fathom/numeric/certified.h"
-#include "fathom/numeric/dyadic_interval.h"
+#include "fathom/numeric/dyadic.h"
 
 // A place is a quotient of two components, which err by `error` each: with A, W the exact ones,
 // │a/w − A/W│ = │a·W − A·w│/(w·W) ≤ error·(1 + │a/w│)/W, W ≥ w − error, and a rounding. The

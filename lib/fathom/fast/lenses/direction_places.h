@@ -8,11 +8,9 @@
 
 #include "fathom/fast/bins/bins.h"
 #include "fathom/fast/bins/tile_shape.h"
-#include "fathom/fast/lenses/certified_plane.h"
-#include "fathom/fast/lenses/plane_box.h"
 #include "fathom/fast/lenses/plane_places.h"
 #include "fathom/fast/lenses/view_axes.h"
-#include "fathom/geometry/pixel_box.h"
+#include "fathom/geometry/frames.h"
 #include "fathom/lens/preimages.h"
 #include "fathom/numeric/interval.h"
 

@@ -1,8 +1,6 @@
 // Depths of a tile of a lens, several at once.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fathom/fast/lenses/lens_depths.cpp"
-#include "fathom/fast/lenses/lens_depths.h"
-
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
@@ -11,6 +9,7 @@
 #include "fathom/fast/channels/depth_interval-inl.h"
 #include "fathom/fast/channels/surfaces_at-inl.h"
 #include "fathom/fast/lanes/lanes-inl.h"
+#include "fathom/fast/lenses/lens_tile.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {

@@ -3,10 +3,13 @@
 #include <optional>
 #include <vector>
 
-#include "fathom/fast/lenses/lens_depths.h"
+#include "fathom/fast/channels/resolve.h"
 #include "fathom/fast/lenses/lens_tile.h"
+#include "fathom/lens/preimages.h"
+#include "fathom/rendering/rendered.h"
+#include "fathom/scene/triangle_source.h"
 #include "fathom/triangle/channels.h"
-#include "fathom/triangle/ray_surface.h"
+#include "fathom/triangle/ray_values.h"
 
 namespace fathom::fast {
 
@@ -57,6 +60,18 @@ class LensOutput {
   std::vector<std::size_t> first_pixel_;
   /// By the same places; made where they are needed.
   std::vector<std::optional<triangle::RaySurface>> surfaces_;
+};
+
+/// An image that no window holds, because its rays are too far from the axis for binary64 numbers.
+struct RayByRay {
+  const TriangleSource& triangles;
+  const Camera& camera;
+  Cull cull;
+  const lens::Preimages& preimages;
+
+  /// Writes each pixel from exact numbers, looking at every triangle for each.
+  void write(triangle::ChannelWriter& writer, RenderStatistics& statistics,
+             FirstFault& fault) const;
 };
 
 }  // namespace fathom::fast

@@ -11,13 +11,13 @@
 #include "fathom/fast/bins/fetch-inl.h"
 #include "fathom/fast/lanes/each_bit.h"
 #include "fathom/fast/lanes/lanes-inl.h"
-#include "fathom/fast/lenses/lens_bounds.h"
 #include "fathom/fast/lenses/lens_tile.h"
+#include "fathom/fast/lenses/window.h"
 #include "fathom/fast/setup/setup-inl.h"
 #include "fathom/fast/tiles/cell_drawing-inl.h"
 #include "fathom/fast/tiles/farthest-inl.h"
 #include "fathom/fast/tiles/lane_batch-inl.h"
-#include "fathom/fast/vertices/image_object.h"
+#include "fathom/fast/vertices/vertex.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {

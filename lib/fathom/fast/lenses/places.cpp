@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "fathom/fast/lenses/direction_places.h"
-#include "fathom/fast/lenses/place_arithmetic.h"
 #include "fathom/fast/lenses/plane_places.h"
 #include "fathom/threads/threads.h"
 

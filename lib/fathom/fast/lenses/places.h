@@ -11,7 +11,6 @@
 #include "fathom/fast/bins/bins.h"
 #include "fathom/fast/bins/tile_shape.h"
 #include "fathom/fast/lenses/direction_places.h"
-#include "fathom/fast/lenses/plane_box.h"
 #include "fathom/fast/lenses/view_axes.h"
 #include "fathom/lens/preimages.h"
 

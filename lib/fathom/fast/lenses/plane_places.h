@@ -1,16 +1,59 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 
+#include "fathom/camera/projection.h"
 #include "fathom/fast/bins/bins.h"
 #include "fathom/fast/bins/tile_shape.h"
-#include "fathom/fast/lenses/certified_plane.h"
-#include "fathom/fast/lenses/plane_box.h"
+#include "fathom/fast/lenses/stage_lanes.h"
+#include "fathom/fast/lenses/view_axes.h"
 #include "fathom/lens/preimages.h"
+#include "fathom/numeric/standard_arithmetic.h"
+
+// What the certificates of places compute with.
+namespace fathom::fast::place_arithmetic {
+
+inline constexpr double u = unit_roundoff<double>;
+/// Covers the roundings of a few operations on positive numbers.
+inline constexpr double up = 1 + 0x1p-40;
+/// The place of a sample without a ray.
+inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+inline double greatest_size(double a, double b) {
+  return std::max(std::abs(a), std::abs(b));
+}
+
+}  // namespace fathom::fast::place_arithmetic
 
 namespace fathom::fast {
+
+/// The map from samples to y in binary64, with a bound on the errors of its components; the error
+/// is +∞ where no bound is known.
+class CertifiedPlane {
+ public:
+  /// Without a bound.
+  CertifiedPlane() = default;
+  CertifiedPlane(const lens::Preimages& preimages, const Projection& projection,
+                 std::uint32_t width, std::uint32_t height);
+
+  [[nodiscard]] const PlaneForLanes& lanes() const { return lanes_; }
+  [[nodiscard]] double error() const { return error_; }
+  [[nodiscard]] std::array<double, 2> at(double column, double row) const {
+    const double x = column - lanes_.centre_u, y = row - lanes_.centre_v;
+    const auto value = [&](const std::array<double, 3>& g) { return g[0] * x + g[1] * y + g[2]; };
+    const double z = lanes_.is_affine ? 1 : value(lanes_.g[2]);
+    return {value(lanes_.g[0]) / z, value(lanes_.g[1]) / z};
+  }
+
+ private:
+  PlaneForLanes lanes_;
+  double error_ = std::numeric_limits<double>::infinity();
+};
 
 /// Where the places of a tile are written, by TileShape::index().
 struct FoundPlaces {

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/fast/lenses/lens_bounds.h"
-#include "fathom/fast/lenses/place_arithmetic.h"
-#include "fathom/numeric/unit_roundoff.h"
+#include "fathom/fast/lenses/plane_places.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::fast {
 using place_arithmetic::up;

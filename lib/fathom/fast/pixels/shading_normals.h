@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "fathom/fast/pixels/surface_facts.h"
+#include "fathom/fast/pixels/surface_values.h"
 #include "fathom/triangle/corner_normals.h"
 
 /// Channel Ns in binary64, with bounds.

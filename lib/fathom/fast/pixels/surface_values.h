@@ -1,12 +1,96 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
-#include "fathom/fast/pixels/surface_facts.h"
-#include "fathom/fast/pixels/zero_proof.h"
+#include "fathom/triangle/certified_surface.h"
+#include "fathom/triangle/double_word_surface.h"
+#include "fathom/triangle/rays.h"
 
 namespace fathom::fast {
+
+/// What the values of all surfaces are computed from.
+struct ValueFrame {
+  explicit ValueFrame(const triangle::SceneRays& its_rays);
+
+  const triangle::SceneRays& rays;
+  const triangle::WideArithmetic& wide;
+  triangle::ImageBounds image;
+  triangle::RaySizes world_sizes;
+};
+
+/// The normals of a triangle's corners in the world, as they are interpolated: that of A, and what
+/// those of B and C have beyond it.
+struct SurfaceNormals {
+  Vector<Certified<double>> at_A, to_B, to_C;
+};
+
+/// A visible triangle, with what has been found out about it so far. Functions that find out more
+/// keep it here.
+struct SurfaceFacts {
+  /// False if a number has a magnitude for which no bound was derived: only exact numbers will do.
+  bool usable = false;
+  TriangleOrigin origin;
+  const triangle::ObjectRays* object = nullptr;
+  triangle::MeshTriangle corners;
+
+  std::optional<triangle::WeightForms<double>> weights;
+  std::optional<triangle::DepthForms<WordPair>> depth;
+  /// The normals as they are written, in the world and in the camera frame.
+  std::optional<std::array<float, 3>> normal, camera_normal;
+  std::optional<SurfaceNormals> corner_normals;
+  /// Exponents of powers of two of which the components of these are multiples.
+  std::optional<std::array<long, 3>> normal_bits;
+  /// World x, y, z and depth, if they are found to be the same at all three corners; bit k of
+  /// constants_known: constants[k] was looked for.
+  std::array<std::optional<WordPair>, 4> constants;
+  std::uint8_t constants_known = 0;
+};
+
+/// A triangle of the scene about which nothing more is known yet.
+SurfaceFacts surface_facts(std::uint32_t number, const ValueFrame& frame);
+
+const triangle::WeightForms<double>& weights_of(SurfaceFacts& t, const ValueFrame& frame);
+const triangle::DepthForms<WordPair>& depth_of(SurfaceFacts& t, const ValueFrame& frame);
+
+/// World coordinate k, or the depth (3), if it is found to be the same number at all corners.
+const std::optional<WordPair>& constant_of(SurfaceFacts& t, std::size_t k);
+
+/// Proves that a value of a surface at a sample is exactly 0, which no bound on its error can.
+///
+/// At a sample every interpolated value is Σ eᵢ·xᵢ / Σ eᵢ. The coordinates of the corners are
+/// multiples of some powers of two, and so are U, V, W, the edge functions eᵢ and the numerator;
+/// Σ eᵢ = det(H)·(n·d) up to its sign (triangle/certified_surface.h). So |value|·|det H|·|n·d| is
+/// |numerator|, and if an upper bound on it is below the power of two of which the numerator is a
+/// multiple, the value is 0.
+class ZeroProof {
+ public:
+  ZeroProof(const SurfaceFacts& surface, bool perspective)
+      : surface_(surface), perspective_(perspective) {}
+
+  /// Exponents of powers of two of which these are multiples: a world coordinate (k = 0, 1, 2) or
+  /// U, V, D of the corners; the edge functions, which are determinants of two corners and a
+  /// sample.
+  long world_bits(std::size_t k);
+  long image_bits(std::size_t k);
+  long weight_bits();
+
+  /// From upper bounds on |value| and |n·d|, and an exponent for the numerator.
+  [[nodiscard]] bool holds(double value, double divisor, long numerator_bits) const;
+  /// At the sample s, where n·d is the divisor of the depth.
+  [[nodiscard]] bool holds(const Certified<WordPair>& value,
+                           const triangle::DepthForms<WordPair>& depth, const ImagePoint& s,
+                           long numerator_bits) const;
+
+ private:
+  /// Of the corners' x, y and z.
+  const std::array<long, 3>& corner_bits();
+
+  const SurfaceFacts& surface_;
+  bool perspective_;
+  std::optional<std::array<long, 3>> corner_bits_;
+};
 
 /// The values of a visible surface at a sample in double-words, with bounds; what several channels
 /// need is computed when it is first asked for.

@@ -8,7 +8,6 @@
 
 #include "fathom/fast/coverage/tile_coverage.h"
 #include "fathom/fast/rounds/kept_triangles.h"
-#include "fathom/fast/rounds/spilled_triangles.h"
 #include "fathom/fast/tiles/frame.h"
 
 namespace fathom::fast {

@@ -1,13 +1,40 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <map>
 #include <span>
 #include <vector>
 
 #include "fathom/fast/bins/bins.h"
+#include "fathom/fast/tiles/frame.h"
+#include "fathom/files/spill_file.h"
+#include "fathom/scene/scene.h"
 #include "fathom/scene/triangle_source.h"
 
 namespace fathom::fast {
+
+/// Vertices of a mesh that is put together, of which no two are the same point, bit for bit. Files
+/// that have three vertices for each triangle become meshes of a sixth as many, and edges between
+/// triangles are seen to be that by the numbers of their ends.
+class DistinctVertices {
+ public:
+  void reserve(std::size_t count);
+  [[nodiscard]] std::size_t size() const { return vertices_.size(); }
+  /// Adds a point unless it is there; its number.
+  std::uint32_t number_of(const MeshPoint& point);
+  /// All of them, by their numbers; none is left here.
+  std::vector<MeshPoint> take();
+
+ private:
+  void grow_slots(std::size_t vertices);
+  /// The slot of a point, or where it would be.
+  [[nodiscard]] std::size_t slot_of(const MeshPoint& point) const;
+
+  std::vector<MeshPoint> vertices_;
+  /// Numbers, at least half of them none; a power of two.
+  std::vector<std::uint32_t> slots_;
+};
 
 /// Some triangles of an object of the scene, taken out of where they were sorted into tiles.
 struct KeptTriangles {
@@ -45,5 +72,68 @@ std::vector<KeptTriangles> triangles_in_tiles(const ImageObjects& objects,
                                               std::span<const Bins> bins,
                                               std::span<const std::uint32_t> tiles,
                                               const TriangleSource& triangles);
+
+/// Triangles that were kept, put together again and sorted into tiles. Those of an object of the
+/// scene are one object here, too, with vertices that they share, so that edges between triangles
+/// that were kept apart are known to be between them.
+class GatheredTriangles {
+ public:
+  /// Room for so many more triangles of an object.
+  void reserve(std::uint32_t object, const KeptSize& more);
+  void add(const KeptTriangles& kept);
+  /// All of them, none of which is left there.
+  void take(std::vector<KeptTriangles>& kept);
+  /// What has been added, no triangle twice, into bins for at most `parts` parts. Once, after the
+  /// last add().
+  void sort(std::uint32_t parts, const TriangleSource& triangles, const FastFrame& frame,
+            FastWorkers& workers);
+
+  // Once they are sorted:
+  [[nodiscard]] const ImageObjects& objects() const { return objects_; }
+  [[nodiscard]] const std::vector<Bins>& bins() const { return bins_; }
+
+ private:
+  struct Part {
+    KeptTriangles triangles;
+    /// Until they are sorted.
+    DistinctVertices vertices;
+  };
+  Part& part_for(std::uint32_t object, std::size_t vertices);
+
+  /// Several for an object only where one would have more vertices than can be numbered.
+  std::deque<Part> parts_;
+  /// For each object of the scene the part that triangles are added to.
+  std::map<std::uint32_t, Part*> part_of_;
+  ImageObjects objects_;
+  std::vector<Bins> bins_;
+};
+
+/// Triangles that wait on a disk, in buckets of which each is read by itself. In memory remains a
+/// place for each time that some are added to a bucket.
+/// Fails    as SpillFile.
+class SpilledTriangles {
+ public:
+  explicit SpilledTriangles(std::size_t buckets) : buckets_(buckets) {}
+  /// Several threads may add to different buckets at the same time.
+  void add(std::size_t bucket, std::span<const KeptTriangles> kept);
+  [[nodiscard]] KeptSize size_of_bucket(std::size_t bucket) const;
+  /// Everything in a bucket.
+  void gather(std::size_t bucket, GatheredTriangles& to) const;
+  /// Calls visit(triangles) for all in a bucket, as they were added.
+  template <class Visit>
+  void for_each(std::size_t bucket, const Visit& visit) const {
+    for (const Block& block : buckets_[bucket]) visit(read(block));
+  }
+
+ private:
+  struct Block {
+    std::uint64_t offset;
+    std::uint32_t object, vertices, triangles;
+  };
+  [[nodiscard]] KeptTriangles read(const Block& block) const;
+
+  files::SpillFile file_;
+  std::vector<std::vector<Block>> buckets_;
+};
 
 }  // namespace fathom::fast

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fathom/numeric/unit_roundoff.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 // Constants of the bounds of triangles; their derivations are where they are used (setup-inl.h,
 // exact_setup.cpp). validation/proofs/ proves each, in the file that is named beside it.

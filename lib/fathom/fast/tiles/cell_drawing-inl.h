@@ -16,7 +16,7 @@
 #include "fathom/fast/tiles/cell_spans-inl.h"
 #include "fathom/fast/tiles/lane_batch-inl.h"
 #include "fathom/fast/tiles/tile.h"
-#include "fathom/numeric/round_outwards.h"
+#include "fathom/numeric/interval.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "fathom/fast/setup/depth_range.h"
 #include "fathom/fast/setup/setup.h"
 #include "fathom/rendering/options.h"
 #include "fathom/rendering/rendered.h"

@@ -15,7 +15,7 @@
 #include "fathom/fast/bins/tile_shape.h"
 #include "fathom/fast/lanes/lanes-inl.h"
 #include "fathom/fast/setup/setup-inl.h"
-#include "fathom/fast/tiles/tile_surface.h"
+#include "fathom/fast/tiles/tile.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "fathom/fast/tiles/settle.h"
-#include "fathom/triangle/sampling.h"
+#include "fathom/triangle/projected_triangle.h"
 
 namespace fathom::fast {
 using namespace triangle;

@@ -11,7 +11,6 @@
 
 #include "fathom/fast/lanes/lanes-inl.h"
 #include "fathom/fast/vertices/vertex.h"
-#include "fathom/fast/vertices/vertex_bounds.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {

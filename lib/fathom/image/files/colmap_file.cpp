@@ -7,8 +7,8 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/files/byte_order.h"
+#include "fathom/image/depth_map.h"
 #include "fathom/image/files/map_codecs.h"
-#include "fathom/image/pixel_place.h"
 #include "fathom/image/surface.h"
 #include "fathom/text/decimal.h"
 

@@ -27,7 +27,7 @@ files::Bytes encode_pfm(const DepthMap& map, const ImageChannel& channel, const 
 DepthMap decode_pfm(files::ByteView bytes, const std::string& name);
 
 files::Bytes encode_png(const DepthMap& map, const ImageChannel& channel, const std::string& name);
-/// The three parts of a channel of normals as the colours of a picture (normal_codes.h).
+/// The three parts of a channel of normals as the colours of a picture (png_files.h).
 /// Fails    UsageError for other bits than 8 and 16, or axes of OpenGL for another channel than Nc.
 files::Bytes encode_normals(const DepthMap& map, const std::vector<const ImageChannel*>& parts,
                             const NormalCoding& coding, const std::string& name);

@@ -7,7 +7,7 @@
 #include "fathom/image/channel_table.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/npy_array.h"
-#include "fathom/numeric/binary16.h"
+#include "fathom/numeric/rounding.h"
 #include "fathom/text/counted.h"
 
 /// NPY ([Ker07]): "\x93NUMPY", version, length of the header, a Python dictionary of descr,

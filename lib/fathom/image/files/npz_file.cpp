@@ -2,9 +2,8 @@
 #include <set>
 
 #include "fathom/failures/errors.h"
-#include "fathom/image/files/code_texts.h"
+#include "fathom/image/files/file_texts.h"
 #include "fathom/image/files/map_codecs.h"
-#include "fathom/image/files/name_tables.h"
 #include "fathom/image/files/npy_array.h"
 #include "fathom/image/files/zip_archive.h"
 #include "fathom/text/decimal.h"

@@ -4,11 +4,10 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/files/byte_order.h"
-#include "fathom/image/files/code_texts.h"
+#include "fathom/image/depth_map.h"
+#include "fathom/image/files/file_texts.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/png_picture.h"
-#include "fathom/image/normal_codes.h"
-#include "fathom/image/pixel_place.h"
 #include "fathom/image/png_files.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/standard_arithmetic.h"

@@ -5,7 +5,7 @@
 #include <new>
 
 #include "fathom/failures/errors.h"
-#include "fathom/image/files/name_tables.h"
+#include "fathom/image/files/file_texts.h"
 #include "fathom/image/png_files.h"
 #include "fathom/image/png_stream.h"
 #include "fathom/image/rgb_image.h"

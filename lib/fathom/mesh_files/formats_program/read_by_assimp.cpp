@@ -4,7 +4,7 @@
 #include <map>
 
 #include "fathom/failures/errors.h"
-#include "fathom/mesh/element_counts.h"
+#include "fathom/mesh/mesh_faces.h"
 #include "fathom/mesh_files/foreign_formats.h"
 #include "fathom/mesh_files/formats_program/foreign_mesh.h"
 #include "fathom/mesh_files/formats_program/process.h"

@@ -5,8 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "fathom/mesh_files/gltf/gltf_extensions.h"
-#include "fathom/mesh_files/gltf/gltf_references.h"
+#include "fathom/mesh_files/gltf/gltf_asset.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::mesh_files {

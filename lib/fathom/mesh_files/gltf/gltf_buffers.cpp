@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "fathom/failures/errors.h"
-#include "fathom/mesh_files/named_files.h"
+#include "fathom/mesh_files/read_mesh.h"
 #include "fathom/text/base64.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/text_ends.h"

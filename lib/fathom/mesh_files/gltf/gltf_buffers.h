@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "fathom/files/confinement.h"
 #include "fathom/files/input_file.h"
 #include "fathom/mesh_files/expansion_budget.h"
 #include "fathom/mesh_files/read_options.h"

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "fathom/mesh_files/formats_program/process.h"
-#include "fathom/mesh_files/gltf/gltf_references.h"
+#include "fathom/mesh_files/gltf/gltf_asset.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::mesh_files {

@@ -2,8 +2,7 @@
 
 #include <span>
 
-#include "fathom/mesh_files/gltf/gltf_extensions.h"
-#include "fathom/mesh_files/gltf/gltf_references.h"
+#include "fathom/mesh_files/gltf/gltf_asset.h"
 
 namespace fathom::mesh_files {
 using namespace text;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fathom/memory/huge_pages.h"
-#include "fathom/mesh_files/gltf/gltf_references.h"
+#include "fathom/mesh_files/gltf/gltf_asset.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::mesh_files {

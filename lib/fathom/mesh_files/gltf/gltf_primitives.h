@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "fathom/failures/warnings.h"
+#include "fathom/failures/errors.h"
 #include "fathom/mesh/mesh.h"
+#include "fathom/mesh_files/gltf/gltf_asset.h"
 #include "fathom/mesh_files/gltf/gltf_primitive_accessors.h"
-#include "fathom/mesh_files/gltf/gltf_references.h"
 
 /// Triangles of glTF meshes. For this room's .cpp files only.
 /// Source   [GLTF20] 3.7.2 (geometry); [KMQ22]

@@ -1,14 +1,74 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <vector>
 
-#include "fathom/mesh_files/obj/obj_segments.h"
+#include "fathom/mesh/segmentation.h"
+
+/// The lines o, g and usemtl of an OBJ. For this room's .cpp files only.
+namespace fathom::mesh_files {
+
+/// A line that gives the triangles after it a name.
+struct ObjSegmentLine {
+  Segmentation by;
+  /// What follows the keyword, as it stands in the file.
+  std::string_view rest;
+  /// How many triangles come before it in its piece of the file.
+  std::uint64_t triangle;
+};
+
+/// The lines of a piece of the file, without those that no triangle follows before the next.
+class ObjSegmentLines {
+ public:
+  void add(const ObjSegmentLine& line);
+  [[nodiscard]] const std::vector<ObjSegmentLine>& lines() const { return lines_; }
+
+ private:
+  std::vector<ObjSegmentLine> lines_;
+  /// One more than the place of the last line of each segmentation.
+  std::array<std::size_t, all_segmentations.size()> last_{};
+};
+
+/// The segmentation that a keyword belongs to; label of none.
+Segmentation obj_segmentation(std::string_view keyword);
+
+/// Makes segments of lines, one segmentation at a time.
+///
+/// A name is what follows the keyword, without the blanks around it: it may hold blanks and '#',
+/// and the several groups of a `g` are one name. Bytes that are not UTF-8 are taken for ISO 8859-1.
+/// `g` alone means the group `default`; `o` and `usemtl` alone mean none, as does everything before
+/// the first line.
+class ObjSegments {
+ public:
+  explicit ObjSegments(Segmentation by) : segments_{by, {}, {}} {}
+
+  /// The lines of the next piece, before which there are so many triangles.
+  void add(const std::vector<ObjSegmentLine>& lines, std::uint64_t triangles_before);
+  /// Of a mesh of so many triangles; without numbers if none has a name.
+  TriangleSegments finish(std::uint64_t triangles);
+
+ private:
+  /// Triangles up to `end` that have one number.
+  struct Run {
+    std::uint32_t end, number;
+  };
+  void end_run(std::uint64_t triangle);
+  std::uint32_t number_of(std::string_view rest);
+
+  TriangleSegments segments_;
+  std::vector<Run> runs_;
+  std::string_view rest_;
+  bool has_begun_ = false;
+  std::uint64_t begin_ = 0;
+  std::unordered_map<std::string, std::uint32_t> numbers_;
+};
 
 /// What an OBJ has, before any of it is read. For this room's .cpp files only.
-namespace fathom::mesh_files {
 
 /// How many of each a piece of the file has; sums of them are places.
 struct ObjCounts {

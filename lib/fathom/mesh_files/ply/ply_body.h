@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fathom/failures/warnings.h"
+#include "fathom/failures/errors.h"
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/mesh_files/ply/ply_rows.h"
 #include "fathom/text/counted.h"

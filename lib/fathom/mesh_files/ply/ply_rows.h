@@ -16,7 +16,6 @@
 #include "fathom/files/random_access_file.h"
 #include "fathom/mesh/mesh.h"
 #include "fathom/mesh_files/ply/ply_header.h"
-#include "fathom/mesh_files/ply/ply_labels.h"
 
 static_assert(std::endian::native == std::endian::little, "little endian PLY is read as it lies");
 

@@ -5,8 +5,7 @@
 #include "fathom/mesh/triangulate_face.h"
 #include "fathom/mesh_files/ply/ply_body.h"
 #include "fathom/mesh_files/ply/ply_face_index.h"
-#include "fathom/mesh_files/ply/ply_supposed_triangles.h"
-#include "fathom/mesh_files/ply/ply_vertices.h"
+#include "fathom/mesh_files/ply/ply_layout.h"
 #include "fathom/mesh_files/streams.h"
 
 // The file is read through once, with the rows and checks of the ordinary reader, or, where that is

@@ -6,7 +6,6 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/mesh_files/ply/ply_header.h"
-#include "fathom/mesh_files/ply/ply_labels.h"
 #include "fathom/text/text_cursor.h"
 
 namespace fathom::mesh_files {

@@ -2,11 +2,11 @@
 #include <array>
 #include <limits>
 
-#include "fathom/mesh/element_counts.h"
+#include "fathom/mesh/mesh_faces.h"
 #include "fathom/mesh_files/occurrences.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/mesh_files/stl/stl_binary.h"
-#include "fathom/text/small_letters.h"
+#include "fathom/text/ascii.h"
 #include "fathom/text/text_cursor.h"
 #include "fathom/text/text_ends.h"
 

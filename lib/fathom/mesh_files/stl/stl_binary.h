@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "fathom/failures/warnings.h"
+#include "fathom/failures/errors.h"
 #include "fathom/mesh/mesh.h"
 
 /// Binary STL: a header of 84 bytes, which ends with the number of triangles, then 50 bytes each.

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "fathom/pipeline/fragments/interpolation.h"
+#include "fathom/pipeline/fragments/fragment.h"
 #include "fathom/pipeline/fragments/texture.h"
 
 /// Fragment stage: the colour of a fragment. Colours are numbers from 0 to 1 that are written to

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fathom/camera/rounded_projection.h"
+#include "fathom/camera/projection.h"
 #include "fathom/failures/errors.h"
 #include "fathom/geometry/eigen_arrays.h"
 

@@ -5,7 +5,7 @@
 
 #include "fathom/image/depth_map.h"
 #include "fathom/image/rgb_image.h"
-#include "fathom/pipeline/fragments/depth_test.h"
+#include "fathom/pipeline/fragments/fragment.h"
 #include "fathom/pipeline/output/draw_rules.h"
 
 /// Output merger: what becomes of a shaded fragment, and of the samples at the end.

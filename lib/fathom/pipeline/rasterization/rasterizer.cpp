@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fathom/pipeline/scan/polygon_fill.h"
+#include "fathom/pipeline/scan/area_fill.h"
 #include "fathom/threads/interruption.h"
 
 namespace fathom::pipeline {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "fathom/pipeline/fragments/shading.h"
+#include "fathom/pipeline/geometry/subpixel_grid.h"
 #include "fathom/pipeline/output/output_merger.h"
-#include "fathom/pipeline/rasterization/grid_samples.h"
 
 /// Scan conversion stage and what follows it, for triangles in the window: fragments, depth test,
 /// shading, output merger.

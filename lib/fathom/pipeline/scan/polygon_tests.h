@@ -30,7 +30,7 @@ template <class Number>
 bool is_on_one_side_of_every_edge(const Ring<Number>& ring, const Point<Number>& p);
 
 /// How a horizontal ray from the point to the right meets the outline. Edges are half-open as in
-/// polygon_fill.h (y_min ≤ y < y_max), and a crossing counts if it is to the right of the point, so
+/// area_fill.h (y_min ≤ y < y_max), and a crossing counts if it is to the right of the point, so
 /// that the answers agree with the pixels that are filled.
 struct RayCrossings {
   int count = 0;  ///< odd: inside by the even-odd rule

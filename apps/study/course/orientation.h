@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "apps/study/pipeline_scenes.h"
+
+/// Which side of a triangle is seen.
+namespace fathom::studies {
+
+/// How many triangles of a closed ball face the eye by each of the three tests.
+struct FacingCount {
+  double distance = 0;  ///< of the eye from the middle, in radii
+  pipeline::Precision precision{};
+  std::uint64_t triangles = 0, front_in_world = 0, front_in_ndc = 0, front_in_window = 0;
+  std::uint64_t disagreeing = 0;  ///< triangles on which the three tests disagree
+  /// What is seen of a ball of radius 1 from there: (1 − 1/distance)/2 of its surface.
+  double seen_share = 0;
+};
+std::vector<FacingCount> count_facings();
+
+/// Triangles whose third corner lies in the plane through the eye and the other two, but for its
+/// rounding to binary32: edge-on.obj and edge-on.json. The eye is the origin; all corners are
+/// numbers of binary32.
+SceneFiles edge_on_files();
+
+/// What the three tests say of each of these triangles. A test is wrong where it does not say what
+/// the sign of the determinant of the three corners says, which is computed in integers.
+struct EdgeOnCount {
+  pipeline::Precision precision{};
+  std::uint64_t triangles = 0, front = 0;  ///< by the exact sign
+  std::uint64_t front_in_world = 0, front_in_ndc = 0, front_in_window = 0;
+  std::uint64_t wrong_in_world = 0, wrong_in_ndc = 0, wrong_in_window = 0;
+  std::uint64_t disagreeing = 0;
+  /// Triangles that are drawn the other way round than the window's test says, or not at all.
+  std::uint64_t turned_by_snapping = 0;
+};
+std::vector<EdgeOnCount> count_edge_on();
+
+/// A box without its lid from above, by the rule of what is front and the side that is culled.
+SceneFiles open_box_files();
+RgbImage open_box(pipeline::FrontFace front_face, pipeline::Culling culling);
+
+/// A mesh of narrow triangles on the subpixel grid: how often its samples are covered. Every
+/// triangle is asked about every sample, by what the pipeline decides with (subpixel_grid.h): the
+/// pipeline's pictures show only one triangle at each.
+struct SharedEdges {
+  int bits = 0;
+  std::uint64_t triangles = 0, turned_over = 0, without_area = 0;
+  std::uint64_t samples = 0;
+  std::uint64_t signed_not_one = 0;     ///< samples, counted by orientation
+  std::uint64_t unsigned_not_one = 0;   ///< samples, every triangle counted
+  std::uint64_t unexplained = 0;        ///< of these, with no triangle that was turned over
+  std::uint64_t covers = 0;             ///< samples covered, over all triangles
+  std::vector<bool> covered_by_turned;  ///< for each sample, row by row
+};
+SharedEdges count_shared_edges(int bits);
+
+/// The mesh that was snapped, a pixel for each of its samples: triangles that were turned over come
+/// first, in red, and hide those behind them that are at the same depth; the others are blue.
+SceneFiles shared_edges_files(int bits);
+/// As the pipeline draws it.
+RgbImage shared_edges_picture(int bits);
+
+}  // namespace fathom::studies
