@@ -16,7 +16,7 @@ namespace {
 using Verdict = Definiteness::Verdict;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double greatest = std::numeric_limits<double>::max();
+constexpr double greatest_number = std::numeric_limits<double>::max();
 
 // With f(r) = r·L(r²) the eigenvalues of the Jacobian are f' and f/r, and f/r is positive as long
 // as f' is. D²·f' is a polynomial in q.
@@ -55,12 +55,12 @@ class DiscSearch {
   [[nodiscard]] Definiteness::RingVerdict verdict_on(double candidate) const {
     const double end = std::min(candidate, outer_);
     if (end <= inner_) return {Verdict::holds, {}};
-    return stage_.holds_on_ring(inner_, std::min(end, greatest));
+    return stage_.holds_on_ring(inner_, std::min(end, greatest_number));
   }
 
   /// Circles are tried at steps of the factor 2.
   [[nodiscard]] double first_candidate() const {
-    const double end = std::min({pole_, outer_, greatest});
+    const double end = std::min({pole_, outer_, greatest_number});
     double regular = inner_;
     while (regular < end) {
       const double q = std::min(2 * regular, end);
@@ -68,7 +68,7 @@ class DiscSearch {
       regular = q;
     }
     if (pole_ < infinity) return pole_;
-    return outer_ < infinity ? infinity : greatest;
+    return outer_ < infinity ? infinity : greatest_number;
   }
 
   /// The regular one of two neighbours in binary64. Between the ends, circles need not be regular
@@ -87,7 +87,7 @@ class DiscSearch {
   /// Discs that are smaller by 2⁻⁴⁸, 2⁻²⁴, …, ½ of the candidate.
   [[nodiscard]] double greatest_proved_below(double candidate) const {
     for (int power = -48; power < 0; power /= 2) {
-      const double q = std::min(candidate, greatest) * (1 - std::ldexp(1.0, power));
+      const double q = std::min(candidate, greatest_number) * (1 - std::ldexp(1.0, power));
       if (stage_.holds_on_circle(q) && verdict_on(q).verdict == Verdict::holds) return q;
     }
     return inner_;

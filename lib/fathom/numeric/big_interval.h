@@ -54,9 +54,4 @@ class BigInterval {
   mpfr_t low_, high_;
 };
 
-/// The smallest interval of binary64 numbers that contains `x`.
-inline Interval enclose(const DyadicInterval& x) {
-  return {enclose(x.low).lower, enclose(x.high).upper};
-}
-
 }  // namespace fathom

@@ -81,6 +81,11 @@ struct DyadicInterval {
   }
 };
 
+/// The smallest interval of binary64 numbers that contains `x`.
+inline Interval enclose(const DyadicInterval& x) {
+  return {enclose(x.low).lower, enclose(x.high).upper};
+}
+
 inline DyadicInterval operator+(const DyadicInterval& a, const DyadicInterval& b) {
   return {a.low + b.low, a.high + b.high};
 }

@@ -139,7 +139,7 @@ std::optional<float> binary32_in(const RayBox& box, const LinearForm& numerator,
                                  const LinearForm& denominator) {
   const Certified<double> value =
       quotient(certified_in(box, numerator), certified_in(box, denominator));
-  return to_binary32(value.value, value.error);
+  return fathom::to_binary32(value.value, value.error);
 }
 
 std::optional<float> distance_in(const RayBox& box, const Dyadic& volume,
@@ -152,7 +152,7 @@ std::optional<float> distance_in(const RayBox& box, const Dyadic& volume,
   const Certified<double> along =
       quotient(to_certified(enclose(volume)), certified_in(box, weight));
   const Certified<double> value = product(along, root_of(squared));
-  return to_binary32(value.value, value.error);
+  return fathom::to_binary32(value.value, value.error);
 }
 
 Real quotient_at(const ExactDirection& d, const QuadraticForm& numerator,

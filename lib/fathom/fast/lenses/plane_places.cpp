@@ -149,7 +149,7 @@ void TileSearch::find_exactly(std::uint32_t column, std::uint32_t row) {
   if (!d) return;
   const auto enclosure = d->enclosure(64);
   const auto place = [&](const DyadicInterval& interval) {
-    const Interval x{enclose(interval.low).lower, enclose(interval.high).upper};
+    const Interval x = enclose(interval);
     const double middle = x.lower / 2 + x.upper / 2;
     error_ = std::max(error_, (x.upper - x.lower + 2 * u * std::abs(middle)) * up);
     return middle;
