@@ -86,7 +86,7 @@ Interval enclose(const Certified<double>& x);
 /// negative, the result is not negative either.
 std::optional<float> settled_binary32(const Certified<double>& not_negative);
 
-/// What certified_value.h lacks for formulas that begin with an interval and end with a sign.
+/// For formulas that begin with an interval and end with a sign.
 
 inline Certified<double> operator-(const Certified<double>& x) {
   return {-x.value, x.error};

@@ -22,10 +22,6 @@ constexpr double ulp = epsilon<double>;
 /// How much of itself a component may err by.
 constexpr double component_condition = 0x1p-40;
 
-Certified<double> operator-(const Certified<double>& x) {
-  return {-x.value, x.error};
-}
-
 /// The difference of two exact numbers, rounded.
 Certified<double> exact_difference(double a, double b) {
   return sum<double>({a, 0}, {-b, 0});
@@ -65,7 +61,7 @@ bool is_accurate(const Certified<double>& x) {
 }
 
 /// Not known where it over- or underflows.
-Certified<double> rounded(const Dyadic& x) {
+Certified<double> certified_rounding(const Dyadic& x) {
   if (x.is_zero()) return {0, 0};
   const std::optional<double> value = round_to_normal(Ratio(x));
   if (!value) return {};
@@ -111,7 +107,7 @@ SurfaceNormals ShadingNormals::of_surface(std::uint32_t number, const SurfaceFac
     for (std::size_t i = 0; i < 3; ++i) {
       if (is_accurate(corners[k][i])) continue;
       if (!exact) exact = exact_.of_triangle(number);
-      corners[k][i] = rounded((*exact)[k][i]);
+      corners[k][i] = certified_rounding((*exact)[k][i]);
     }
   }
   SurfaceNormals normals;

@@ -21,7 +21,7 @@ SurfaceFacts surface_facts(std::uint32_t number, const ValueFrame& frame) {
   t.origin = triangle.origin;
   t.object = &frame.rays.object(t.origin.object);
   t.corners = triangle.corners;
-  t.usable = t.object->usable && frame.rays.world().usable && is_safe(t.corners);
+  t.usable = t.object->usable && frame.rays.world().usable && triangle::is_safe(t.corners);
   return t;
 }
 
