@@ -22,7 +22,7 @@ struct fathom_scene {
 /// answer_of() or status_of().
 namespace fathom::c {
 
-/// Thrown through the library where the caller's progress function asks for it.
+/// Thrown through the library when the caller's progress function requests a stop.
 struct Stopped {};
 
 inline std::string& error_of_thread() {
@@ -71,8 +71,8 @@ inline void require(bool holds, const char* message) {
   if (!holds) throw UsageError(message);
 }
 
-/// A count beyond what a mesh can have, such as a negative number made unsigned: refused before its
-/// bytes are computed, or an element is read.
+/// Refuses a count that no mesh can have, such as a negative number converted to unsigned, before
+/// its bytes are computed or an element is read.
 inline void require_count(const char* what, std::size_t count, std::size_t bytes_of_element) {
   const std::uint64_t most =
       std::min<std::uint64_t>(mesh::most_elements, SIZE_MAX / bytes_of_element);

@@ -307,7 +307,7 @@ fathom_status fathom_scene_add(fathom_scene* scene, const double* vertices, size
     Mesh mesh = mesh_of(vertices, vertex_count, triangles, triangle_count, lent != 0);
     Scene& target = scene->scene;
     if (target.sources.empty()) target.sources.push_back({"(arrays)", "", ""});
-    // What may fail comes first: a scene has a mesh with its object, or neither.
+    // Operations that may fail come first: a scene gets both mesh and object, or neither.
     target.objects.reserve(target.objects.size() + 1);
     target.meshes.push_back(std::move(mesh));
     target.objects.push_back(std::move(object));

@@ -21,7 +21,7 @@
 /// the package provides if Eigen is found. No other header of Fathom includes Eigen, so your Eigen
 /// may be compiled with any settings.
 ///
-/// Exact    numbers are copied, except in functions that say that they round. Eigen's own
+/// Exact    numbers are copied, except in functions that are documented to round. Eigen's own
 ///          functions round: an inverse or the rotation of a quaternion several times, whereas
 ///          camera_to_world() and import_colmap() round once.
 namespace fathom {
@@ -93,7 +93,7 @@ inline Eigen::Vector3d to_eigen(const MeshPoint& p) {
 inline MeshPoint to_mesh_point(const Eigen::Vector3d& p) {
   return {p.x(), p.y(), p.z()};
 }
-/// Exact. For what takes three numbers, such as look_at().
+/// Exact. For functions that take three numbers, such as look_at().
 inline std::array<double, 3> to_array(const Eigen::Vector3d& p) {
   return {p.x(), p.y(), p.z()};
 }

@@ -35,8 +35,8 @@ void describe(const Scene& scene, const Camera& camera, const RenderOptions& opt
   }
 }
 
-/// Surfaces that have no code where one that is too deep is as none: all others have a code above
-/// 0.
+/// Counts surfaces without a code, if depths beyond the greatest code are stored as background: all
+/// other surfaces have a code above 0.
 void count_codes_beyond(const RenderOptions& options, const RenderStatistics& statistics,
                         DepthMap& map) {
   const DepthEncoding& encoding = options.depth_encoding;

@@ -42,9 +42,9 @@ void render_into(Rendered& rendered, const Scene& scene, const Camera& camera,
 Rendered render(const StreamedScene& scene, const Camera& camera, const RenderOptions& options = {},
                 const StreamLimits& limits = {}, const RenderContext& context = {});
 
-/// Adds to a map whose channels have been put together from parts (fast/some_tiles.h) what render()
-/// adds to its own. Of the scene, objects, sources and segments count; of the statistics, the
-/// pixels with a surface.
+/// Adds the data that render() adds to its maps to a map whose channels have been assembled from
+/// parts (fast/some_tiles.h). Uses the objects, sources and segments of the scene, and the pixels
+/// with a surface of the statistics.
 void finish_map(DepthMap& map, const Scene& scene, const Camera& camera,
                 const RenderOptions& options, const RenderStatistics& statistics);
 
@@ -57,8 +57,8 @@ DeepMap render_deep(const Scene& scene, const Camera& camera, const RenderOption
 
 /// Adds Cryptomatte channels by object, CryptoObject00.R and so on, with the exact visible area of
 /// each object in each pixel rounded once; or by material, group or part, as CryptoMaterial00.R and
-/// so on. What has the same name is one; triangles without a name have the empty one. The map is
-/// one of this scene and camera; of the options culling and threads count.
+/// so on. Segments with the same name are merged; triangles without a name have the empty name. The
+/// map must be a map of this scene and camera. Only culling and threads of the options are used.
 /// Fails    InputError and UsageError as render(); UsageError for labels, which have no names;
 ///          InputError also if the map has a fault or is not of the camera's size.
 void add_cryptomatte(DepthMap& map, const Scene& scene, const Camera& camera,

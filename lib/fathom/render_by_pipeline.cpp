@@ -17,7 +17,8 @@
 namespace fathom {
 namespace {
 
-/// For each object the number after its last line and point, which come after all triangles.
+/// For each object, the number after its last line and point; lines and points are numbered after
+/// all triangles.
 std::vector<std::uint64_t> ends_of_lines(const Scene& scene, std::uint64_t triangles) {
   std::vector<std::uint64_t> ends;
   std::uint64_t end = triangles;
@@ -28,7 +29,7 @@ std::vector<std::uint64_t> ends_of_lines(const Scene& scene, std::uint64_t trian
   return ends;
 }
 
-/// What a channel has of a triangle.
+/// The value of a channel for a triangle.
 std::uint32_t number_of(const TriangleOrigin& origin, Channel channel,
                         const SceneSegments& segments) {
   if (channel == Channel::face) return origin.face;

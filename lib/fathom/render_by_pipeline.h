@@ -20,7 +20,7 @@ namespace fathom {
 /// Final content of a pipeline's depth buffer, pixel by pixel, row by row from the top.
 struct PipelineDepthBuffer {
   DepthFormat format;                       ///< with the near and far that were clipped with
-  std::array<double, 2> depth_range{0, 1};  ///< what near and far become
+  std::array<double, 2> depth_range{0, 1};  ///< the window depths of near and far
   /// With an orthographic camera the matrices of standard, opengl and reversed make a window depth
   /// that is affine in the depth: (D − near)/(far − near), reversed 1 minus that.
   bool orthographic = false;
@@ -36,7 +36,7 @@ struct PipelineRendering {
   /// triangles, object by object, lines first, and belong to no face. The map's camera has the near
   /// and far with which the pipeline clipped, so that an exact map can be made for it.
   DepthMap map;
-  RgbImage picture;  ///< empty where it is not asked for
+  RgbImage picture;  ///< empty if not requested
   pipeline::PipelineStatistics statistics;
   pipeline::PainterStatistics painter;
   Camera camera;
@@ -46,7 +46,7 @@ struct PipelineRendering {
 /// Refuses channels that the pipeline does not give. Fails with UsageError.
 void require_pipeline_channels(const std::vector<Channel>& channels);
 
-/// Rounded   every value, as the options say (pipeline/); nothing here is exact.
+/// Rounded   every value, as the options specify (pipeline/); no value is exact.
 /// Fails     InputError if the scene or the camera has a fault (find_fault), the image has more
 ///           than 2⁴⁴ pixels, or the texture cannot be read;
 ///           UsageError as require_pipeline_channels and pipeline::require_meaningful.

@@ -58,7 +58,7 @@ class LightAreas {
     return area;
   }
 
-  /// Of triangles of each of which something is visible.
+  /// The area of triangles each of which is at least partly visible.
   [[nodiscard]] LitArea of(const std::vector<SeenTriangle>& group) const {
     LitArea area;
     const Terms terms = visible_terms(group);
@@ -160,7 +160,7 @@ std::vector<std::vector<std::uint32_t>> members_of(const AreaOptions& options) {
   return members;
 }
 
-/// What is visible of some triangles; not those of which nothing is.
+/// The visible parts of some triangles, without hidden triangles.
 std::vector<SeenTriangle> seen_among(const SeenScene& scene,
                                      const std::vector<std::uint32_t>& numbers) {
   std::vector<SeenTriangle> seen;

@@ -14,8 +14,8 @@ bool Remainder::meets(const ConvexPolygon& polygon) const {
   return false;
 }
 
-// What lies outside a polygon lies outside its first edge, or inside that and outside the second,
-// and so on. Nothing lies outside a side of the cell.
+// A point outside a polygon is outside its first edge, or inside the first and outside the second
+// edge, and so on. No point is outside a side of the cell.
 void Remainder::subtract(const ConvexPolygon& polygon, std::size_t most) {
   struct Edge {
     const HalfPlane *inside, *outside;
@@ -36,7 +36,7 @@ void Remainder::subtract(const ConvexPolygon& polygon, std::size_t most) {
       if (beyond.clip(*edge.outside, counts)) outside.push_back(std::move(beyond));
       is_met = rest.clip(*edge.inside, counts);
     }
-    // Where nothing is met, the part stays in one piece.
+    // A part that the polygon does not meet remains whole.
     if (!is_met) outside.assign(1, part);
     for (ConvexPolygon& piece : outside) left.push_back(std::move(piece));
     if (left.size() > most) return;

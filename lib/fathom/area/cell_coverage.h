@@ -8,10 +8,10 @@
 
 namespace fathom::area {
 
-/// What polygons leave of a convex polygon in a cell, as convex polygons without a common area.
+/// A convex polygon in a cell minus other polygons, as convex polygons without a common area.
 class Remainder {
  public:
-  /// So many parts are quickly looked at.
+  /// A number of parts that is examined quickly.
   static constexpr std::size_t simple = 16;
 
   Remainder(ImageCell& cell, ConvexPolygon whole) : cell_(&cell), parts_{std::move(whole)} {}
@@ -21,8 +21,8 @@ class Remainder {
   /// Whether the polygon and the remainder have an area in common.
   [[nodiscard]] bool meets(const ConvexPolygon& polygon) const;
 
-  /// Takes a polygon away, exactly. If that would leave more than `most` parts, nothing is taken
-  /// away: then the remainder is more than what is left.
+  /// Subtracts a polygon, exactly. If more than `most` parts would remain, subtracts nothing: then
+  /// the remainder is larger than the exact difference.
   void subtract(const ConvexPolygon& polygon,
                 std::size_t most = std::numeric_limits<std::size_t>::max());
 
@@ -31,18 +31,18 @@ class Remainder {
   std::vector<ConvexPolygon> parts_;
 };
 
-/// Parts of a convex polygon in a cell that are covered or hidden, one after the other, without
-/// most of those that lie within the union of the ones before: in a crowd, most do.
+/// Covered or hidden parts of a convex polygon in a cell, in the order of addition. Most parts that
+/// lie within the union of earlier parts are left out: in a crowd, most parts do.
 class CoveredParts {
  public:
   CoveredParts(ImageCell& cell, ConvexPolygon whole) : cell_(&cell), whole_(std::move(whole)) {}
 
-  /// Adds a part of the polygon. Returns false if the parts before certainly cover it, and then
-  /// does not keep it.
+  /// Adds a part of the polygon. Returns false, and does not keep the part, if earlier parts
+  /// certainly cover it.
   bool add(const ConvexPolygon& part);
-  /// Whether the parts are certainly all of the polygon: what is added then changes nothing.
+  /// Whether the parts certainly cover the whole polygon: further parts change nothing then.
   [[nodiscard]] bool is_all() const { return is_all_; }
-  /// Polygons with the same union as the parts; the polygon itself if they are all of it.
+  /// Polygons with the same union as the parts; the polygon itself if the parts cover it.
   [[nodiscard]] const std::vector<ConvexPolygon>& parts() const { return parts_; }
 
  private:
@@ -51,17 +51,17 @@ class CoveredParts {
   ImageCell* cell_;
   ConvexPolygon whole_;
   std::vector<ConvexPolygon> parts_;
-  /// What they leave, or more; once there are many.
+  /// A superset of the uncovered rest; set once there are many parts.
   std::optional<Remainder> rest_;
   bool is_all_ = false;
 };
 
-/// The area of the union of what the regions cover of a cell.
+/// The area of the union of the parts of a cell that regions cover.
 class CellCoverage {
  public:
   explicit CellCoverage(ImageCell& cell) : cell_(cell), covered_(cell, cell.whole()) {}
   void add(const std::vector<LinearForm>& region);
-  /// Whether the whole cell is covered: what is added then changes nothing.
+  /// Whether the whole cell is covered: further regions change nothing then.
   [[nodiscard]] bool is_complete() const { return covered_.is_all(); }
   [[nodiscard]] Ratio area();
   /// The area, rounded once.

@@ -168,8 +168,8 @@ void ConvexPolygon::find_bounds() {
 }
 
 // Vertex k lies between the edges k and k + 1, whose turn is positive: there h has the sign of
-// det(h, edge k, edge k + 1). An edge stays if one of its ends is inside; h becomes the edge after
-// the one that leaves.
+// det(h, edge k, edge k + 1). An edge remains if one of its ends is inside; h becomes the next edge
+// after the edge that leaves h.
 bool ConvexPolygon::clip(const HalfPlane& h, TierCounts& counts) {
   const std::size_t n = edges_.size();
   std::vector<Sign> side(n);

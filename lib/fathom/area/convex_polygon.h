@@ -12,8 +12,8 @@
 
 namespace fathom::area {
 
-/// The points (u, v) with l_u·u + l_v·v + l_w ≥ 0, exactly; its line is l = 0. The normal
-/// (l_u, l_v) is not zero, except in forms that are only asked for determinants.
+/// The points (u, v) with l_u·u + l_v·v + l_w ≥ 0, exactly; its line is l = 0. The normal (l_u,
+/// l_v) is not zero, except in forms that are used for determinants only.
 ///
 /// Two half-planes a, b with turn(a, b) > 0 meet in a vertex if they are edges of a convex polygon
 /// that lies inside both; edges in this order go round counter-clockwise where v grows upwards
@@ -21,7 +21,7 @@ namespace fathom::area {
 /// Exact    every sign below: binary64 with a proved bound first, exact numbers where it fails.
 class HalfPlane {
  public:
-  /// Takes a power of two out of the coefficients, so that the greatest is just below 1.
+  /// Removes a power of two from the coefficients, so that the greatest is just below 1.
   explicit HalfPlane(ExactVector3 l);
 
   [[nodiscard]] const ExactVector3& exact() const { return exact_; }
@@ -70,18 +70,18 @@ Sign side_of_crossing(const HalfPlane& m, const HalfPlane& e, const HalfPlane& a
 struct BoundingRectangle {
   Interval u{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Interval v = u;
-  /// False only if two such boxes have no point in common.
+  /// Returns false only if the two boxes have no point in common.
   [[nodiscard]] bool may_meet(const BoundingRectangle& other) const {
     return u.lower <= other.u.upper && other.u.lower <= u.upper && v.lower <= other.v.upper &&
            other.v.lower <= v.upper;
   }
 };
 
-/// A bounded convex polygon of positive area, as the half-planes of its edges, none of which is
-/// superfluous: each turns left from the one before, and two consecutive ones meet in a vertex.
-/// No vertex is ever computed; every question is about a sign of coefficients.
+/// A bounded convex polygon of positive area, as the half-planes of its edges. No edge is
+/// superfluous: each turns left from the previous edge, and consecutive edges meet in a vertex. No
+/// vertex is ever computed; every decision is the sign of an expression in the coefficients.
 ///
-/// A view: the half-planes must stay where they are.
+/// A view: the half-planes must not move.
 class ConvexPolygon {
  public:
   /// From edges as described above.
@@ -89,13 +89,13 @@ class ConvexPolygon {
     find_bounds();
   }
 
-  /// Cuts off what lies outside h: one step of Sutherland and Hodgman's algorithm. Returns false,
-  /// and leaves a polygon that must not be used any more, if no area is left.
+  /// Clips the polygon at h: one step of Sutherland and Hodgman's algorithm. Returns false, and
+  /// leaves an unusable polygon, if no area remains.
   /// Source   [SH74]
   bool clip(const HalfPlane& h, TierCounts& counts);
 
   [[nodiscard]] const std::vector<const HalfPlane*>& edges() const { return edges_; }
-  /// The edge before or after edge k, which it meets in edge k's first or last vertex.
+  /// The edge before or after edge k; it meets edge k in edge k's first or last vertex.
   [[nodiscard]] const HalfPlane& before(std::size_t k) const {
     return *edges_[(k + edges_.size() - 1) % edges_.size()];
   }
@@ -117,22 +117,22 @@ struct CertifiedPoint {
 };
 CertifiedPoint approximate_crossing(const HalfPlane& a, const HalfPlane& b);
 
-/// Half-planes of which equal ones are one object, so that edges that lie in one line are known by
-/// their addresses. Lines of the same points come from triangles that are equal, share an edge, or
-/// lie in a row, with coefficients that differ by a factor.
-/// Exact    always: two are one if and only if they have the same points.
+/// Half-planes in which equal half-planes are one object, so that edges in one line have the same
+/// address. Lines with the same points but coefficients that differ by a factor come from triangles
+/// that are equal, share an edge, or lie in a row.
+/// Exact    always: two half-planes are one object if and only if they have the same points.
 class MergedLines {
  public:
   MergedLines() = default;
   MergedLines(const MergedLines&) = delete;
   MergedLines& operator=(const MergedLines&) = delete;
 
-  /// The one that stands for all with the points of h. It stays where it is; h is remembered by its
-  /// address and must do so, too.
+  /// The object for all half-planes with the points of h. It never moves; h is remembered by its
+  /// address and must not move either.
   const HalfPlane& of(const HalfPlane& h);
-  /// The one on the other side of the line of h.
+  /// The half-plane on the other side of the line of h.
   const HalfPlane& opposite(const HalfPlane& h);
-  /// The same polygon, bounded by those.
+  /// The same polygon, bounded by these objects.
   ConvexPolygon of(const ConvexPolygon& polygon);
 
  private:

@@ -53,7 +53,7 @@ std::optional<Overlap> overlap(const HalfPlane& e, const Part& part, const Conve
   return result;
 }
 
-/// Adds to `boundary` what the hidden parts leave of a part of e's line.
+/// Adds to `boundary` a part of e's line minus its hidden parts.
 void add_rest(const HalfPlane& e, const Part& part, std::vector<Part>& hidden, bool reversed,
               Boundary& boundary, TierCounts& counts) {
   std::sort(hidden.begin(), hidden.end(),
@@ -71,7 +71,7 @@ void add_rest(const HalfPlane& e, const Part& part, std::vector<Part>& hidden, b
 
 /// Adds the edges of polygon i that no other polygon hides: neither by points inside it, nor by an
 /// edge on the other side, nor, so that such an edge counts once, by an earlier polygon's edge on
-/// the same side. If there is a subject, only what lies in it, reversed.
+/// the same side. If there is a subject, only the parts inside it, reversed.
 void add_edges(std::span<const ConvexPolygon> polygons, std::size_t i, const ConvexPolygon* subject,
                Boundary& boundary, TierCounts& counts) {
   const ConvexPolygon& polygon = polygons[i];

@@ -13,9 +13,9 @@
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 
-// How to read this file: coplanar_pairs() at the end. For each triangle, within its box, each
-// nearby triangle is asked whether it lies close behind where the first is visible; for the pairs
-// that do, the same is asked of each pixel.
+// How to read this file: start with coplanar_pairs() at the end. For each triangle, within its box,
+// each nearby triangle is tested: does it lie close behind the first where the first is visible?
+// Pairs that pass are tested again in each pixel.
 namespace fathom {
 using namespace area;
 using namespace triangle;
@@ -37,7 +37,7 @@ bool is_farther(double depth, double than, double within) {
   return (depth - than) * (1 - 0x1p-50) > within;
 }
 
-/// A triangle within its box, and what of it is visible.
+/// A triangle within its box, and its visible part.
 class VisibleTriangle {
  public:
   VisibleTriangle(const SceneSurfaces& surfaces, std::uint32_t number)
@@ -47,9 +47,10 @@ class VisibleTriangle {
         visibility_(cell_),
         is_in_cell_(visibility_.add(surface())) {}
 
-  /// Where both are and this one is visible, in convex polygons. Empty if the other is nowhere
-  /// behind it, or certainly farther than `within`. Where they are equally deep, the other must
-  /// have the higher number; `other_in_front` is in_front() of both.
+  /// The area that both triangles cover and in which this triangle is visible, as convex polygons.
+  /// Empty if the other triangle is nowhere behind it, or certainly farther than `within`. If they
+  /// are equally deep, the other triangle must have the higher number; `other_in_front` is
+  /// in_front() of both.
   std::vector<ConvexPolygon> visible_before(std::uint32_t other, const LinearForm& other_in_front,
                                             double within) {
     const auto both = before(other, other_in_front);
@@ -71,7 +72,7 @@ class VisibleTriangle {
   [[nodiscard]] ImageCell& cell() { return cell_; }
 
  private:
-  /// The points that both cover, with this one in front or equally deep.
+  /// The points that both triangles cover, with this triangle in front or equally deep.
   std::optional<ConvexPolygon> before(std::uint32_t other, const LinearForm& other_in_front) {
     if (!is_in_cell_) return std::nullopt;
     const auto piece = cell_.clip(surfaces_.surface(other)->region, counts_);
@@ -95,7 +96,7 @@ class VisibleTriangle {
     return is_farther(least, greatest, within);
   }
 
-  /// What is visible of the triangle; found when it is first asked for.
+  /// The visible part of the triangle; computed on first use.
   const std::vector<ConvexPolygon>& visible() {
     if (!visible_) visible_ = find_visible();
     return *visible_;
@@ -125,7 +126,7 @@ class VisibleTriangle {
   const SceneSurfaces& surfaces_;
   std::uint32_t number_;
   ImageCell cell_;
-  /// The triangle, and those that hide a part of it.
+  /// The triangle, and the triangles that hide a part of it.
   CellVisibility visibility_;
   bool is_in_cell_;
   std::optional<std::vector<ConvexPolygon>> visible_;
@@ -159,7 +160,7 @@ class PairFinder {
 
   [[nodiscard]] std::uint32_t count() const { return surfaces_.count(); }
 
-  /// The pairs in which triangle t is the visible one.
+  /// The pairs whose visible triangle is t.
   [[nodiscard]] std::vector<CoplanarPair> pairs_of(std::uint32_t t) const {
     if (!surfaces_.surface(t) || !surfaces_.is_first(t)) return {};
     VisibleTriangle triangle(surfaces_, t);
@@ -209,7 +210,8 @@ class PairFinder {
     }
   }
 
-  /// Whether the second is nowhere behind the first, or farther behind it everywhere than counts.
+  /// Whether the second triangle is nowhere behind the first, or everywhere farther behind it than
+  /// counts.
   [[nodiscard]] bool are_certainly_apart(const SurfaceRegion& front,
                                          const SurfaceRegion& behind) const {
     if (behind.depths.upper < front.depths.lower) return true;

@@ -22,7 +22,7 @@ using namespace triangle;
 
 namespace {
 
-/// Adds what the triangles cover of the pixel, until nothing is left to cover.
+/// Adds the parts of the pixel that the triangles cover, until the whole pixel is covered.
 void add(const CoverageFrame& frame, std::span<const std::uint32_t> triangles,
          CellCoverage& coverage) {
   require_valid(frame.camera);

@@ -12,23 +12,23 @@
 
 namespace fathom {
 
-/// What coverage is computed for. A view: scene and camera must outlive it.
+/// The input of coverage. A view: scene and camera must outlive it.
 struct CoverageFrame {
   TriangleSource triangles;
   const Camera& camera;
   Cull cull = Cull::none;
 };
 
-/// Channel A at a pixel (specification, section 6): the area of the union, over those of
-/// `triangles` that culling keeps, of the part of the pixel square that their points with D > 0 and
-/// near ≤ D ≤ far project to. `triangles` may include some that miss the pixel.
+/// Channel A at a pixel (specification, section 6): the area of a union, over the triangles in
+/// `triangles` that culling keeps: of the parts of the pixel square to which their points with D >
+/// 0 and near ≤ D ≤ far project. `triangles` may include triangles that miss the pixel.
 ///
 /// Unit     the pixel's area: in [0, 1]. Column and row are counted from 0 at the top left.
-/// Exact    always, by convex_union.h. A triangle with Δ = 0 projects to nothing; one that reaches
-///          behind the camera projects to what its edge functions say (section 4), which needs no
-///          clipping at W = 0.
-/// Fails    InputError where the camera or one of the triangles has a fault (find_fault); the rest
-///          of the scene is not looked at. std::out_of_range for the number of no triangle.
+/// Exact    always, by convex_union.h. A triangle with Δ = 0 projects to an empty set. A triangle
+///          that reaches behind the camera projects to the set given by its edge functions (section
+///          4), which needs no clipping at W = 0.
+/// Fails    InputError if the camera or one of the triangles has a fault (find_fault); the rest of
+///          the scene is not checked. std::out_of_range if no triangle has the number.
 Ratio pixel_coverage(const CoverageFrame& frame, std::span<const std::uint32_t> triangles,
                      std::uint32_t column, std::uint32_t row);
 
@@ -38,7 +38,7 @@ float rounded_pixel_coverage(const CoverageFrame& frame, std::span<const std::ui
                              std::uint32_t column, std::uint32_t row);
 
 /// Adds the channel `Asampled` (FLOAT) to a map: the fraction of the samples of each pixel at which
-/// a triangle counts (specification, sections 4 and 5). What `A` would be if a pixel consisted of
+/// a triangle counts (specification, sections 4 and 5). `A` as it would be if a pixel consisted of
 /// its samples.
 ///
 /// Exact    the fractions are multiples of 1/256 or of fewer parts, and each sample is decided

@@ -19,7 +19,7 @@ bool same_place(const WorldPoint& a, const WorldPoint& b) {
   return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/// The same whichever corner comes first.
+/// Does not depend on which corner comes first.
 std::size_t hash_of(const Corners& corners) {
   std::size_t sum = 0;
   for (const WorldPoint& p : corners) {
@@ -114,7 +114,7 @@ TriangleBands::Band TriangleBands::operator[](std::uint32_t band) const {
 
 namespace {
 
-/// What a triangle covers of the image, and where.
+/// The region of the image that a triangle covers, and a box around it.
 struct BoxedRegion {
   SurfaceRegion surface;
   PixelBox box;

@@ -15,19 +15,19 @@
 
 namespace fathom::area {
 
-/// Triangles of a scene without those that have the same three corners, in the same order round,
-/// as an earlier one. These lie on each other and are culled alike, so only the one of the lowest
-/// number is ever visible, and the others change no area.
+/// Finds triangles with the same three corners, in the same cyclic order, as an earlier triangle.
+/// Equal triangles coincide and are culled alike, so only the triangle with the lowest number is
+/// ever visible, and the others change no area.
 class EqualTriangles {
  public:
   explicit EqualTriangles(const TriangleSource& triangles) : triangles_(triangles) {}
 
-  /// Whether none of those asked for before has the corners of this one.
+  /// Whether no triangle of an earlier call has the corners of this triangle.
   /// Exact    corners are compared as exact numbers.
   bool is_first(std::uint32_t number);
 
  private:
-  /// A triangle that is the first of its corners, by their hash.
+  /// The first triangle with some corners, by their hash.
   struct First {
     std::size_t hash;
     std::optional<std::uint32_t> number;
@@ -49,7 +49,7 @@ struct BoxedTriangle {
 };
 
 /// The triangles of a scene sorted into bands of rows of the image, in the order of their numbers,
-/// without those that certainly cover nothing.
+/// without triangles that certainly cover nothing.
 class TriangleBands {
  public:
   static constexpr std::uint32_t rows_per_band = 8;
@@ -68,13 +68,14 @@ class TriangleBands {
   std::vector<std::vector<BoxedTriangle>> bands_;
 };
 
-/// What is called for a pixel, with the triangles that may cover a part of it, in the order of
-/// their numbers; there is at least one.
+/// Called for a pixel with the triangles that may cover a part of it, in the order of their
+/// numbers; at least one triangle.
 using VisitPixel = std::function<void(std::uint32_t column, std::uint32_t row,
                                       std::span<const SurfaceRegion* const> triangles)>;
 
-/// Visits every pixel of a share of the rows of which a triangle may cover a part, different ones
-/// at the same time. `part_done`, if set, is called after each band of the share, from any thread.
+/// Visits every pixel, in a share of the rows, of which a triangle may cover a part; different
+/// pixels at the same time. `part_done`, if set, is called after each band of the share, from any
+/// thread.
 void for_each_pixel(const CoverageFrame& frame, const VisitPixel& visit,
                     const std::function<void()>& part_done = {}, const RowShare& share = {});
 

@@ -15,14 +15,14 @@ using namespace triangle;
 
 namespace {
 
-/// What is visible of a triangle in a pixel.
+/// The visible part of a triangle in a pixel.
 struct Fragment {
   const SurfaceRegion* surface;
   Boundary boundary;
   Certified<double> approximate_area{0, 0};
 };
 
-/// The visible surfaces of one pixel, and what they leave of it.
+/// The visible surfaces of a pixel, and the part of it that they leave uncovered.
 struct PixelSurfaces {
   std::vector<Fragment> fragments;
   Boundary uncovered;
@@ -36,7 +36,7 @@ void append(Boundary& boundary, Boundary more) {
   }
 }
 
-/// The boundary of what is visible of a triangle, to which more may be added.
+/// The boundary of the visible part of a triangle, to which more segments may be added.
 Boundary& boundary_in(std::vector<Fragment>& fragments, const SurfaceRegion& surface) {
   for (auto f = fragments.rbegin(); f != fragments.rend(); ++f) {
     if (f->surface == &surface) return f->boundary;
@@ -66,7 +66,7 @@ PixelSurfaces look_into(ImageCell& pixel, std::span<const SurfaceRegion* const> 
   return result;
 }
 
-/// Rounds a positive number once, by the first of three ways to it that settles how.
+/// Rounds a positive number once, with the first of three computations that settles the rounding.
 float rounded(const Certified<double>& approximate, const std::function<Enclosure()>& enclosed,
               const std::function<Ratio()>& exact) {
   if (const auto settled = settled_binary32(approximate)) return *settled;
@@ -90,8 +90,7 @@ EnclosedSum enclosed_sum(std::span<const Fragment> fragments) {
   return sum;
 }
 
-/// Areas of fragments that lie behind each other, in enclosures that are found when one is asked
-/// for.
+/// Areas of fragments that lie behind each other, as enclosures that are computed on demand.
 class AreasBehind {
  public:
   AreasBehind(std::span<const Fragment> fragments, const Boundary& uncovered)
@@ -101,7 +100,7 @@ class AreasBehind {
     find();
     return areas_[i];
   }
-  /// Of a fragment, all behind it, and what none of them covers.
+  /// The sum of the areas of fragment i, of all fragments behind it, and of the uncovered part.
   [[nodiscard]] const EnclosedSum& from(std::size_t i) {
     find();
     return sums_[i];
@@ -125,8 +124,8 @@ class AreasBehind {
   std::vector<EnclosedSum> areas_, sums_;
 };
 
-/// a / (1 − Σ of those before) = a / (a + rest), where the rest is what is covered by those behind
-/// it and by nothing: a sum of positive numbers, in which nothing cancels.
+/// a / (1 − Σ of the fragments before it) = a / (a + rest), where the rest is the area covered by
+/// fragments behind it or by none: a sum of positive numbers, in which nothing cancels.
 float alpha(std::span<const Fragment> fragments, std::size_t i, const Boundary& uncovered,
             AreasBehind& enclosed) {
   const Fragment& f = fragments[i];
@@ -189,7 +188,7 @@ std::vector<MatteShare> shares(const PixelSurfaces& surfaces,
   for (const auto& [id, fragments] : mattes) {
     Certified<double> sum{0, 0};
     for (const Fragment& f : fragments) sum = sum + f.approximate_area;
-    // One matte that leaves nothing of the pixel covers it.
+    // A single matte that leaves no part uncovered covers the whole pixel.
     const bool all = mattes.size() == 1 && surfaces.uncovered.empty();
     const float coverage =
         all ? 1
@@ -204,15 +203,15 @@ std::vector<MatteShare> shares(const PixelSurfaces& surfaces,
   return result;
 }
 
-/// Calls `compute` for every pixel that triangles may cover; gathers the items of all pixels, one
-/// pixel after another, and how many each has.
+/// Calls `compute` for every pixel that triangles may cover; gathers the items of all pixels, pixel
+/// by pixel, with the count of each pixel.
 template <class Item, class Compute>
 void gather(const CoverageFrame& frame, const RenderOptions& options, const RowShare& share,
             const std::function<void(double)>& progress, const Compute& compute,
             std::vector<std::uint32_t>& counts, std::vector<Item>& items) {
   const std::size_t width = frame.camera.width;
   counts.assign(width * frame.camera.height, 0);
-  // One thread does a row, from left to right.
+  // A single thread computes a row, from left to right.
   std::vector<std::vector<Item>> rows(frame.camera.height);
   const auto visit = [&](std::uint32_t column, std::uint32_t row,
                          std::span<const SurfaceRegion* const> triangles) {

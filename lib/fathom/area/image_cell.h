@@ -16,8 +16,9 @@
 
 namespace fathom::area {
 
-/// Where on the image the points of a triangle with D > 0 and near ≤ D ≤ far project to: where no
-/// form is negative. It is a convex polygon, perhaps unbounded; nullopt if there is nothing.
+/// The part of the image to which the points of a triangle with D > 0 and near ≤ D ≤ far project:
+/// it consists of the places where no form is negative. It is a convex polygon, perhaps unbounded;
+/// nullopt if it is empty.
 /// Exact    except for the boundary, which has no area.
 ///
 /// The points of the triangle with W > 0 project to where no edge function is negative, with signs
@@ -32,17 +33,18 @@ struct SurfaceCorner {
   std::array<Interval, 3> enclosure;
 };
 
-/// A triangle as areas on the image need it: where it is seen, and D = depth_numerator / weight.
+/// A triangle as needed for areas on the image: its region of the image, and D = depth_numerator /
+/// weight.
 struct SurfaceRegion {
   std::uint32_t number = 0;
   /// From covered_region(): first the edge functions, each positive at the corner of its number.
   std::vector<LinearForm> region;
   LinearForm depth_numerator, weight;
   std::array<SurfaceCorner, 3> corners;
-  /// D at any point of the triangle lies in it.
+  /// An interval that contains D at every point of the triangle.
   Interval depths;
 };
-/// By their nearest points, then by their numbers.
+/// Compares surfaces by their nearest points, then by their numbers.
 inline bool is_nearer(const SurfaceRegion& a, const SurfaceRegion& b) {
   return std::pair(a.depths.lower, a.number) < std::pair(b.depths.lower, b.number);
 }
@@ -64,16 +66,17 @@ struct CellPart {
   [[nodiscard]] bool is_side(const HalfPlane* edge) const {
     return std::find(outline.edges().begin(), outline.edges().end(), edge) != outline.edges().end();
   }
-  /// An edge of a polygon in it that is no side of the part; null if there is none.
+  /// The first edge, of a polygon in the part, that is not a side of the part; null if there is
+  /// none.
   [[nodiscard]] const HalfPlane* first_inside(const ConvexPolygon& polygon) const {
     const auto inside = std::find_if_not(polygon.edges().begin(), polygon.edges().end(),
                                          [&](const HalfPlane* edge) { return is_side(edge); });
     return inside == polygon.edges().end() ? nullptr : *inside;
   }
-  /// Whether a polygon in it is all of it.
+  /// Whether a polygon in the part is the whole part.
   [[nodiscard]] bool is_all(const ConvexPolygon& polygon) const { return !first_inside(polygon); }
-  /// Cuts a polygon in it off at the edges of another one in it. Returns false, and leaves a
-  /// polygon that must not be used any more, if they have no area in common.
+  /// Clips a polygon in the part at the edges of another polygon in the part. Returns false, and
+  /// leaves an unusable polygon, if they have no area in common.
   [[nodiscard]] bool clip(ConvexPolygon& polygon, const ConvexPolygon& by,
                           TierCounts& counts) const {
     return polygon.bounds().may_meet(by.bounds()) &&
@@ -103,20 +106,21 @@ class ImageCell {
   /// The cell itself.
   [[nodiscard]] const CellPart& all() const { return *all_; }
   [[nodiscard]] const ConvexPolygon& whole() const { return all_->outline; }
-  /// Whether a half-plane is that of one of the cell's own sides.
+  /// Whether a half-plane is the half-plane of one of the cell's own sides.
   [[nodiscard]] bool is_side(const HalfPlane* edge) const { return all_->is_side(edge); }
   /// A part of a part, on the inside of a line.
   struct Half {
     CellPart part;
     const HalfPlane* side;
   };
-  /// The halves of a part, cut across the longer side of the rectangle around it; one, if a cut
-  /// there misses the part.
+  /// The halves of a part, cut across the longer side of the rectangle around it; a single half if
+  /// this cut misses the part.
   std::vector<Half> halves(const CellPart& part);
-  /// The parts on the inside and the outside of a line; one, if it misses the inside of the part.
+  /// The parts on the inside and the outside of a line; a single part if the line misses the
+  /// interior of the part.
   std::vector<Half> halves_along(const CellPart& part, const HalfPlane& line);
 
-  /// From the first call on, sides of halves are merged, too.
+  /// After the first call, sides of halves are merged too.
   MergedLines& merged_lines() {
     merges_ = true;
     return merged_lines_;
@@ -130,7 +134,7 @@ class ImageCell {
   /// The part of the cell in which no form is negative, if it has an area.
   std::optional<Piece> clip(const std::vector<LinearForm>& region, TierCounts& counts);
   /// The part of a polygon in which a form is not negative, if it has an area. The polygon lies in
-  /// a part of this cell, the whole unless given.
+  /// a part of this cell, by default the whole cell.
   std::optional<ConvexPolygon> clip(const ConvexPolygon& polygon, const LinearForm& form,
                                     TierCounts& counts) {
     return clip(polygon, form, all(), counts);
@@ -152,7 +156,7 @@ class ImageCell {
  private:
   const HalfPlane& keep(HalfPlane line);
 
-  /// A deque, because it leaves its elements where they are.
+  /// A deque, because its elements never move.
   std::deque<HalfPlane> half_planes_;
   MergedLines merged_lines_;
   bool merges_ = false;
@@ -160,29 +164,29 @@ class ImageCell {
 };
 
 /// Whether one of two surfaces lies outside an edge of the other, so that they have no area in
-/// common on the image. Exact; false says nothing if one of them reaches behind the camera.
+/// common on the image. Exact; false is inconclusive if one of them reaches behind the camera.
 ///
 /// Every point of s projects to Σ λᵢ·cornerᵢ with λᵢ ≥ 0. So an edge function of t that is positive
-/// at no corner of s is positive nowhere in s, wherever its corners are. A corner that both have,
-/// as in every mesh, lies on two edges of t, which no interval could decide.
+/// at no corner of s is positive nowhere in s, wherever its corners are. A corner that both share,
+/// as in every mesh, lies on two edges of t; no interval could decide that.
 bool are_disjoint(const SurfaceRegion& s, const SurfaceRegion& t);
 
-/// Cutting what lies in a cell in two until few pieces are left in each part: the work for a part
-/// grows with the cube of their number, so that thousands of triangles in a pixel would take
-/// forever. Areas of the parts add up, and their nearest depths are compared.
+/// Divides a cell until each part has few pieces: the work for a part grows with the cube of the
+/// number of its pieces, so that thousands of triangles in a pixel would take forever. The areas of
+/// the parts add up, and their nearest depths are compared.
 ///
 /// A part is cut in halves ([War69]) as long as that separates pieces. Halves do not separate
 /// pieces that cover the same places, such as faces that coincide or edges that lie on each other.
-/// Then the part is cut along an edge of the piece that hides most: after as many cuts as that
-/// piece has edges, it is all of a part, of which nothing else is left but what lies in front. Such
-/// an edge becomes a side of both parts, and with it every other edge in the same line.
+/// Then the part is cut along an edge of the piece that hides most. After as many cuts as this
+/// piece has edges, it is the whole of a part, and only pieces in front of it remain there. Such an
+/// edge becomes a side of both parts, together with every other edge in the same line.
 /// Source   [War69], [FKN80]
 
 struct DivisionLimits {
-  /// So few pieces are not divided any further.
+  /// Parts with at most so many pieces are not divided further.
   std::size_t few = 24;
   int cuts = 40;
-  /// A cut in halves is in vain if they have many more pieces together than the part.
+  /// A cut in halves is in vain if the halves together have many more pieces than the part.
   int cuts_in_vain = 6;
 };
 
@@ -233,8 +237,8 @@ inline std::optional<ConvexPolygon> in_half(const ConvexPolygon& polygon,
   return result;
 }
 
-/// Divides polygons in a cell and calls `visit` with those in each part. If one of the polygons is
-/// the whole part, only that one is left.
+/// Divides a cell and calls `visit` with the polygons in each part. If a polygon is the whole part,
+/// it is the only polygon in the call.
 void for_each_simple_part(ImageCell& cell, std::vector<ConvexPolygon> polygons, TierCounts& counts,
                           const std::function<void(std::span<const ConvexPolygon>)>& visit);
 

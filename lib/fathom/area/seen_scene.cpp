@@ -81,8 +81,8 @@ void refuse_sizes() {
   throw UsageError("direction: its numbers and those of the scene differ too much in size");
 }
 
-/// Sets the power of two and the shifts. A mirrored pose has a mirrored image, so that sides of
-/// triangles are those of any camera.
+/// Sets the power of two and the shifts. A mirrored pose has a mirrored image, so that the sides of
+/// triangles are the same as for any camera.
 void frame(Camera& camera, const std::array<Range, 3>& ranges, bool is_mirrored) {
   const Dyadic width = *ranges[0].high - *ranges[0].low, height = *ranges[1].high - *ranges[1].low;
   const Dyadic& extent = width > height ? width : height;

@@ -26,8 +26,8 @@ Camera camera_of_direction(const TriangleSource& triangles, const std::array<dou
 /// Fails    UsageError if the point is not finite.
 std::vector<Camera> cameras_of_point(const std::array<double, 3>& point);
 
-/// The parts of triangles that a light sees, as exact numbers. What is irrational of an area is
-/// left to its caller: the length of a direction and the lengths of normals.
+/// The parts of triangles that a light sees, as exact numbers. The caller computes the irrational
+/// factors of an area: the length of a direction and the lengths of normals.
 
 enum class LightKind : std::uint8_t { direction, point, camera };
 

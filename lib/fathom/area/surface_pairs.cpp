@@ -28,7 +28,7 @@ SurfaceParts::~SurfaceParts() {
   try {
     in_parallel(parts_.size(), [&](std::size_t part) { Part().swap(parts_[part]); });
   } catch (...) {
-    // Without memory for threads: the members free what is left.
+    // No memory for threads: the members free the rest.
   }
 }
 
@@ -144,7 +144,8 @@ double from_place(std::uint64_t place) {
 }  // namespace
 
 struct Separation::Ends {
-  // n and w of the triangle in front (t) and of the one behind (s), at the first and last point.
+  // n and w of the triangle in front (t) and of the triangle behind (s), at the first and last
+  // point.
   std::array<Dyadic, 2> n_t, w_t, n_s, w_s;
 };
 
@@ -223,7 +224,7 @@ bool Separation::is_constantly(const Dyadic& limit) const {
 }
 
 // The greatest binary64 number below which the separation never falls, by bisection over the order
-// of the numbers; then the one above it, if the least value lies beyond the middle.
+// of the numbers; then the next number above it, if the least value lies beyond the middle.
 double Separation::least(const Boundary& boundary) const {
   if (is_zero_) return 0;
   std::uint64_t low = 0;  // not above the least value

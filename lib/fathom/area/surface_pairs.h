@@ -12,8 +12,8 @@
 
 namespace fathom::area {
 
-/// The surfaces of triangles, each with about twenty allocations of memory: they are made, and
-/// freed, in parts, which can be done by several threads.
+/// The surfaces of triangles. Each needs about twenty allocations of memory, so they are made and
+/// freed in parts, which several threads can do.
 class SurfaceParts {
  public:
   using Part = std::vector<std::optional<SurfaceRegion>>;
@@ -46,12 +46,12 @@ class SurfaceParts {
   std::vector<Part> parts_;
 };
 
-/// All triangles of a scene as areas on the image need them, with an index by place.
+/// All triangles of a scene, prepared for areas on the image, with an index by place.
 class SceneSurfaces {
  public:
   /// Reports the parts() of its work to `progress`.
   SceneSurfaces(const CoverageFrame& frame, Progress& progress);
-  /// Into how many parts the surfaces of so many triangles are made.
+  /// The number of parts in which the surfaces of so many triangles are made.
   static std::uint64_t parts(std::uint32_t triangles);
 
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(boxes_.size()); }
@@ -60,16 +60,17 @@ class SceneSurfaces {
     return surfaces_[number];
   }
   [[nodiscard]] const PixelBox& box(std::uint32_t number) const { return boxes_[number]; }
-  /// Whether no triangle of a lower number has the same three corners in the same order round; or
-  /// none of its object. Others hide nothing that the first does not hide, and are hidden by it.
+  /// Whether no triangle of a lower number, or none of its object, has the same three corners in
+  /// the same cyclic order. Further equal triangles hide nothing that the first does not hide, and
+  /// the first hides them.
   [[nodiscard]] bool is_first(std::uint32_t number) const { return first_[number]; }
   [[nodiscard]] bool is_first_of_object(std::uint32_t number) const {
     return first_of_object_[number];
   }
   /// Numbers of the triangles whose boxes meet that of `number`, without `number`, in order.
   [[nodiscard]] std::vector<std::uint32_t> near(std::uint32_t number) const;
-  /// Those of them of which a point is not farther away than all of `number`, from front to back:
-  /// what hides most comes first.
+  /// The triangles among near() that are not wholly farther away than `number`, from front to back:
+  /// those that hide most come first.
   [[nodiscard]] std::vector<std::uint32_t> in_front(std::uint32_t number) const;
 
  private:

@@ -52,7 +52,7 @@ std::vector<std::uint32_t> numbers_from(std::uint32_t first, std::uint32_t end) 
   return numbers;
 }
 
-/// What is visible of some triangles of a scene, with all others removed.
+/// The visible part of some triangles of a scene, with all others removed.
 class VisiblePart {
  public:
   VisiblePart(const ProjectedScene& scene, std::uint32_t first, std::uint32_t end,
@@ -72,7 +72,7 @@ class VisiblePart {
   }
   [[nodiscard]] std::uint32_t size() const { return mesh_.size(); }
 
-  /// Adds the terms of triangles to sums, each to that of its object.
+  /// Adds the terms of each triangle to the sum of its object.
   [[nodiscard]] std::vector<EnclosedSum> sums(const TriangleSource& triangles) const {
     PerThread<std::vector<EnclosedSum>> parts(
         [&] { return std::vector<EnclosedSum>(triangles.objects().size()); });
@@ -92,7 +92,7 @@ class VisiblePart {
     return all;
   }
 
-  /// The area of what is visible of an object, exactly.
+  /// The exact area of the visible part of an object.
   [[nodiscard]] Ratio exact_area(const TriangleSource& triangles, std::uint32_t object) const {
     Terms all;
     visit(0, size(), [&](auto number, auto visibility, auto& terms) {

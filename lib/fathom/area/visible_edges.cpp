@@ -51,7 +51,7 @@ bool are_one(const PlacedEdge& a, const PlacedEdge& b) {
          compare(a.to, b.from) == 0;
 }
 
-/// Visits edges in order, with those that parts have cut put together.
+/// Visits edges in order and joins edges that were cut at parts.
 void visit_merged(std::vector<VisibleEdge> edges,
                   const std::function<void(const VisibleEdge&)>& visit) {
   std::vector<PlacedEdge> order;

@@ -27,8 +27,8 @@ std::string_view name_of(EdgeSelection selection);
 
 struct EdgeOptions {
   EdgeSelection edges = EdgeSelection::creases;
-  /// In degrees, from 0 to 180: the least angle by which a surface turns at a crease. Its cosine is
-  /// rounded once to binary64; all else about it is exact.
+  /// The least angle by which a surface turns at a crease, in degrees from 0 to 180. Its cosine is
+  /// rounded once to binary64; every decision with this cosine is exact.
   double crease_angle = 30;
   Cull cull = Cull::none;
   /// 0: all.
@@ -52,19 +52,19 @@ struct ImagePlace {
   Ratio u, v;
 };
 
-/// A visible part of an edge: on its two sides different triangles are visible, or nothing.
+/// A visible part of an edge: on its two sides, different triangles or the background are visible.
 struct VisibleEdge {
   static constexpr std::uint32_t background = std::numeric_limits<std::uint32_t>::max();
 
   EdgeName name;
   ImagePlace from, to;
-  /// The triangle whose edge it is; where it is an edge of both, or of neither (a crossing), the
-  /// lower number.
+  /// The triangle whose edge it is; if it is an edge of both, or of neither (a crossing), the lower
+  /// number.
   std::uint32_t owner = 0;
   /// The triangle that is visible on the other side, or background.
   std::uint32_t other = background;
-  /// Whether the surface goes on: both triangles are of the same object and have an edge there, at
-  /// the same depth. All other edges are outlines.
+  /// Whether the surface continues: both triangles belong to the same object and have an edge
+  /// there, at the same depth. All other edges are outlines.
   bool joined = false;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// a·b, one of which is a constant form.
+/// a·b; one of them is a constant form.
 ExactVector3 product(const LinearForm& a, const LinearForm& b) {
   const bool a_is_constant = a.coefficients()[0].is_zero() && a.coefficients()[1].is_zero();
   const Dyadic& factor = a_is_constant ? a.coefficients()[2] : b.coefficients()[2];
@@ -51,10 +51,10 @@ bool CellVisibility::add(const SurfaceRegion& surface) {
   return true;
 }
 
-// From front to back. A surface that lies farther away than all before it, with its nearest point,
-// is hidden where one of those is; so it need not be added if the others leave nothing of it.
+// From front to back. A surface whose nearest point is farther away than all previous surfaces is
+// hidden wherever one of these is; so it is not added if they cover all of it.
 void CellVisibility::add_visible(std::span<const SurfaceRegion* const> surfaces) {
-  // A heap, because mostly the first few hide all others.
+  // A heap, because usually the first few hide all others.
   std::vector<const SurfaceRegion*> left(surfaces.begin(), surfaces.end());
   const auto is_after = [](const auto* a, const auto* b) { return is_nearer(*b, *a); };
   std::make_heap(left.begin(), left.end(), is_after);
@@ -90,7 +90,7 @@ std::optional<ConvexPolygon> CellVisibility::add_if_it_hides(const SurfaceRegion
   return hidden;
 }
 
-// The form of in_front() is affine: the signs at the corners of the cell decide those inside.
+// The form of in_front() is affine: the signs at the corners of the cell decide the signs inside.
 CellVisibility::Order CellVisibility::quick_order(const CornerDepths& s, const CornerDepths& t) {
   bool in_front = true, behind = true;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -114,7 +114,7 @@ bool CellVisibility::is_in_front(const PieceOfSurface& s, const PieceOfSurface& 
   return rest.clip(line, counts) && rest.edges() == part_.outline.edges();
 }
 
-/// Removes the pieces behind one that is the whole part.
+/// Removes the pieces behind a piece that covers the whole part.
 void CellVisibility::drop_behind(std::size_t whole) {
   const PieceOfSurface hiding = pieces_[whole];
   std::erase_if(pieces_, [&](const PieceOfSurface& piece) {
@@ -122,7 +122,7 @@ void CellVisibility::drop_behind(std::size_t whole) {
   });
 }
 
-// The nearest one first, which mostly hides all others.
+// Begins with the nearest piece, which usually hides all others.
 void CellVisibility::drop_hidden() {
   std::optional<std::size_t> nearest;
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
@@ -174,7 +174,7 @@ void CellVisibility::merge_lines() {
   is_merged_ = true;
 }
 
-/// An edge, which is no side of the part, of the piece whose plane is nearest at its middle.
+/// An edge that is not a side of the part, of the piece whose plane is nearest at its middle.
 const HalfPlane* CellVisibility::edge_in_front() const {
   const HalfPlane* edge = nullptr;
   double nearest = infinity;
@@ -183,7 +183,7 @@ const HalfPlane* CellVisibility::edge_in_front() const {
     if (piece.is_whole) continue;
     double depth = 0;
     for (const Interval& at_corner : piece.depths) depth += at_corner.lower / 4;
-    // Where nothing is known, the depth is −∞: last.
+    // An unknown depth is −∞ and comes last.
     if (!(depth > -infinity)) depth = std::numeric_limits<double>::max();
     const bool is_nearer = depth < nearest || (depth == nearest && piece.surface->number < number);
     if (edge && !is_nearer) continue;

@@ -8,11 +8,11 @@
 
 /// Visible surfaces inside a cell of the image (specification, section 8), exactly.
 ///
-/// Weiler and Atherton sort by area: the polygon that is in front cuts all others into what lies
-/// inside it and what lies outside, and the process goes on with both until each list is one
-/// polygon deep. For triangles the same visible areas follow without sorting, and without cutting
-/// again what has been cut. The points at which s hides t, where both are and D_s < D_t, form a
-/// convex polygon, because D_s < D_t is a half-plane on the image; so
+/// Weiler and Atherton sort by area: the front polygon cuts all others into an inside and an
+/// outside part, and the process continues with both lists until each is one polygon deep. For
+/// triangles the same visible areas follow without sorting and without cutting a piece twice. The
+/// points that both triangles cover and at which s hides t, D_s < D_t, form a convex polygon,
+/// because D_s < D_t is a half-plane on the image; so
 ///
 ///   visible(t) = clip(t) without the union over s of t ∩ s ∩ {D_s < D_t}
 ///
@@ -25,7 +25,8 @@ namespace fathom::area {
 /// zero where they are equally deep.
 LinearForm in_front(const SurfaceRegion& s, const SurfaceRegion& t);
 
-/// The pieces of a cell, or of a part of it, that triangles cover, and what of each is visible.
+/// The pieces of a cell, or of a part of a cell, that triangles cover, and the visible part of each
+/// piece.
 class CellVisibility {
  public:
   explicit CellVisibility(ImageCell& cell) : cell_(&cell), part_(cell.all()) {}
@@ -33,8 +34,8 @@ class CellVisibility {
   /// Adds a triangle, in any order. Returns whether it covers a part of the cell; if so, the piece
   /// has the next number.
   bool add(const SurfaceRegion& surface);
-  /// Adds many surfaces, in any order, without most of those of which nothing is visible. To be
-  /// called before anything else is added.
+  /// Adds many surfaces, in any order, but leaves out most hidden surfaces. Call it before any
+  /// piece is added.
   void add_visible(std::span<const SurfaceRegion* const> surfaces);
   [[nodiscard]] std::size_t size() const { return pieces_.size(); }
   [[nodiscard]] const SurfaceRegion& surface(std::size_t piece) const {
@@ -44,19 +45,19 @@ class CellVisibility {
     return pieces_[piece].polygon;
   }
 
-  /// add(), unless the triangle hides nothing of a piece that was added before. Returns what it
-  /// hides.
+  /// As add(), unless the triangle hides no part of `piece`, which was added before. Returns the
+  /// part that it hides.
   std::optional<ConvexPolygon> add_if_it_hides(const SurfaceRegion& surface, std::size_t piece);
   /// Removes the last piece.
   void drop_last() { pieces_.pop_back(); }
   /// Adds the last piece of another CellVisibility of the same cell.
   void add_last_of(const CellVisibility& other) { pieces_.push_back(other.pieces_.back()); }
 
-  /// Removes pieces that are hidden by one that is the whole part; numbers change.
+  /// Removes pieces that are hidden by a piece that covers the whole part; numbers change.
   void drop_hidden();
-  /// For divide(): the pieces in both halves of the part, and on both sides of an edge of a piece
-  /// in front or, where all are the whole part, of the line where two of them change places.
-  /// Without those hidden by one that is the whole half.
+  /// For divide(): the pieces in both halves of the part; and the pieces on both sides of an edge
+  /// of a piece in front or, if all pieces cover the whole part, of the line where two pieces
+  /// change their order. Pieces that are hidden by a piece that covers the whole half are left out.
   [[nodiscard]] std::vector<CellVisibility> halves() const;
   [[nodiscard]] std::vector<CellVisibility> halves_along_edge();
 
@@ -64,7 +65,7 @@ class CellVisibility {
   Boundary visible(std::size_t piece);
   /// The visible part of a piece, in convex polygons.
   std::vector<ConvexPolygon> visible_polygons(std::size_t piece);
-  /// The boundary of what no piece covers.
+  /// The boundary of the area that no piece covers.
   Boundary uncovered();
 
   /// The part of `polygon`, in the cell and covered by t, where s hides t; nullopt if it has no
@@ -75,11 +76,12 @@ class CellVisibility {
   [[nodiscard]] TierCounts& decisions() { return counts_; }
 
  private:
-  /// What others hide of a piece; one polygon, equal to the piece, if that is all of it.
+  /// The parts of a piece that other pieces hide; if they hide all of it, a single polygon that
+  /// equals the piece.
   std::vector<ConvexPolygon> hidden_parts(std::size_t piece);
   CellVisibility(ImageCell& cell, CellPart part) : cell_(&cell), part_(std::move(part)) {}
 
-  /// Depths of a triangle's plane at the cell's corners; [−∞, ∞] where that is not known.
+  /// Depths of a triangle's plane at the cell's corners; [−∞, ∞] if unknown.
   using CornerDepths = std::array<Interval, 4>;
   struct PieceOfSurface {
     const SurfaceRegion* surface;
@@ -98,7 +100,7 @@ class CellVisibility {
   [[nodiscard]] const HalfPlane* edge_in_front() const;
 
   ImageCell* cell_;
-  /// The part of the cell that this is about.
+  /// The part of the cell that the pieces lie in.
   CellPart part_;
   /// Whether edges that lie in one line are one object.
   bool is_merged_ = false;

@@ -60,7 +60,7 @@ Sharpness sharpness_of(const std::vector<PixelResult>& pixels) {
   for (const PixelResult& p : pixels) {
     may += p.may ? 1 : 0;
     touched += p.touched ? 1 : 0;
-    if (!p.visible || !(p.visible->relative_width >= 0)) continue;  // none between two infinities
+    if (!p.visible || !(p.visible->relative_width >= 0)) continue;  // no width between infinities
     widths.push_back(p.visible->relative_width);
     steps.push_back(p.visible->steps_width);
   }
@@ -137,7 +137,7 @@ Bias bias_of(const std::vector<PixelResult>& pixels, const Truth& truth) {
   return bias;
 }
 
-/// Numbers of all pixels, in the order of the pixels whatever threads judged them.
+/// The numbers of all pixels, in the order of the pixels, whichever threads judged them.
 Attribution summary_of(const std::vector<PixelResult>& pixels, const Truth& truth) {
   Attribution result;
   set_images(pixels, result);

@@ -17,8 +17,8 @@ namespace fathom::attribution {
 struct Estimate {
   std::string name;
   double value = 0;
-  /// Standard deviation, from residuals that are summed corner by corner of the mesh: triangles
-  /// that share one share its roundings.
+  /// Standard deviation, from residuals summed for each corner of the mesh: triangles that share a
+  /// corner share its roundings.
   double deviation = 0;
   /// "pixels", "scene units", "rad" or empty.
   std::string unit;
@@ -30,7 +30,7 @@ struct Finding {
   std::string kind;
   /// The finding as a clause.
   std::string text;
-  /// How many it explains.
+  /// The number of pixels that it explains.
   std::uint64_t pixels = 0;
   std::vector<Estimate> estimates = {};
   /// Kinds of alternatives that explain the map equally well with as many parameters.
@@ -44,8 +44,8 @@ enum class PixelClass : std::uint8_t {
   equal,         ///< the exact depth rounded once to the storage, or background in both
   quantization,  ///< next to the exact depth in the storage
   arithmetic,    ///< the surface is the visible one, its depth within the model's bound
-  edge,          ///< another surface or none: closer to an edge than the model can resolve
-  z_fight,       ///< another surface, which the model cannot tell from the visible one by depth
+  edge,          ///< another surface or no surface: closer to an edge than the model can resolve
+  z_fight,       ///< another surface, at a depth that the model cannot distinguish
   missed,        ///< a ray slipped through between triangles that share an edge or a corner
   convention,    ///< explained by a fault of the whole image that was found and named
   unexplained
@@ -55,8 +55,8 @@ inline constexpr std::size_t pixel_class_count = 8;
 /// "within quantization", "missed surface", …, as reports show it.
 std::string name_of(PixelClass pixel_class);
 
-/// Errors of depth over the pixels where both see the same surface: in scene units, and relative to
-/// the exact depth.
+/// Errors of depth over the pixels where both maps show the same surface: in scene units, and
+/// relative to the exact depth.
 struct DepthErrors {
   std::uint64_t pixels = 0;
   double greatest = 0, mean = 0, greatest_relative = 0, median_relative = 0;
@@ -70,18 +70,19 @@ struct Sharpness {
   double may_share = 0;
 };
 
-/// Mean of stored minus expected window depths, of pixels where nothing else is near. Raster models
-/// only.
+/// The mean difference of stored and expected window depths, over pixels with no other surface near
+/// the visible one. Raster models only.
 struct Bias {
   /// The mean over triangles, weighted by the inverse squares of the widths of their intervals, and
   /// its standard deviation, in steps of the storage.
   double steps = 0, deviation = 0;
-  /// How much of the mean may be roundings of an unknown matrix, which all triangles share.
+  /// The part of the mean that roundings of an unknown matrix, shared by all triangles, may cause.
   double shared = 0;
   std::uint64_t pixels = 0, triangles = 0;
 
-  /// A constant seems to be added to all window depths: the mean is at least three quarters of a
-  /// step, and its part that the matrix cannot cause is at least four times its deviation.
+  /// Whether a constant seems to be added to all window depths: the mean is at least three quarters
+  /// of a step, and the part of it that the matrix cannot cause is at least four times its
+  /// deviation.
   [[nodiscard]] bool is_significant() const {
     const double mean = steps < 0 ? -steps : steps;
     return triangles >= 64 && mean >= 0.75 && mean - shared >= 4 * deviation;
@@ -90,13 +91,14 @@ struct Bias {
 
 /// Input of the search for findings.
 struct Clues {
-  /// For each pixel, 1 if the visible triangle is certain to be drawn and no other is near it in
-  /// depth.
+  /// For each pixel, 1 if the visible triangle is certainly drawn and no other triangle is near it
+  /// in depth.
   std::vector<std::uint8_t> alone;
   /// For each pixel, the visible triangle if the pixel is unexplained and the absence of that
   /// triangle explains it; otherwise no_surface.
   std::vector<std::uint32_t> absent;
-  /// Unexplained pixels where, of equal triangles, another is shown than the model's rule lets win.
+  /// The number of unexplained pixels that show, of several equal triangles, a different one than
+  /// the model's rule selects.
   std::uint64_t wrong_ties = 0;
 };
 
@@ -130,30 +132,29 @@ struct Attribution {
 /// Needs    maps of the same size; near and far of the truth's camera as the model's mapping does.
 Attribution attribute(const Truth& truth, const OtherMap& other, const RendererModel& model);
 
-/// Rows that are judged together.
+/// The number of rows that are judged together.
 inline constexpr std::uint32_t rows_per_band = 8;
 
-/// attribute() of some bands, numbered from the top. All other pixels count as equal, and in no
-/// further figure.
+/// attribute() for some bands, numbered from the top. All other pixels are classified as equal and
+/// contribute to no other figure.
 Attribution attribute_bands(const Truth& truth, const OtherMap& other, const RendererModel& model,
                             const std::vector<std::uint32_t>& bands);
 
-/// attribute(), and where pixels stay unexplained or depths are off on the whole, a search for what
-/// would explain them all (docs/validation.md, "Findings"). Each hypothesis is a model or a map
-/// with one thing put right, and holds where at most a tenth of the unexplained pixels is left.
-/// Findings are named; the pixels that the one of the whole image explains become `convention`.
+/// attribute() and, if pixels remain unexplained or depths are wrong on average, a search for
+/// faults that explain them (docs/validation.md, "Findings"). Each hypothesis is a model or a map
+/// with one fault corrected; it holds if at most a tenth of the unexplained pixels remains.
+/// Findings are named; pixels that a fault of the whole image explains become `convention`.
 Attribution attribute_and_name(const Truth& truth, const OtherMap& other,
                                const RendererModel& model);
 
-/// What was found and in how many pixels: "the image is mirrored (1 pixel)".
+/// The finding and the number of its pixels: "the image is mirrored (1 pixel)".
 std::string finding_text(const Finding& finding);
 
 /// The same with its kind: "mirrored: the image is mirrored (1 pixel)".
 std::string finding_line(const Finding& finding);
 
-/// Why a map is not as it should be, in one line: the first finding, else how many pixels are
-/// unexplained and the one to look at first. Empty where every pixel is explained and nothing was
-/// found.
+/// Why a map is wrong, in one line: the first finding, otherwise the number of unexplained pixels
+/// and the pixel to look at first. Empty if every pixel is explained and there is no finding.
 std::string cause_of(const Truth& truth, const OtherMap& other, const Attribution& found);
 
 /// First line of a report: "failed: the image is mirrored (1 pixel)", or "every pixel is

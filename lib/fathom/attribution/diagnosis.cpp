@@ -136,7 +136,7 @@ Trial tried(const Truth& truth, const Hypothesis& h, std::uint64_t before) {
   return trial;
 }
 
-/// The first that leaves none, or that which leaves fewest.
+/// The first trial that leaves no pixel unexplained, otherwise the trial that leaves the fewest.
 class BestTrial {
  public:
   BestTrial(const Truth& truth, std::uint64_t unexplained)
@@ -176,7 +176,7 @@ class Search {
   [[nodiscard]] Diagnosis result() && { return {std::move(found_), std::move(put_right_)}; }
 
  private:
-  /// Takes a coarse storage for known from here on: that it is coarse is in the values themselves.
+  /// Assumes a coarse storage from here on, because the values themselves prove it.
   void name_storage();
   /// Each of these adds its findings and returns whether it found something.
   bool by_stored_planes();
@@ -199,13 +199,13 @@ class Search {
   const Truth& truth_;
   const OtherMap& other_;
   RendererModel model_;
-  Attribution found_;     ///< as the model was given
-  Attribution searched_;  ///< as it is known by now
+  Attribution found_;     ///< with the given model
+  Attribution searched_;  ///< with the model found so far
   std::optional<Hypothesis> put_right_;
   std::optional<std::vector<DepthRelation>> relations_;
 };
 
-/// Unexplained pixels that are explained become a convention, and `finding` is its name.
+/// Classifies unexplained pixels that are explained as a convention, named by `finding`.
 void Search::name(const Finding& finding, const std::vector<std::uint8_t>& explained) {
   for (std::size_t i = 0; i < found_.classes.size(); ++i) {
     PixelClass& c = found_.classes[i];
@@ -297,7 +297,7 @@ bool Search::by_hypotheses() {
   return true;
 }
 
-/// Looked for when they are first asked for.
+/// Computed on first use.
 const std::vector<DepthRelation>& Search::relations() {
   if (!relations_) relations_ = depth_relations(truth_, other_);
   return *relations_;
@@ -328,7 +328,7 @@ bool Search::by_deviation() {
   return true;
 }
 
-/// Pixels that are wrong by themselves stay unexplained: that they are few is no cause.
+/// Single wrong pixels remain unexplained: that they are few is not a cause.
 bool Search::by_pixels() {
   if (const std::optional<PixelFinding> some = isolated(truth_, other_, searched_)) {
     found_.findings.push_back(some->finding);

@@ -9,10 +9,10 @@
 
 namespace fathom::attribution {
 
-/// A map whose background was told from surfaces by what stands where the truth has none.
+/// A map whose background was separated from surfaces by its values where the truth has no surface.
 struct KnownBackground {
   OtherMap map;
-  /// Of kind `background`. Nothing where the background is infinite, as ours is.
+  /// A finding of kind `background`; nullopt if the background is infinite, as in Fathom's maps.
   std::optional<Finding> note;
 };
 
@@ -28,7 +28,7 @@ struct Diagnosis {
 };
 
 /// Only the search of attribute_and_name(). `found`: result of attribute() for the same arguments.
-/// Needs    a map whose background is known (background.h), and the model of as_recorded().
+/// Needs    a map whose background is known (known_background()), and the model of as_recorded().
 Diagnosis diagnose(const Truth& truth, const OtherMap& other, const RendererModel& model,
                    Attribution found);
 

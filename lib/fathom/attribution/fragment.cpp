@@ -7,7 +7,7 @@
 
 namespace fathom::attribution {
 
-/// Newton's method on r·(1 + k1·r² + k2·r⁴) = what is given.
+/// Newton's method on r·(1 + k1·r² + k2·r⁴) = the given radius.
 std::array<double, 2> undistorted(double x, double y, double k1, double k2) {
   const double given = std::hypot(x, y);
   if (given == 0) return {x, y};

@@ -15,7 +15,8 @@
 
 namespace fathom::attribution {
 
-/// Where an ideal lens shows what a camera with radial distortion shows at an image point.
+/// Where an ideal lens shows the point that a camera with radial distortion shows at an image
+/// point.
 ///
 /// Frame    pixels from the top left corner of the image.
 /// Exact    iterated in binary64 until it stands; with k1 = k2 = 0 nothing is changed.
@@ -40,20 +41,21 @@ std::array<double, 2> undistorted(double x, double y, double k1, double k2);
 /// Whether a renderer of the model covers a sample with a triangle, whatever its roundings are.
 enum class Coverage : std::uint8_t { must_not, may, must };
 
-/// In Fragment::open_edges: the edges are not told one by one.
+/// In Fragment::open_edges: it is unknown which edges are open.
 inline constexpr std::uint8_t joins_no_other = 0x80;
 
-/// A triangle at a sample, as a renderer of the model may see it.
+/// A triangle at a sample, as a renderer of the model may draw it.
 struct Fragment {
   std::uint32_t triangle = 0;
   Coverage coverage = Coverage::must_not;
-  /// Edges whose side the model leaves open, bit k the edge opposite corner k, and whether the
-  /// exact corners put the sample inside; edges are directed so that the inside is on their left.
+  /// The edges whose side the model leaves open: bit k is the edge opposite corner k. `inside`:
+  /// whether the sample is inside the exact corners. Edges are directed so that the inside is on
+  /// their left.
   std::uint8_t open_edges = 0;
   bool turned = false;  ///< the corners run the other way round in the image
   bool inside = false;
-  /// All values that may be stored for the triangle here. Window depths (raster), depths (ray),
-  /// in either case so that the nearer is the less: reversed window depths are negated.
+  /// All values that may be stored for the triangle here. Window depths (raster) or depths (ray);
+  /// smaller is always nearer, because reversed window depths are negated.
   Interval value;
   /// The stored value without any rounding.
   double exact = 0;
@@ -64,21 +66,23 @@ struct ImageBox {
   double least_x = std::numeric_limits<double>::infinity(), least_y = least_x;
   double greatest_x = -least_x, greatest_y = -least_x;
 
-  /// Extends the box to a point and everything up to `margin_x`, `margin_y` from it.
+  /// Extends the box to a point and its surroundings up to `margin_x`, `margin_y` from it.
   void add(double x, double y, double margin_x, double margin_y);
 };
 
 /// All pixels of an image.
 PixelBox whole_image(const Camera& camera);
 
-/// The pixels that a box meets, `more` pixels wider on each side; none where it misses the image.
+/// The pixels that a box meets, enlarged by `more` pixels on each side; empty if it misses the
+/// image.
 PixelBox pixels_of(const ImageBox& box, const Camera& camera, double more);
 
 /// Column and row of a pixel, from the top left, and a fragment there.
 using TakeFragment =
     std::function<void(std::uint32_t column, std::uint32_t row, const Fragment& fragment)>;
 
-/// The triangles of a mesh as a renderer of a model sees them. Calls may come from several threads.
+/// The triangles of a mesh as a renderer of a model draws them. Several threads may call it at
+/// once.
 class FragmentSource {
  public:
   FragmentSource() = default;

@@ -52,8 +52,8 @@ bool may_be_of_rasterizer(const Judgement& judgement) {
   return judgement.model.name != "float32-ray";
 }
 
-/// Models of rasterizers mean nothing without near and far: where pixels stay open or the model is
-/// in doubt, that is worth a line.
+/// Models of rasterizers are meaningless without near and far: if pixels remain open or the model
+/// is in doubt, a note says so.
 void note_untried_models(Judgement& judgement, bool is_chosen) {
   const std::vector<Finding>& findings = judgement.attribution.findings;
   const bool is_in_doubt =
@@ -69,7 +69,7 @@ void note_untried_models(Judgement& judgement, bool is_chosen) {
        .pixels = unexplained(judgement)});
 }
 
-/// Where pixels stay unexplained and no cause was found, another camera is the likely cause. The
+/// If pixels remain unexplained and no cause was found, another camera is the likely cause. The
 /// bounds of a rasterizer's model follow from its near and far, too.
 void note_clip_planes(Judgement& judgement) {
   const Camera& camera = judgement.truth->camera;
@@ -118,7 +118,8 @@ void name_size(Judgement& judgement, Finding finding) {
   findings.insert(findings.begin(), std::move(finding));
 }
 
-/// A map of another size is judged as what explains it best, if that explains half of it.
+/// A map of another size is judged by the reading that explains it best, if this explains half of
+/// it.
 Judgement judge_other_size(const std::string& name, const OtherMap& other, const Scene& scene,
                            const Camera& camera, const std::optional<RendererModel>& model) {
   const std::vector<SizedMap> readings = readings_of_other_size(camera, other);

@@ -30,15 +30,16 @@ bool explains_all(const Attribution& found) {
   return unexplained(found) == 0 && found.findings.empty();
 }
 
-/// Whether the map shows surfaces and the depth of none could be compared: each of their pixels may
-/// be an edge, as where a huge triangle passes the eye, so that nearly any map would be explained.
+/// Whether the map shows surfaces but no depth could be compared: every pixel of them may be an
+/// edge, for example because a huge triangle passes the eye. Then nearly any map would be
+/// explained.
 bool is_vacuous(const Attribution& found, const OtherMap& other) {
   return found.sharpness.median_relative_width == 0 &&
          std::any_of(other.depths.begin(), other.depths.end(),
                      [](double depth) { return std::isfinite(depth); });
 }
 
-/// The less, the better.
+/// A lower rank is better.
 auto rank(const Attribution& found) {
   return std::tuple(unexplained(found), found.findings.size(),
                     found.sharpness.median_relative_width);
@@ -54,7 +55,8 @@ std::string text_of(const ModelTrial& trial) {
                      text::counted(found.findings.size(), "finding"), bounds);
 }
 
-/// A model after a fault has been put right: samples lie elsewhere, depths are recorded otherwise.
+/// A model after a fault has been corrected, such as other sample positions or another recording of
+/// depths.
 RendererModel put_right(RendererModel model, const Hypothesis& h) {
   model.recorded = h.model.recorded;
   model.sample.x = h.model.sample.x;
@@ -67,15 +69,16 @@ RendererModel put_right(RendererModel model, const Hypothesis& h) {
   return model;
 }
 
-/// The models that may have drawn a map, but one.
+/// The models that may have drawn a map, except one.
 class Candidates {
  public:
   Candidates(const Truth& truth, const OtherMap& other, std::string except)
       : truth_(truth), other_(other), except_(std::move(except)) {}
 
-  /// The one with the narrowest bounds that explains the map; VTK's only where no other does.
+  /// The model with the narrowest bounds that explains the map; a model of VTK only if no other
+  /// model explains it.
   std::optional<ModelTrial> explaining();
-  /// The same, of VTK's models alone.
+  /// The same among VTK's models only.
   std::optional<ModelTrial> explaining_of_vtk() { return explaining(true); }
   /// Faults of a map that no model explains, by the model that fits best. Call after
   /// explaining().
@@ -165,7 +168,7 @@ ModelTrial Candidates::diagnosed(const RendererModel& model, std::optional<Hypot
   return trial;
 }
 
-/// Of models that explain a sample of the map that was put right.
+/// The models with the narrowest bounds among those that explain a sample of the corrected map.
 std::vector<RendererModel> Candidates::narrowest_after(const Hypothesis& fault) const {
   std::vector<std::pair<double, RendererModel>> possible;
   const Truth& truth = fault.truth ? *fault.truth : truth_;
@@ -204,7 +207,7 @@ std::optional<ModelTrial> Candidates::at_fault() {
   return best;
 }
 
-/// In the order in which they were asked: a model that was asked about every pixel has that line.
+/// In the order of the trials; a model that judged every pixel has the line of that trial.
 std::vector<std::string> Candidates::evidence() const {
   std::vector<std::string> lines;
   for (const ModelSurvey& survey : surveys_) {
@@ -266,7 +269,7 @@ std::string text_of_fit(const Attribution& found) {
                                  : "fewer pixels are unexplained";
 }
 
-/// `pixels`: that the named model leaves open.
+/// `pixels`: the number of pixels that the named model leaves open.
 void name_model(ModelTrial& trial, const RendererModel& named, std::uint64_t pixels,
                 const Candidates& candidates) {
   trial.attribution.findings.push_back(

@@ -36,8 +36,8 @@ ModelChoice chosen_model(const Truth& truth, const OtherMap& other);
 /// explains every pixel, or nine tenths of the pixels that remain after the found fault; a finding
 /// of kind `model` then names it. A fault of the depths with which the named model explains
 /// everything precedes a model whose bounds are more than twice as wide, and isolated pixels
-/// precede a model whose bounds are more than ten times as wide; where the bounds are that wide,
-/// VTK's models are asked as well.
+/// precede a model whose bounds are more than ten times as wide; if the bounds are that wide, VTK's
+/// models are tried too.
 /// Needs    a map whose background is known.
 ModelTrial judged_by(const Truth& truth, const OtherMap& other, const RendererModel& named);
 

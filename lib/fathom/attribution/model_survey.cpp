@@ -17,7 +17,7 @@
 namespace fathom::attribution {
 namespace {
 
-/// One of so many bands is looked at, but two at least.
+/// One of so many bands is judged, but at least two bands.
 constexpr std::size_t most_between = 16, least_bands = 2;
 
 /// Bands in which either map shows a surface.
@@ -93,7 +93,7 @@ class CodeScale {
     double code = 0;   ///< not a whole number
     double error = 0;  ///< how far from there the code may be that was decoded
   };
-  /// Nothing where codes are not told apart.
+  /// nullopt if codes cannot be distinguished.
   [[nodiscard]] std::optional<Place> of(double depth) const {
     const double window = window_.of_depth(depth);
     if (!(window >= least_ && window <= 1)) return std::nullopt;

@@ -17,7 +17,7 @@ struct ModelSurvey {
   /// Unexplained pixels of the sample; pixels of the whole map with values that the model's storage
   /// cannot hold.
   std::uint64_t unexplained = 0, foreign = 0;
-  /// Part of the bands with surfaces that the sample is.
+  /// The share of the bands with surfaces that the sample contains.
   double share = 1;
   /// Median width of the bounds, relative to the depth.
   double width = 0;
@@ -37,14 +37,14 @@ ModelSurvey surveyed(const Truth& truth, const OtherMap& other, const RendererMo
 /// "gl-unorm24: 12 pixels of a sample unexplained".
 std::string text_of(const ModelSurvey& survey);
 
-/// Pixels that hold a depth which a model's storage cannot have held, whatever was drawn: at least
-/// so many. A coarse storage allows every surface a wide interval, but only few depths in it.
+/// A lower bound on the number of pixels with a depth that a model's storage cannot hold, whatever
+/// was drawn. A coarse storage allows every surface a wide interval, but only few depths in it.
 ///
-/// Exact    a depth is foreign where no code lies within what decoding and rounding to binary32 may
-///          lose of it. Where that is more than a quarter of a code, codes are counted: n codes
-///          decode to at most n depths, so of more depths in their range the rest is foreign.
-///          0 for models of rays, for reversed and written window depths, and for depths that were
-///          recorded in another way; binary32 counts from a window depth of 1/2 on.
+/// Exact    a depth is foreign if no code lies within the error that decoding and rounding to
+///          binary32 may cause. If this error is more than a quarter of a code, codes are counted:
+///          n codes decode to at most n depths, so any further depths in their range are foreign. 0
+///          for models of rays, for reversed and written window depths, and for depths that were
+///          recorded in another way; binary32 counts for window depths of at least 1/2.
 std::uint64_t foreign_values(const Camera& camera, const OtherMap& other,
                              const RendererModel& model);
 

@@ -8,7 +8,7 @@
 
 namespace fathom::attribution {
 
-/// What another renderer drew: images of width × height pixels, rows from the top.
+/// The map of another renderer: images of width × height pixels, rows from the top.
 struct OtherMap {
   std::uint32_t width = 0, height = 0;
   /// Depths in scene units, infinite where nothing was drawn.

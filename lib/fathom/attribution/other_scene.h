@@ -18,8 +18,8 @@ struct SizedMap {
 };
 
 /// The ways in which a map may have another size than the camera: rows and columns exchanged, up to
-/// eight missing or additional at a border, the whole view drawn larger or smaller. None for a map
-/// that is neither.
+/// eight of them missing or additional at a border, the whole view drawn larger or smaller. Empty
+/// if none of these applies.
 std::vector<SizedMap> readings_of_other_size(const Camera& camera, const OtherMap& other);
 
 /// The finding that the map does not show the scene, which replaces findings about missing

@@ -15,8 +15,8 @@ namespace fathom::attribution {
 /// Exact    positions are compared bit by bit, but −0 is 0.
 std::vector<std::uint32_t> corner_numbers(const WorldMesh& mesh);
 
-/// The same of a mesh that a renderer holds in parts: points of two parts never are the same, since
-/// two matrices take them to the image. Positions are those in the part's frame.
+/// The same for a mesh that a renderer holds in parts: points of two parts are never the same,
+/// because two matrices transform them to the image. Positions are in the part's frame.
 std::vector<std::uint32_t> corner_numbers(const std::vector<RasterPart>& parts);
 
 /// The exact map of a comparison, and reusable data for comparing.

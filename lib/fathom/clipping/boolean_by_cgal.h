@@ -7,11 +7,10 @@
 #include "fathom/clipping/points.h"
 #include "fathom/clipping/weiler_atherton.h"
 
-/// CGAL's Boolean set operations ([CGAL], 2D Regularized Boolean Set-Operations): another way to
-/// the answers of weiler_atherton(), and the judge of answers. What a region is, which points it
-/// has and where its border runs, is CGAL's own; ours is how rings are checked on their way in
-/// (rings.h), and the form of the answer (weiler_atherton/nesting.h), so that equal regions are
-/// equal lists.
+/// CGAL's Boolean set operations ([CGAL], 2D Regularized Boolean Set-Operations): another
+/// implementation of weiler_atherton(), and its judge. CGAL represents the region, its points and
+/// its border. Fathom checks the input rings (rings.h) and brings the result into its form
+/// (weiler_atherton/nesting.h), so that equal regions are equal lists.
 namespace fathom::clipping {
 
 /// Subject ∩ clip, subject − clip or subject ∪ clip, as weiler_atherton() gives them. A side is the

@@ -10,7 +10,7 @@
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/points.h"
 
-/// Boxes in binary64 around what may be exact: a first look that tells most things apart.
+/// Boxes in binary64 around points that may be exact: a filter that settles most decisions.
 namespace fathom::clipping {
 
 /// least ≤ x ≤ greatest for the number x that it stands for.

@@ -7,7 +7,7 @@
 #include "fathom/clipping/points.h"
 #include "fathom/numeric/ratio.h"
 
-/// The exact kernel. This is the one header of the room that shows CGAL.
+/// The exact kernel. The only header of this module that exposes CGAL.
 namespace fathom::clipping {
 
 /// A rational number of any size, in lowest terms.

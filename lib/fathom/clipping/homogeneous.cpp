@@ -119,13 +119,13 @@ std::optional<Segment4<Number>> clip_after_division(const Segment4<Number>& segm
                                                     LiangBarskyTrace<Number>* trace) {
   const StandardArithmetic standard;
   const Point3<Number> start = divided(segment.start), end = divided(segment.end);
-  // Where w is 1, the boundaries are those of the box.
+  // For w = 1, the boundaries are the sides of the box.
   const Number one(1);
   return clip_homogeneous<Number>({{start.x, start.y, start.z, one}, {end.x, end.y, end.z, one}},
                                   volume, Half::upper, trace);
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs no parentheses
 #define FATHOM_INSTANTIATE(Number)                                                                 \
   template Number boundary_value(int, const Point4<Number>&, Volume);                              \
   template std::vector<Corner4<Number>> clip_homogeneous(                                          \

@@ -11,10 +11,10 @@
 /// boundaries as in sutherland_hodgman.h.
 /// Source   [BN78]
 ///
-/// The six boundaries bound an hourglass in (x, y, z, w) with its waist at the origin. The upper
-/// half, w > 0, is what a projection shows. A point of the lower half, w < 0, means the same
-/// (x/w, y/w, z/w) as its negative in the upper one; a perspective projection never puts a point in
-/// front of the eye there, but rational curves do.
+/// The six boundaries bound an hourglass in (x, y, z, w) with its waist at the origin. A projection
+/// shows the upper half, w > 0. A point of the lower half, w < 0, means the same (x/w, y/w, z/w) as
+/// its negative in the upper half; a perspective projection never maps a point in front of the eye
+/// there, but rational curves do.
 namespace fathom::clipping {
 
 enum class Volume {
@@ -64,15 +64,15 @@ template <class Number>
 Point3<Number> divided(const Point4<Number>& point);
 
 /// The wrong order, for demonstration: divides first and clips the result against the volume's box.
-/// An edge from a point in front of the eye to one behind it runs through infinity after the
-/// projection; here its ends are joined by a straight line, and the polygon is wrong.
+/// An edge from a point in front of the eye to a point behind it runs through infinity after the
+/// projection. This function joins its ends by a straight line, so the polygon is wrong.
 /// Fails    InputError if w = 0.
 template <class Number>
 std::vector<Corner3<Number>> clip_after_division(const std::vector<Corner4<Number>>& polygon,
                                                  Volume volume,
                                                  ClipStages<Point3, Number>* trace = nullptr);
 
-/// The same wrong order for a segment; what is left of it has w = 1.
+/// The same wrong order for a segment; the result has w = 1.
 /// Fails    InputError if w = 0.
 template <class Number>
 std::optional<Segment4<Number>> clip_after_division(const Segment4<Number>& segment, Volume volume,

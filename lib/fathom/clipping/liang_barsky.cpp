@@ -70,7 +70,7 @@ std::optional<Segment2<Number>> liang_barsky(const Segment2<Number>& segment,
                           t_leaving == 1 ? end : interpolate(start, end, t_leaving)};
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs no parentheses
 #define FATHOM_INSTANTIATE(Number)                                                    \
   template LineParameter<Number> against_boundary(int, const Number&, const Number&); \
   template VisibleRange<Number> visible_range(std::vector<LineParameter<Number>>&);   \

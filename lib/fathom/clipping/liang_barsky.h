@@ -40,7 +40,7 @@ struct LiangBarskyTrace {
   Number t_entering, t_leaving;
 };
 
-/// What the order of the parameters decides; brings `parameters` into the order of the trace.
+/// The result of the order of the parameters; sorts `parameters` into the order of the trace.
 template <class Number>
 struct VisibleRange {
   Number t_entering, t_leaving;

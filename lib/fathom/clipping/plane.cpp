@@ -93,7 +93,7 @@ std::optional<PlaneLineIntersection<Number>> plane_line_intersection(const Plane
   return PlaneLineIntersection<Number>{t, interpolate(R, S, t)};
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs no parentheses
 #define FATHOM_INSTANTIATE(Number)                                                    \
   template Plane<Number> plane_through(const Point3<Number>&, const Point3<Number>&); \
   template Point3<Number> normal_of(const Point3<Number>&, const Point3<Number>&,     \

@@ -35,7 +35,7 @@ enum class Side { inside = -1, on = 0, outside = 1 };
 /// H·P = A x + B y + C z + D: positive outside. It is the signed distance times |N|.
 template <class Number>
 Number value_at(const Plane<Number>& plane, const Point3<Number>& point);
-/// H·P = A x + B y + C z + D w. Its sign tells the side only if w > 0.
+/// H·P = A x + B y + C z + D w. Its sign is the side only if w > 0.
 template <class Number>
 Number value_at(const Plane<Number>& plane, const Point4<Number>& point);
 

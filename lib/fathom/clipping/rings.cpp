@@ -146,7 +146,7 @@ Ring<Number> canonical(const Ring<Number>& ring) {
   return corners;
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs no parentheses
 #define FATHOM_INSTANTIATE(Number)                                                \
   template Number sum_of(std::vector<Number>);                                    \
   template Number signed_area(const Ring<Number>&);                               \
@@ -185,8 +185,8 @@ class Decomposition {
     return settled ? *settled : sign_of(cross(ring_[a], ring_[b], ring_[c]));
   }
 
-  /// Whether corner i of what remains turns left and no other corner lies in the closed triangle;
-  /// remembers one that does.
+  /// Whether corner i of the rest turns left and no other corner lies in the closed triangle;
+  /// remembers such a corner, if there is one.
   bool is_ear(const Piece& rest, std::size_t i) {
     const std::size_t n = rest.size();
     const std::size_t a = rest[(i + n - 1) % n], b = rest[i], c = rest[(i + 1) % n];
@@ -253,8 +253,8 @@ class Decomposition {
     }
   }
 
-  /// Between which neighbours a corner was found to be no ear, and the corner in its triangle; none
-  /// where it does not turn left.
+  /// The neighbours between which a corner was found not to be an ear, and the corner in its
+  /// triangle; none if it does not turn left.
   struct Blocked {
     std::size_t before, behind, by;
   };

@@ -5,11 +5,11 @@
 
 #include "fathom/clipping/points.h"
 
-/// Rings: their area, and what the polygon clippers ask of them.
+/// Rings: their area, the checks of the polygon clippers, and convex pieces.
 namespace fathom::clipping {
 
 /// The sum, over double from the first to the last. Over Rational neighbours are added first: the
-/// denominators of n fractions become n times as long, and most of the sums stay short that way.
+/// denominators of n fractions become n times as long, and in this order most sums remain short.
 template <class Number>
 Number sum_of(std::vector<Number> terms);
 
@@ -21,9 +21,9 @@ Number signed_area(const Ring<Number>& ring);
 template <class Number>
 Number signed_area(const Rings<Number>& rings);
 
-/// The rings of one side as the clippers need them: corners that repeat the one before are dropped,
-/// outlines run counter-clockwise and holes clockwise, so that the polygon (even-odd) lies to the
-/// left. Rings may touch each other in points and along edges.
+/// The rings of one side as the clippers need them: corners that repeat the previous corner are
+/// dropped, outlines run counter-clockwise and holes clockwise, so that the polygon (even-odd) lies
+/// to the left. Rings may touch each other in points and along edges.
 ///
 /// Fails    InputError "SIDE ring N …": a coordinate that is not finite, fewer than three distinct
 ///          corners, all corners on one line, a ring that meets itself, two rings that cross. The
@@ -40,9 +40,9 @@ void check_convex(const Ring<Number>& ring, const std::string& side);
 template <class Number>
 Ring<Number> canonical(const Ring<Number>& ring);
 
-/// A simple counter-clockwise ring as convex ones that do not overlap: ears are cut off it until a
-/// triangle is left, then the diagonals whose ends stay convex without them are dropped. At most
-/// four times as many pieces as the least possible. Clipping them one by one avoids
+/// A simple counter-clockwise ring as convex rings that do not overlap: ears are cut off until a
+/// triangle is left; then diagonals whose ends remain convex without them are removed. At most four
+/// times as many pieces as the least possible number. Clipping them one by one avoids
 /// Sutherland–Hodgman's bridging edges, at the price of edges between the pieces.
 ///
 /// Exact    over both kernels: every turn is decided exactly and no corner is added.

@@ -36,7 +36,7 @@ std::vector<Corner3<Number>> sutherland_hodgman(const std::vector<Corner3<Number
   return polygon;
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs no parentheses
 #define FATHOM_INSTANTIATE(Number)                                                              \
   template std::vector<Corner2<Number>> sutherland_hodgman(                                     \
       const std::vector<Corner2<Number>>&, const Ring<Number>&, ClipStages<Point2, Number>*);   \

@@ -5,15 +5,15 @@
 #include "fathom/clipping/plane.h"
 #include "fathom/clipping/points.h"
 
-/// Reentrant polygon clipping: the polygon goes through one boundary after another.
+/// Reentrant polygon clipping: the polygon is clipped at one boundary after another.
 /// Source   [SH74], with its symbols: the edge from S to P.
 ///
-/// It does not take a polygon apart. A concave polygon that falls into pieces comes out as one ring
-/// whose pieces are joined by bridging edges, which run along the boundary and back. Its signed
-/// area is right all the same; weiler_atherton.h gives the pieces.
+/// The result is always a single ring. If a concave polygon falls into pieces, bridging edges,
+/// which run along the boundary and back, join them. The signed area is still right;
+/// weiler_atherton.h gives the pieces.
 namespace fathom::clipping {
 
-/// A corner with what it carries along: attributes are linear along every edge.
+/// A corner with its attributes, which are linear along every edge.
 template <template <class> class Point, class Number>
 struct Corner {
   Point<Number> position;
@@ -37,9 +37,9 @@ Corner<Point, Number> interpolate(const Corner<Point, Number>& a, const Corner<P
 
 /// The polygon after one boundary. `outside(position)` is affine, positive outside, 0 on the
 /// boundary, which counts as inside. There is a new corner where an edge crosses from strictly
-/// inside to strictly outside or back; it is computed from its inner end, so both polygons at a
-/// shared edge get the same one, even over double. A polygon that only touches the boundary from
-/// outside leaves nothing.
+/// inside to strictly outside or back; it is computed from the inner end of the edge, so both
+/// polygons at a shared edge get the same corner, even over double. A polygon that only touches the
+/// boundary from outside leaves nothing.
 template <template <class> class Point, class Number, class Outside>
 std::vector<Corner<Point, Number>> clip_at_boundary(
     const std::vector<Corner<Point, Number>>& polygon, const Outside& outside) {
@@ -63,15 +63,15 @@ std::vector<Corner<Point, Number>> clip_at_boundary(
 template <template <class> class Point, class Number>
 using ClipStages = std::vector<std::vector<Corner<Point, Number>>>;
 
-/// A polygon in the plane against the edges of a convex one, which runs counter-clockwise.
+/// A polygon in the plane against the edges of a convex polygon, which runs counter-clockwise.
 /// Exact    over Rational.
 template <class Number>
 std::vector<Corner2<Number>> sutherland_hodgman(const std::vector<Corner2<Number>>& subject,
                                                 const Ring<Number>& convex,
                                                 ClipStages<Point2, Number>* trace = nullptr);
 
-/// A polygon in space against planes whose normals point to what is cut off. If it lies in a plane,
-/// it stays.
+/// A polygon in space against planes whose normals point to the removed side. A polygon that lies
+/// in a plane remains.
 /// Exact    over Rational.
 /// Fails    InputError if a normal is zero.
 template <class Number>

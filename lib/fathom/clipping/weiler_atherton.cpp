@@ -112,7 +112,7 @@ Number area_of(const std::vector<Polygon<Number>>& polygons) {
   return sum_of(std::move(areas));
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs no parentheses
 #define FATHOM_INSTANTIATE(Number)                                                             \
   template std::vector<Polygon<Number>> weiler_atherton(                                       \
       const Rings<Number>&, const Rings<Number>&, SetOperation, WeilerAthertonTrace<Number>*); \

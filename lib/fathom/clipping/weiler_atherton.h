@@ -20,16 +20,17 @@
 ///                 without a crossing belong to the result or do not, as a whole
 ///   4  pieces     each clockwise ring goes to the outline around it (weiler_atherton/nesting.h)
 ///
-/// Degenerate contacts need two more things. Before, rings of one side that touch each other are
-/// made lists that bound one wedge of their polygon wherever they pass through a point, and edges
-/// that two of them share are dropped (side_contacts.h). After, walks that pass through a
-/// point again are made such lists too (weiler_atherton/nesting.h). Nothing is moved: where edges
-/// of subject and clip run along each other, the *order* of edges about a point is that of a
-/// subject that lies a little further inside itself (for a union, outside itself), and that alone
-/// decides a shared vertex, a vertex on an edge, overlapping edges and identical polygons.
+/// Degenerate contacts need two more steps. Before step 1, rings of one side that touch each other
+/// become lists that bound a single wedge of their polygon wherever they pass through a point, and
+/// edges that two rings share are dropped (weiler_atherton/side_contacts.h). After step 3, walks
+/// that pass through a point again become such lists too (weiler_atherton/nesting.h). Nothing is
+/// moved: where edges of subject and clip run along each other, the *order* of edges about a point
+/// is the order for a subject that lies slightly further inside itself (for a union, outside
+/// itself). This order alone decides shared vertices, vertices on edges, overlapping edges and
+/// identical polygons.
 namespace fathom::clipping {
 
-/// `join` is the union, a word that C++ keeps for itself.
+/// `join` is the union; `union` is a keyword of C++.
 enum class SetOperation { intersection, difference, join };
 
 /// An outline, counter-clockwise, and its holes, clockwise. Each ring is simple; rings touch at
@@ -50,12 +51,12 @@ enum class ContactKind {
   along,
 };
 
-/// A place in a list: a corner of a ring, a contact, or both. Where one ring crosses several others
-/// in one point, it has as many places there, in the order of the crossings.
+/// A place in a list: a corner of a ring, a contact, or both. A ring that crosses several others in
+/// a single point has a place there for each crossing, in the order of the crossings.
 template <class Number>
 struct ListPlace {
   Point2<Number> point;
-  /// nullopt for a corner that is no contact.
+  /// nullopt for a corner that is not a contact.
   std::optional<ContactKind> kind;
   /// The number of the crossing, which is the same in both lists, counted along the subject.
   std::optional<std::size_t> crossing;
@@ -79,8 +80,8 @@ struct WalkStep {
 template <class Number>
 struct WeilerAthertonTrace {
   ContactList<Number> subject, clip;
-  /// One for each closed walk. A walk may have several steps from one point, where several rings
-  /// cross; one that has no other point bounds nothing.
+  /// One for each closed walk. A walk may have several steps from a point where several rings
+  /// cross; a walk without any other point bounds no area.
   std::vector<std::vector<WalkStep<Number>>> walks;
 };
 

@@ -13,10 +13,10 @@
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 
-// How to read this file: render_in_arena() is the whole story. Vertices are transformed to the
-// image with bounds on their errors (vertex), triangles are sorted into tiles (boxes, bins), and
-// each tile draws its triangles (setup, tile) and writes what is visible (resolve) and how much of
-// its pixels is covered (tile_coverage). What the bounds do not settle goes to the referee
+// How to read this file: start with render_in_arena(). Vertices are transformed to the image with
+// bounds on their errors (vertex), triangles are sorted into tiles (boxes, bins), and each tile
+// draws its triangles (setup, tile), writes the visible surfaces (resolve) and the covered share of
+// its pixels (tile_coverage). Decisions that the bounds do not settle go to the referee
 // (triangle/referee), which computes exactly.
 namespace fathom {
 using namespace fast;

@@ -15,7 +15,7 @@ namespace fathom {
 /// Unit     depths in scene units, of planar depth in the camera frame (specification, section 6).
 /// Exact    every value is the exact number rounded once.
 /// Fails    as render_reference().
-/// `before`  a map that is not needed any more: its channels lend their memory where they fit.
+/// `before`  an obsolete map: its channels lend their memory where they fit.
 Rendered render_fast(const Scene& scene, const Camera& camera, const RenderOptions& options,
                      const RenderContext& context = {}, DepthMap before = {});
 

@@ -270,9 +270,8 @@ Rendered render_lens(const Scene& scene, const Camera& camera, const RenderOptio
   });
 }
 
-// How to read this file: StreamedView::draw() is the whole story. It does with some triangles at a
-// time what LensImage (render_lens.cpp) does with all; the tiles of a band keep what is visible so
-// far.
+// How to read this file: StreamedView::draw() is the whole story. It processes some triangles at a
+// time as LensImage processes all; the tiles of a band keep the visible surfaces so far.
 
 namespace {
 

@@ -4,9 +4,9 @@
 
 namespace fathom {
 
-/// Memory that the fast engine works with and keeps from one frame to the next
-/// (RenderContext::kept): what the system has to provide, page by page, is provided once. It is
-/// what the last frame took, and is given back with the object. One frame at a time.
+/// Memory that the fast engine keeps from one frame to the next (RenderContext::kept), so that the
+/// system provides its pages only once. It has the size of the last frame's memory, and is released
+/// with the object. One frame at a time.
 class RenderMemory {
  public:
   struct Parts;

@@ -11,9 +11,9 @@
 #include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"
 
-// How to read this file: in each round, sort() and draw() do with some triangles what
-// render_in_arena() (render_fast.cpp) does with all, and the TileStore keeps the tiles between
-// rounds; rows() writes what is visible in the end.
+// How to read this file: in each round, sort() and draw() process some triangles as
+// render_in_arena() (render_fast.cpp) processes all, and the TileStore keeps the tiles between
+// rounds; rows() writes the visible surfaces at the end.
 namespace fathom {
 using namespace fast;
 using namespace rendering;
@@ -40,8 +40,8 @@ void for_each_list(const std::vector<Bins>& bins, std::uint32_t tile, const Visi
     for (const Side side : {Side::front, Side::back}) visit(part.in_tile(tile, side));
 }
 
-/// Parts of a round, enough for threads to share them out. Each has a table of all tiles, which
-/// takes longer to fill than the triangles of a round where an image is large.
+/// The number of parts of a round, enough to keep all threads busy. Each part has a table of all
+/// tiles, which for a large image takes longer to fill than the triangles of a round.
 std::uint32_t parts_of_round(const RenderOptions& options) {
   return options.threads == 1 ? 1 : 8;
 }
@@ -108,7 +108,7 @@ struct TilesInRounds::State {
   FastWorkers workers, sorting_again;
   Limits limits;
   TileStore tiles;
-  /// Those that are drawn here, and for each of the image whether it is one of them.
+  /// The tiles that are drawn here, and for each tile of the image whether it is drawn here.
   std::vector<std::uint32_t> chosen;
   std::vector<std::uint8_t> is_chosen;
   /// Where channel A is asked for.
@@ -198,7 +198,7 @@ DepthMap TilesInRounds::State::rows(std::uint32_t first_row, std::uint32_t end_r
 
 namespace {
 
-/// work(), in as many threads as asked for.
+/// Runs work() in the requested number of threads.
 template <class Work>
 auto in_threads(int threads, const Work& work) {
   const StandardArithmetic standard;

@@ -17,13 +17,13 @@
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 
-// How to read this file: render_in_arena() is the whole story. The image is rendered in bands of
-// rows of tiles. For each band the files are read from beginning to end, some triangles at a time,
-// which are transformed, sorted into tiles and drawn like those of a scene in memory; the tiles of
-// the band keep what is visible so far. How many rows a band has is found on the way: as many as
-// have tiles that fit into the allowed memory. Bands after the first leave out what the first saw
-// to lie elsewhere. Channel A needs all triangles that meet a tile together: it is written at the
-// end of the band (CoverageInRounds).
+// How to read this file: start with render_in_arena(). The image is rendered in bands of rows of
+// tiles. For each band the files are read from beginning to end, some triangles at a time, which
+// are transformed, sorted into tiles and drawn like those of a scene in memory; the tiles of the
+// band keep the visible surfaces so far. The number of rows of a band is found during the work: as
+// many rows as have tiles that fit into the allowed memory. Bands after the first leave out
+// triangles that the first found to lie elsewhere. Channel A needs all triangles that meet a tile
+// together: it is written at the end of the band (CoverageInRounds).
 namespace fathom {
 using namespace fast;
 using namespace rendering;
@@ -54,8 +54,8 @@ class Band {
     return numbers;
   }
 
-  /// Gives up the last rows, though never all of them, until the tiles that exist and those that
-  /// these triangles need are not too many.
+  /// Gives up the last rows, but never all, until the existing tiles and the tiles that these
+  /// triangles need are not too many.
   void make_room(const std::vector<Bins>& bins) {
     std::uint64_t needed = 0;
     for (std::uint32_t row = first_row_; row < end_row_; ++row) {

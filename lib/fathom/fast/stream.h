@@ -14,8 +14,8 @@ namespace fathom {
 struct StreamLimits {
   /// Triangles of a file.
   std::uint32_t triangles_at_once = 1U << 19;
-  /// About what each of them takes in bytes: twice its corners (the next ones are read meanwhile),
-  /// their images, and its places in tiles.
+  /// The approximate size of a triangle in bytes: twice its corners (the next triangles are read
+  /// meanwhile), their images, and its places in tiles.
   static constexpr std::uint32_t bytes_per_triangle = 300;
   /// Memory for the tiles of the image in which surfaces were seen, up to 40 bytes per pixel
   /// (Tile::most_packed_bytes). If they need more, the files are read again for the rest of the
@@ -29,12 +29,12 @@ struct StreamLimits {
 /// The fast engine on a scene that stays in its files: the map of render_fast() on the same files
 /// read by read_scene(), bit for bit.
 ///
-/// Memory   the channels asked for, and what the limits allow; nothing that grows with the number
-///          of triangles (but see TriangleStream), except that for channel A all that meet one tile
-///          are there together.
+/// Memory   the requested channels, and as much as the limits allow. It does not grow with the
+///          number of triangles (but see TriangleStream), except that for channel A all triangles
+///          that meet one tile are in memory together.
 /// Fails    as render_reference(); UsageError for limits that allow no triangle; InputError if a
-///          file changes in the meantime; for channel A, OutputError if there is no room for what
-///          does not fit into the memory.
+///          file changes in the meantime; for channel A, OutputError if there is no disk space for
+///          triangles that do not fit into the memory.
 Rendered render_streamed(const StreamedScene& scene, const Camera& camera,
                          const RenderOptions& options, const StreamLimits& limits = {},
                          const RenderContext& context = {});

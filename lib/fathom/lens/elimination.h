@@ -40,7 +40,7 @@ Elimination<T> eliminate(const StageNumbers<T>& n, const HomogeneousPoint<T>& y,
 
 enum class Existence { yes, no, unknown };
 
-/// The root of F (elimination.h) in the disc, as far as binary64 can tell.
+/// The root of F (Elimination) in the disc, as far as binary64 can decide.
 struct RootEstimate {
   Existence existence = Existence::unknown;
   /// F is negative at `low` and positive at `high`, both in the disc.

@@ -42,7 +42,7 @@ bool offsets_depths(const DepthBias& bias) {
   return bias.slope_factor != 0 || bias.constant_factor != 0;
 }
 
-/// Polygon offset and depth range change what the projection and the viewport make of a depth;
+/// Polygon offset and depth range change the depths that the projection and the viewport produce;
 /// depths that fragments compute do not pass through them.
 void require_projected_depths(const PipelineOptions& o) {
   if (!is_per_fragment(o.depth_format.mapping)) return;
@@ -98,7 +98,7 @@ void require_meaningful(const PipelineOptions& o) {
   for (const double component : o.background)
     if (!std::isfinite(component))
       throw UsageError(Setting{"background"}, "expected three finite numbers");
-  // A clamp that is NaN is none.
+  // A clamp of NaN means no clamp.
   if (!std::isfinite(o.polygon_offset.slope_factor) ||
       !std::isfinite(o.polygon_offset.constant_factor))
     throw UsageError(Setting{"polygon_offset"}, "expected finite numbers");

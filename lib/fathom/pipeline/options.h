@@ -9,11 +9,11 @@
 #include "fathom/depth_format/depth_format.h"
 #include "fathom/mesh/vertex_normals.h"
 
-/// The choices that a pipeline leaves open.
+/// The options of the pipeline.
 namespace fathom::pipeline {
 
-/// What every operation from the vertex transform to the interpolated fragment rounds to. Colours
-/// are computed in binary64 in either.
+/// The format to which every operation from the vertex transform to the interpolated fragment
+/// rounds. Colours are always computed in binary64.
 enum class Precision { binary32, binary64 };
 
 enum class Culling { none, back, front };
@@ -24,38 +24,39 @@ enum class ScanConversion {
   scan_line,      ///< along edges, then along spans, in floating point
 };
 enum class Interpolation { affine, perspective };
-/// `points` draws corners and `wireframe` edges, as primitives of their own.
+/// `points` draws the corners of triangles as points, `wireframe` draws their edges as lines.
 enum class Shading { none, points, wireframe, flat, gouraud, phong };
-/// Of highlights: by the vector halfway between light and eye ([Bli77]), or by the mirrored light
-/// ([Pho75]).
+/// How highlights are computed: from the vector halfway between light and eye ([Bli77]), or from
+/// the mirrored light ([Pho75]).
 enum class SpecularModel { blinn, phong };
 using fathom::NormalSource;
-/// Colours of triangles: those of their vertices in the file, else white; or the colours that
-/// previews give to the numbers of objects or triangles.
+/// Colours of triangles: the colours of their vertices in the file, white if there are none; or the
+/// colours that previews give to the numbers of objects or triangles.
 enum class SurfaceColours { file, object, triangle };
 enum class TextureFilter { nearest, bilinear, trilinear, anisotropic };
 enum class HiddenSurface { z_buffer, painter };
 enum class WireLine { explicit_equation, dda, bresenham, midpoint, diamond_exit };
 
-/// Of blended fragments: whether the depth test may discard them, and whether they write depth.
+/// Whether the depth test may discard blended fragments, and whether they write depth.
 enum class BlendDepth {
-  off,       ///< every fragment is blended; the depth buffer keeps the nearest all the same
-  on,        ///< fragments that fail the test are not; those that pass write their depth
-  read_only  ///< fragments that fail the test are not; none writes its depth
+  off,       ///< every fragment is blended; the depth buffer still keeps the nearest
+  on,        ///< fragments that fail the test are discarded; all others write depth
+  read_only  ///< fragments that fail the test are discarded; no fragment writes depth
 };
 
-/// In what order triangles are drawn. By depth: that of the mean of a triangle's corners.
+/// The order in which triangles are drawn. The depth of a triangle is the depth of the mean of its
+/// corners.
 enum class DrawOrder { file, front_to_back, back_to_front, random };
 
 /// `temporal` and `temporal_area` are for scenes that move (render_moving.h).
 enum class AntialiasMethod { none, ssaa, msaa, jitter, area, fxaa, taa, temporal, temporal_area };
-/// What FXAA takes for an edge, and how much of it is smoothed; the defaults are the published
-/// ones.
+/// What counts as an edge for FXAA, and how much of it is smoothed; the defaults are the published
+/// values.
 struct FxaaSettings {
-  /// The least range of luma around a pixel that is an edge: of the greatest luma there, and at
-  /// all.
+  /// The least range of luma around a pixel on an edge: relative to the greatest luma there, and
+  /// absolute.
   double threshold = 0.166, least_threshold = 0.0833;
-  /// How much of details below a pixel is removed, from 0 to 1.
+  /// How strongly details smaller than a pixel are smoothed, from 0 to 1.
   double subpixel = 0.75;
 };
 
@@ -63,7 +64,8 @@ struct Antialias {
   AntialiasMethod method = AntialiasMethod::none;
   /// ssaa: n of n × n; msaa: 1, 2, 4, 8 or 16; jitter: 1, 4, 16, 64 or 256; taa, temporal: frames.
   int count = 1;
-  /// msaa: not the standard positions but the 2 × 2 grid turned by arctan ½ and enlarged by √5/2.
+  /// msaa: use the 2 × 2 grid turned by arctan ½ and enlarged by √5/2 instead of the standard
+  /// positions.
   bool rotated_grid = false;
   FxaaSettings fxaa;
 };
@@ -79,8 +81,8 @@ using Colour = std::array<double, 3>;
 
 /// A light so far away that it comes from one direction.
 struct LightSource {
-  /// Towards the light, of any length but 0: in the world, or in the camera's frame (x right, y
-  /// down, z forward). The default stands above the camera's left shoulder.
+  /// The direction towards the light, of any length except 0: in the world, or in the camera's
+  /// frame (x right, y down, z forward). The default light is above the camera's left shoulder.
   std::array<double, 3> towards{-0.45, -0.65, -1};
   bool in_world = false;
 };
@@ -94,11 +96,11 @@ struct Material {
 
 struct PipelineOptions {
   Precision precision = Precision::binary32;
-  /// `near` and `far` are the camera's, filled in where it has none.
+  /// `near` and `far` are the camera's; missing ones are filled in.
   DepthFormat depth_format{Mapping::standard, Storage::float32, 0, 0, 1};
   std::optional<WindowRectangle> viewport;  ///< default: the window
   std::optional<WindowRectangle> scissor;   ///< default: the window
-  /// What z_ndc of near and far become (glDepthRange), each in [0, 1].
+  /// The window depths of near and far (glDepthRange), each in [0, 1].
   std::array<double, 2> depth_range{0, 1};
   Culling culling = Culling::none;
   FrontFace front_face = FrontFace::counter_clockwise;
@@ -120,7 +122,7 @@ struct PipelineOptions {
   std::string texture;
   TextureFilter filter = TextureFilter::trilinear;
   HiddenSurface hidden_surface = HiddenSurface::z_buffer;
-  /// Of all objects that have none of their own (scene/draw_state.h).
+  /// The offset of all objects without an offset of their own (scene/draw_state.h).
   DepthBias polygon_offset;
   /// Blends each fragment over the picture with this opacity instead of selecting the nearest.
   std::optional<double> blend_alpha;
@@ -131,14 +133,14 @@ struct PipelineOptions {
   Colour background{0, 0, 0};
 };
 
-/// The three tests of back_face_culling.h on the triangles that clipping left whole.
+/// Results of the three tests of back_face_culling.h on the triangles that clipping did not cut.
 struct FacingStatistics {
   std::uint64_t compared = 0;
   std::uint64_t front_in_world = 0, front_in_ndc = 0, front_in_window = 0;
   std::uint64_t disagreeing = 0;  ///< triangles on which the three tests disagree
 };
 
-/// What the pipeline did.
+/// Counts of the work that the pipeline did.
 struct PipelineStatistics {
   std::uint64_t triangles = 0;
   std::uint64_t not_finite = 0;    ///< left out, lines and points too: a corner is no number then
@@ -157,7 +159,7 @@ struct PipelineStatistics {
   FacingStatistics facings;
 };
 
-/// Refuses options that mean nothing or do not go together.
+/// Refuses meaningless or incompatible options.
 /// Fails    UsageError.
 void require_meaningful(const PipelineOptions& options);
 

@@ -86,7 +86,7 @@ class TemporalAntialiasing {
   [[nodiscard]] const ColourImage& picture() const { return history_.picture(); }
 
  private:
-  /// The nearest surface of the 3 × 3 pixels around says how a pixel moves, so that the smoothed
+  /// A pixel moves like the nearest surface of the 3 × 3 pixels around, so that the smoothed
   /// outline of a surface moves with it [Kar14].
   [[nodiscard]] PixelMoves moves(const PipelineFrame& frame, const std::array<double, 2>& offset,
                                  double time) const {
@@ -97,7 +97,7 @@ class TemporalAntialiasing {
       return std::array{static_cast<double>(x) + 0.5 + offset[0],
                         static_cast<double>(y) + 0.5 + offset[1]};
     };
-    // What is seen, as weights of corners; then where these corners were.
+    // The visible points, as weights of corners; then the previous positions of these corners.
     std::vector<std::optional<std::array<double, 3>>> weights(nearest.size());
     const ImageTriangles now(scene_.at(time), camera_);
     for (std::size_t i = 0; i < nearest.size(); ++i) {
@@ -117,8 +117,8 @@ class TemporalAntialiasing {
     return result;
   }
 
-  /// For each pixel the one around it in which the nearest surface is seen; none where all is
-  /// background, which is at rest.
+  /// For each pixel, the pixel around it with the nearest surface; nullopt if all are background,
+  /// which is at rest.
   [[nodiscard]] std::vector<std::optional<std::size_t>> nearest_around(
       const PipelineFrame& frame) const {
     const std::size_t width = camera_.width, height = camera_.height;

@@ -31,7 +31,7 @@ class Frame {
     prepare(nullptr);
     frame_.statistics.near = options_.depth_format.near;
     frame_.statistics.far = options_.depth_format.far;
-    // Also where no picture is asked for: a texture that is no good is said to be.
+    // Also if no picture is requested, so that an unusable texture is reported.
     Shader<Real> shader(camera_, options_, texture_of(scene_, options_));
     const bool same_samples = options_.antialias.method == AntialiasMethod::none ||
                               options_.antialias.method == AntialiasMethod::fxaa;
@@ -172,8 +172,8 @@ class Frame {
     return image;
   }
 
-  /// Each frame samples another place in the pixel; the history takes it in with the weight that
-  /// makes it the mean of all frames, which is right for a camera at rest.
+  /// Each frame samples another place in the pixel. The history adds it with the weight that makes
+  /// the result the mean of all frames, which is right for a camera at rest.
   ColourImage temporal(Shader<Real>& shader, int frames) {
     ColourImage history;
     for (int k = 0; k < frames; ++k) {

@@ -250,8 +250,8 @@ class Tracer {
         row);
   }
 
-  /// The same of the rows of a line or a point, whose fragments are few: they are counted by being
-  /// drawn. A line can draw a row beside those of its ends.
+  /// The same for the rows of a line or a point. Their fragments are few, so they are counted by
+  /// drawing them. A line can draw a row beyond the rows of its ends.
   template <class Draw>
   void observe_rows(Real top, Real bottom, const Draw& draw_row) {
     const auto begin = std::max(window_.y_begin, floor_of(top) - 1);

@@ -8,7 +8,7 @@
 #include "fathom/pipeline/geometry/painters_algorithm.h"
 #include "fathom/pipeline/output/output_merger.h"
 
-/// One primitive followed through the pipeline: what enters each stage and what leaves it.
+/// One primitive on its way through the pipeline: the input and the output of each stage.
 namespace fathom::pipeline {
 
 enum class PrimitiveKind { triangle, line, point };
@@ -18,7 +18,7 @@ struct CornerTrace {
   std::array<double, 4> clip;
 };
 
-/// A corner of what clipping has left.
+/// A corner of the clipped primitive.
 struct WindowCornerTrace {
   std::array<double, 4> clip;
   std::array<double, 3> ndc, window;
@@ -34,14 +34,14 @@ struct SampleTrace {
   std::array<double, 3> attribute_weights;  ///< (λ/w)/Σ(λ/w), or λ where interpolation is affine
   double window_z = 0, depth = 0;
   StoredDepth stored;
-  /// If it is covered: whether the triangle shows the side away from its normals, the light there,
-  /// and the colour.
+  /// If the sample is covered: whether the triangle shows the side away from its normals, the light
+  /// at the sample, and its colour.
   bool turned = false;
   Light light;
   Colour colour{};
 };
 
-/// A fragment as scan conversion and shading make it, on its way to the output merger.
+/// A fragment after scan conversion and shading, as passed to the output merger.
 struct FragmentTrace {
   Pixel pixel;
   double window_z = 0, depth = 0;
@@ -52,26 +52,26 @@ struct FragmentTrace {
 struct PrimitiveTrace {
   PrimitiveKind kind = PrimitiveKind::triangle;
   std::uint32_t number = 0;                ///< in the scene
-  std::vector<CornerTrace> corners;        ///< three, two or one
-  std::vector<WindowCornerTrace> polygon;  ///< after clipping; empty if nothing is left
-  /// Of triangles: the three tests; for those that were clipped, of the first three corners that
-  /// are left.
+  std::vector<CornerTrace> corners;        ///< three, two or one, by kind
+  std::vector<WindowCornerTrace> polygon;  ///< after clipping; empty if clipped away
+  /// The results of the three tests of a triangle; if it was clipped, for the first three of its
+  /// remaining corners.
   Facing in_world{}, in_ndc{}, in_window{};
   bool culled = false;
   /// Number of fragments in the viewport and the scissor box, over all parts of the primitive.
   std::uint64_t fragments = 0;
-  std::vector<FragmentTrace> fragment_list;  ///< if it was asked for, part by part, row by row
+  std::vector<FragmentTrace> fragment_list;  ///< if requested, part by part, row by row
   std::optional<SampleTrace> sample;         ///< of a triangle, at the pixel
-  /// What the output merger did at the pixel, fragment by fragment of the whole scene, in drawing
-  /// order, if it was asked for. Those that fail a test are among them.
+  /// The steps of the output merger at the pixel, if requested: for every fragment of the whole
+  /// scene, in drawing order, including fragments that fail a test.
   std::vector<MergeStep> merger;
-  /// Of the whole scene, if it is painted and was asked for.
+  /// The painter's order of the whole scene, if it is painted and the order was requested.
   PainterTrace painter;
   double near = 0, far = 0;
   Storage storage = Storage::float32;  ///< of the depth buffer
 };
 
-/// What a trace looks at besides the primitive itself.
+/// What to trace in addition to the primitive itself.
 struct TraceRequest {
   std::optional<Pixel> pixel;
   bool fragments = false;  ///< the list of fragments
@@ -79,15 +79,16 @@ struct TraceRequest {
   bool painter = false;    ///< the painter's order of the whole scene
 };
 
-/// Follows a primitive: triangles are numbered first, then the lines and points of the files, as in
-/// the channel id. Lines and points are clipped, divided and drawn as such; they face no side.
+/// Traces a primitive. Triangles are numbered first, then the lines and points of the files, as in
+/// the channel id. Lines and points are clipped, divided and drawn as lines and points; they have
+/// no facing.
 /// Fails    UsageError if there is no such primitive; InputError as render_frame().
 PrimitiveTrace trace_primitive(const Scene& scene, const Camera& camera,
                                const PipelineOptions& options, std::uint32_t number,
                                const TraceRequest& request);
 
-/// The same of a triangle, without fragments, output merger and painter's order.
-/// Fails    UsageError if the number is not that of a triangle.
+/// Traces a triangle, without fragments, output merger and painter's order.
+/// Fails    UsageError if no triangle has this number.
 PrimitiveTrace trace_triangle(const Scene& scene, const Camera& camera,
                               const PipelineOptions& options, std::uint32_t number,
                               const std::optional<Pixel>& pixel);

@@ -42,11 +42,11 @@ CertifiedNumber rounded_once(double x, long power) {
 
 }  // namespace
 
-/// Offered to by a walk from a point to the end of its sight, where the depth is 0: the camera or,
-/// of an orthographic camera, a point beside it.
+/// The visitor of a walk from a point to the end of its sight, where the depth is 0: the camera or,
+/// for an orthographic camera, a point next to it.
 class CameraSight::HidingTriangle final : public TriangleVisitor {
  public:
-  /// `ends_at_0` says that the walk's segment ends where the depth is 0.
+  /// `ends_at_0`: whether the walk's segment ends where the depth is 0.
   HidingTriangle(const CameraSight& sight, const SightEnd& p, const View& view, const WalkRay& ray,
                  bool ends_at_0)
       : sight_(sight), p_(p), view_(view), ray_(ray) {
@@ -248,8 +248,8 @@ CertifiedVector CameraSight::end_of_sight(const SightEnd& p, const View& view) c
   return end;
 }
 
-/// From the point along the line of sight. The way from the point to the camera is −R⁻¹·x for a
-/// point with depth above 0, of which x are the coordinates in the camera's frame; of an
+/// The ray from the point along the line of sight. The direction from the point to the camera is
+/// −R⁻¹·x for a point with depth above 0, where x are its coordinates in the camera's frame; for an
 /// orthographic camera it is −R⁻¹·(0, 0, 1). Here it is │det R│ times as long.
 ExactRay CameraSight::exact_ray(const SightEnd& p) const {
   const WorldPoint from = p.exact(scene_.triangles());

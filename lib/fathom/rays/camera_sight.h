@@ -14,8 +14,8 @@
 namespace fathom::rays {
 
 /// Decides which points a camera sees, by section 10 of the specification: edges hide on both
-/// sides, as points are not on a grid of which each has to be covered once. Scene and camera must
-/// outlive it.
+/// sides, because the points are not samples of a grid, which must each be covered once. Scene and
+/// camera must outlive it.
 /// Exact    every decision: by binary64 with bounds, and by exact numbers if the bounds do not
 ///          settle it.
 /// Needs    a valid camera whose lens bends no rays.
@@ -30,7 +30,7 @@ class CameraSight {
   struct View {
     CertifiedNumber x, y, z;
   };
-  /// Its image before the lens: (x, y, W), of which the image is K·(x, y, W), in that unit too.
+  /// Its image before the lens: (x, y, W), where the image is K·(x, y, W), in the same unit.
   using Image = std::array<CertifiedNumber, 3>;
   /// Finds a triangle that hides a point.
   class HidingTriangle;

@@ -12,7 +12,7 @@
 
 namespace fathom::rays {
 
-/// What is asked of a ray.
+/// The question about a ray.
 enum class Question { nearest, any, all };
 
 /// The hits of a ray, as a walk finds them: doubtful triangles and limits are settled exactly when
@@ -23,7 +23,7 @@ class Candidates final : public TriangleVisitor {
              Question question)
       : source_(source), tree_(tree), options_(options), question_(question) {}
 
-  /// Forgets all hits and begins with a ray; both must stay as they are meanwhile.
+  /// Forgets all hits and begins with a ray; both arguments must stay unchanged meanwhile.
   void begin(const Ray& given, const WalkRay& ray);
 
   bool offer(const TestedTriangle& triangle) override;

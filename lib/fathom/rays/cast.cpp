@@ -131,7 +131,7 @@ void require_ray(const Ray& ray, std::size_t number) {
   if (ray.direction == std::array<double, 3>{}) fail("its direction is 0");
 }
 
-/// So many rays are a piece of work.
+/// The number of rays in a piece of work.
 constexpr std::size_t rays_together = 512;
 
 /// Calls answer(number, candidates) for each ray after a walk along it, several rays at the same

@@ -10,8 +10,8 @@
 #include "fathom/rays/ray.h"
 #include "fathom/scene/triangle_source.h"
 
-/// What rays meet, decided exactly (specification, section 11): no ray is lost between triangles
-/// that share an edge, and none is counted twice there.
+/// Finds the triangles that rays meet, decided exactly (specification, section 11): no ray is lost
+/// between triangles that share an edge, and no ray is counted twice there.
 namespace fathom {
 
 namespace rays {
@@ -32,7 +32,7 @@ class RayScene {
 
   [[nodiscard]] const TriangleSource& triangles() const { return triangles_; }
   [[nodiscard]] const rays::RayTree& tree() const { return *tree_; }
-  /// The memory that the tree takes.
+  /// The size of the tree in memory.
   [[nodiscard]] std::uint64_t bytes() const;
 
  private:

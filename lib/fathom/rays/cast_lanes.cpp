@@ -43,7 +43,7 @@ bool test_leaf(const TriangleBlock<Stored>* blocks, std::size_t block, std::uint
   return false;
 }
 
-/// Asks for all of an object that is needed soon.
+/// Prefetches an object that is needed soon.
 template <class T>
 HWY_INLINE void prefetch(const T& object) {
   constexpr std::size_t cache_line = 64;
@@ -77,7 +77,7 @@ void walk_among(const RayTree& tree, const WalkRay& ray, TriangleVisitor& visito
     for (unsigned bits = boxes_met(node, ray, visitor.last(), entries); bits != 0;
          bits &= bits - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(bits));
-      // The nearest is taken first, so it comes last.
+      // The nearest box is taken first, so it comes last.
       std::size_t place = count++;
       for (; place > first && waiting[place - 1].entry < entries[i]; --place)
         waiting[place] = waiting[place - 1];

@@ -28,7 +28,8 @@ ExactRay ray_between(const WorldPoint& from, const WorldPoint& to);
 
 /// How a ray meets a triangle.
 struct ExactHit {
-  /// Where. Of a triangle that the moved ray meets, it is that of the plane and the ray itself.
+  /// Where the ray meets the triangle. If only the moved ray meets the triangle, t of the plane and
+  /// the ray itself.
   Ratio t;
   /// The sign of n·d: negative for a front face.
   Sign side = Sign::zero;

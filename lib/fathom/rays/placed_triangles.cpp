@@ -24,8 +24,8 @@ long greatest_top(const Point& p, long greatest) {
   return greatest;
 }
 
-/// By vertex: whether a triangle has it, or the mesh is a cloud of points. Beside triangles, a
-/// vertex without one may be anywhere.
+/// For each vertex: whether a triangle has it, or the mesh is a cloud of points. In a mesh with
+/// triangles, a vertex without a triangle may be anywhere.
 std::vector<bool> vertices_that_count(const Mesh& mesh) {
   std::vector<bool> are_corners(mesh.vertices.size(), mesh.triangles.empty());
   for (const auto& triangle : mesh.triangles)

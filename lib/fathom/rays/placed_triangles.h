@@ -14,8 +14,9 @@ using Vector = std::array<double, 3>;
 /// triangles, has coordinates of less than 2 to this power, exactly.
 long power_of_unit(const TriangleSource& triangles);
 
-/// A point of an object's mesh in the world, in units of 2 to the power of `power`. Of a point that
-/// is placed as it is nothing is lost but what lies below 2⁻¹⁰⁷⁴, and others are rounded once.
+/// A point of an object's mesh in the world, in units of 2 to the power of `power`. A point of an
+/// object that is placed without a transform loses only bits below 2⁻¹⁰⁷⁴; other points are rounded
+/// once.
 Vector in_unit(const Object& object, const MeshPoint& p, long power);
 
 /// How far a coordinate of a placed corner may be from the exact one: it is below 1, and rounded

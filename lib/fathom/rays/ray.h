@@ -7,7 +7,7 @@
 
 #include "fathom/rendering/options.h"
 
-/// Rays and what is asked of them (specification, section 11).
+/// Rays and the options of a cast (specification, section 11).
 namespace fathom {
 
 /// The points origin + t·direction of the world, in scene units. The numbers are taken exactly. t
@@ -25,7 +25,8 @@ struct RaySegment {
 
 /// Which points of its edges a triangle has.
 enum class EdgeRule {
-  /// Those that the rule of section 11 gives it: an edge between two triangles belongs to one.
+  /// The points that the rule of section 11 assigns to it: an edge between two triangles belongs to
+  /// one of them.
   generic,
   /// All.
   closed

@@ -36,7 +36,7 @@ inline constexpr double greatest_origin_error = 0x1p-20;
 /// The moved origin: exact but for one rounding of a coordinate below 8, and for less than 2⁻⁶⁰.
 inline constexpr double moved_origin_error = 0x1p-49;
 
-/// More than underflow takes from anything below.
+/// More than the loss by underflow in any value below.
 inline constexpr double floor = 0x1p-900;
 /// Covers terms of second order in u, and the roundings of the bounds themselves.
 inline constexpr double slack = 1 + 0x1p-20;

@@ -35,7 +35,7 @@ struct Branch {
 
 /// A smaller part is built by one thread.
 constexpr std::size_t worth_threads = 20000;
-/// Below so many nodes the elements are halved by number, which ends within 32 more.
+/// Below this level the elements are halved by number, which ends within 32 more levels.
 constexpr std::size_t levels_by_area = RayTree::most_levels - 34;
 
 template <class Stored>

@@ -13,8 +13,8 @@
 
 namespace fathom::rays {
 
-/// The boxes of up to eight children, side by side, each around its exact triangles: the sides are
-/// binary32 numbers rounded outwards. A child that does not exist has an empty box.
+/// The boxes of up to eight children, side by side. Each contains its exact triangles: its sides
+/// are binary32 numbers rounded outwards. A missing child has an empty box.
 struct alignas(64) TreeNode {
   static constexpr std::size_t most_children = 8;
 
@@ -24,11 +24,11 @@ struct alignas(64) TreeNode {
   std::array<std::array<float, most_children>, 3> lower, upper;
   /// The number of a node, or of the first block of a leaf.
   std::array<std::uint32_t, most_children> child{};
-  /// How many triangles a leaf has; 0 for a node.
+  /// The number of triangles of a leaf; 0 for a node.
   std::array<std::uint32_t, most_children> triangles{};
 };
 
-/// So many triangles are tested at once.
+/// The number of triangles that are tested at once.
 inline constexpr std::size_t triangles_together = 4;
 
 /// Triangles side by side: the coordinates of their corners, by corner and axis.
@@ -40,15 +40,15 @@ struct alignas(32) TriangleBlock {
   std::array<std::uint32_t, triangles_together> numbers{};
 };
 
-/// A triangle with the same corners, in the same order, as one of a lower number: a ray meets both
-/// at the same t, from the same side.
+/// A triangle with the same corners, in the same order, as a triangle of a lower number: a ray
+/// meets both at the same t, from the same side.
 struct Repetition {
   std::uint32_t first = 0, number = 0;
   friend auto operator<=>(const Repetition&, const Repetition&) = default;
 };
 
-/// A tree of boxes around the triangles of a scene that have an area. No answer depends on its
-/// shape, which is the same whatever the number of threads.
+/// A tree of boxes around the triangles of a scene that have an area. No result depends on its
+/// shape, and its shape does not depend on the number of threads.
 /// Source   binned surface-area heuristic [WBB08], with eight children at once
 class RayTree {
  public:
@@ -56,31 +56,31 @@ class RayTree {
 
   /// The root comes first; empty for a tree around nothing.
   [[nodiscard]] const std::vector<TreeNode>& nodes() const { return nodes_; }
-  /// The blocks of all leaves: in binary32 if all coordinates are such numbers, as those of most
-  /// files are, else in binary64. The others are empty.
+  /// The blocks of all leaves: in binary32 if all coordinates are binary32 numbers, as in most
+  /// files, otherwise in binary64. The blocks of the other type are empty.
   template <class Stored>
   [[nodiscard]] const std::vector<TriangleBlock<Stored>>& blocks() const {
     return std::get<std::vector<TriangleBlock<Stored>>>(blocks_);
   }
   [[nodiscard]] bool is_in_binary32() const { return is_in_binary32_; }
   /// The corners of a triangle in the tree's unit, by its place: triangles_together times the
-  /// number of its block, and where it is in that.
+  /// number of its block, plus its position in the block.
   [[nodiscard]] std::array<Vector, 3> corners(std::size_t place) const;
-  /// Whether those of an object are exactly the scene's.
+  /// Whether the corners of an object are exactly the scene's.
   [[nodiscard]] bool has_exact_corners(std::size_t object) const {
     return has_exact_corners_[object];
   }
-  /// Triangles that the tree leaves out because they repeat this one, by number. Crowds of equal
-  /// triangles are there once, so that a ray does not test each of them.
+  /// The triangles that the tree leaves out because they repeat this triangle, by number. The tree
+  /// has a crowd of equal triangles once, so that a ray does not test each of them.
   [[nodiscard]] std::span<const Repetition> repetitions(std::uint32_t first) const;
   [[nodiscard]] std::size_t repetition_count() const { return repeated_.size(); }
   /// Coordinates are counted in 2 to this power, and are below 1.
   [[nodiscard]] long power() const { return power_; }
-  /// How far a coordinate of a corner in a block may be from the exact one, beside what is lost
-  /// below 2⁻¹⁰⁷⁴.
+  /// A bound on the error of the coordinates of corners in blocks, except for the loss below
+  /// 2⁻¹⁰⁷⁴.
   [[nodiscard]] double corner_error() const { return corner_error_; }
 
-  /// A path from the root to a leaf has at most so many nodes.
+  /// The greatest number of nodes on a path from the root to a leaf.
   static constexpr std::size_t most_levels = 72;
 
  private:

@@ -28,7 +28,7 @@ class SightEnd {
 
   /// With bounds, which are infinite where binary64 has no such number.
   [[nodiscard]] const CertifiedVector& near() const { return near_; }
-  /// In the world. Computed anew at each call.
+  /// In the world. Recomputed at each call.
   [[nodiscard]] WorldPoint exact(const TriangleSource& source) const;
   /// The triangle that it is a point of, or no_triangle. A line through the point that is not
   /// parallel to the triangle meets its plane there, so that the triangle hides nothing.

@@ -72,7 +72,7 @@ struct Errors {
   }
 };
 
-/// What is known of the triangles of a block, side by side.
+/// The results for the triangles of a block, side by side.
 struct BlockTest {
   /// A bit for each triangle that is met, and for each that is not certainly missed.
   unsigned met = 0, open = 0;

@@ -42,7 +42,7 @@ FloatBox box_of(const PlacedTriangles::Corners& corners, double corner_error) {
   FloatBox box;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto [least, greatest] = std::minmax({corners[0][k], corners[1][k], corners[2][k]});
-    // The error is 0, or greater than what the sum is rounded by.
+    // The error is 0, or greater than the rounding of the sum.
     box.lower[k] = round_down(least - 2 * corner_error);
     box.upper[k] = round_up(greatest + 2 * corner_error);
   }
@@ -64,7 +64,7 @@ std::vector<Element> elements_of(const TriangleSource& source, const PlacedTrian
       elements[i] = {box_of(triangles[number], corner_error), number};
     }
   });
-  // Those that were left out have empty boxes.
+  // Elements that were left out have empty boxes.
   std::erase_if(elements, [](const Element& e) { return e.box.lower[0] > e.box.upper[0]; });
   return elements;
 }
@@ -94,7 +94,7 @@ bool are_in_binary32(const PlacedTriangles& triangles) {
 
 namespace {
 
-/// How many blocks so many triangles fill.
+/// The number of blocks that so many triangles fill.
 float blocks_for(std::size_t triangles) {
   const std::size_t blocks = (triangles + triangles_together - 1) / triangles_together;
   return static_cast<float>(blocks);

@@ -73,9 +73,8 @@ struct Part {
 bool is_crowd(Elements elements);
 
 /// Two to eight parts of more than triangles_together elements, or one part of fewer. The part with
-/// the largest box is split again and again: where the surface-area heuristic says or, if
-/// `by_number`, into halves. A crowd is split only if it is all that there is. Elements are sorted
-/// by part.
+/// the largest box is split again and again: by the surface-area heuristic or, if `by_number`, into
+/// halves. A crowd is split only if there are no other elements. Elements are sorted by part.
 /// Source   [WBB08]
 std::vector<Part> split_into_children(Elements elements, bool by_number);
 

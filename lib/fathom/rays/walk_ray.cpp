@@ -23,7 +23,7 @@ Interval scaled(double x, long power) {
 Interval difference(const Interval& a, const Interval& b) {
   const double lower = a.lower - b.upper, upper = a.upper - b.lower;
   if (a.lower == a.upper && std::isinf(a.lower)) return a;
-  // An exact difference of integers and the like stays a point.
+  // An exact difference, for example of integers, remains a point.
   const WordPair low = two_sum(a.lower, -b.upper), high = two_sum(a.upper, -b.lower);
   return {low.lo == 0 && std::isfinite(lower) ? lower : std::nextafter(lower, -infinity),
           high.lo == 0 && std::isfinite(upper) ? upper : std::nextafter(upper, infinity)};

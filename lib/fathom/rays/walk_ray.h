@@ -33,7 +33,7 @@ struct WalkRay {
   Vector origin{}, direction{};
   double origin_error = 0, direction_error = 0;
 
-  /// The stretch that is searched, with certainty around that which is asked for: s ≥ 0.
+  /// The searched stretch, which certainly contains the requested stretch: s ≥ 0.
   float first = 0, last = 0;
   /// Intervals that contain the ends of the segment, as s.
   Interval segment_first, segment_last;
@@ -45,7 +45,7 @@ struct WalkRay {
   /// Whether the ray goes towards smaller coordinates, and whether it goes neither way.
   std::array<bool, 3> backward{}, parallel{};
 
-  /// The power of two that t is counted in, beside s: t = (s + start)·2^scale.
+  /// The power of two that scales t: t = (s + start)·2^scale.
   long scale = 0;
   Interval start;
 };
@@ -76,7 +76,7 @@ struct TestedTriangle {
   /// Whether it is certain that the ray meets the triangle, at some t.
   bool is_met = false;
   double w = 0, height = 0;
-  /// Bounds on their errors; that of w bounds the weights, too.
+  /// Bounds on their errors; the bound of w also bounds the weights.
   double error = 0, height_error = 0;
 
   /// Contains the s where the ray meets the plane. With x = height/w and the exact X,
@@ -93,7 +93,7 @@ struct TestedTriangle {
   }
 };
 
-/// Receives the triangles that a walk along a ray finds (walk_ray.h).
+/// Receives the triangles that walk() finds along a ray.
 class TriangleVisitor {
  public:
   TriangleVisitor() = default;

@@ -34,8 +34,7 @@ std::array<Sign, 3> edge_signs(const ProjectedTriangle& t, const Sample& s) {
   return signs;
 }
 
-/// Which signs an interval would settle: those that the reference engine does not ask exact numbers
-/// for.
+/// The signs that an interval would settle, for which the reference engine uses no exact numbers.
 std::array<bool, 3> edges_by_interval(const ProjectedTriangle& t, const Sample& s) {
   std::array<bool, 3> by_interval{};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -22,8 +22,8 @@ class DistanceRange {
 };
 
 /// D > 0 and near ≤ D ≤ far as signs of forms, for one triangle: D = n/w with w > 0 at covered
-/// samples, so D ≥ near ⇔ n − near·w ≥ 0. Of a lens whose rays need not all go forwards, the ray
-/// distance takes the place of D.
+/// samples, so D ≥ near ⇔ n − near·w ≥ 0. For lenses with rays that need not go forwards, the ray
+/// distance replaces D.
 class DepthRange {
  public:
   /// `t` must outlive it.

@@ -14,10 +14,10 @@
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/projected_triangle.h"
 
-// How to read this file: render_reference() at the end is the whole story. The image is cut into
-// bands of rows. For each band, every triangle whose box meets it is tested at every sample of its
-// box, in the order of the triangles' numbers, and the nearest is kept. Where the camera bends
-// rays, a sample is the exact direction of its ray, and some samples have none.
+// How to read this file: start with render_reference() at the end. The image is divided into bands
+// of rows. For each band, every triangle whose box meets it is tested at every sample of its box,
+// in the order of the triangles' numbers, and the nearest is kept. If the camera bends rays, a
+// sample is the exact direction of its ray, and some samples have no ray.
 namespace fathom {
 using namespace area;
 using namespace reference;
@@ -36,7 +36,7 @@ struct Candidate {
   PixelBox box;
 };
 
-/// What the depth test knows about the nearest surface so far at a sample.
+/// The data of the depth test about the nearest surface so far at a sample.
 struct Nearest {
   const ProjectedTriangle* triangle = nullptr;
   Interval depth;  // contains D(s), or t along a ray
@@ -61,8 +61,8 @@ bool is_less_deep(const ProjectedTriangle& a, const ProjectedTriangle& b, const 
   return order_along(a, b, *s.direction()) == Sign::positive;
 }
 
-/// Whether D of `t` at s is strictly less than D of the nearest surface so far. Triangles come in
-/// the order of their numbers, so that among equals the lowest number stays.
+/// Whether D of `t` at s is strictly less than D of the nearest surface so far. Triangles are drawn
+/// in the order of their numbers, so that among equals the lowest number remains.
 bool is_nearer(const ProjectedTriangle& t, const Interval& depth, const Nearest& nearest,
                const Sample& s, TierCounts& counts) {
   if (depth.upper < nearest.depth.lower || depth.lower > nearest.depth.upper) {

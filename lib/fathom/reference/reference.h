@@ -13,10 +13,10 @@ namespace fathom {
 ///
 /// Unit     depths in scene units, of planar depth in the camera frame (specification, section 6).
 /// Exact    every value is the exact number rounded once (specification, section 6).
-/// Fails    InputError where scene or camera has a fault (find_fault); UsageError for options that
-///          mean nothing (require_meaningful); OutputError if a depth does not fit
+/// Fails    InputError where scene or camera has a fault (find_fault); UsageError for meaningless
+///          options (require_meaningful); OutputError if a depth does not fit
 ///          options.depth_encoding; it names the first such pixel in row order.
-/// `before`  a map that is not needed any more: its channels lend their memory where they fit.
+/// `before`  an obsolete map: its channels lend their memory where they fit.
 Rendered render_reference(const Scene& scene, const Camera& camera, const RenderOptions& options,
                           const RenderContext& context = {}, DepthMap before = {});
 

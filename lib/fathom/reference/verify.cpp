@@ -21,11 +21,11 @@
 #include "fathom/triangle/projected_triangle.h"
 #include "fathom/triangle/triangle_boxes.h"
 
-// How to read this file: verify() at the end is the whole story. The chosen pixels are taken in
-// groups of consecutive rows. For each group, the triangles whose exact box contains a chosen pixel
-// are found; each is projected exactly and tested at those pixels; the nearest is written, by the
-// reference's writer, to a map of one row that has a pixel for each chosen one; and that row is
-// compared with the map.
+// How to read this file: start with verify() at the end. It processes the chosen pixels in groups
+// of consecutive rows. For each group, it finds the triangles whose exact box contains a chosen
+// pixel, projects each exactly and tests it at these pixels. The writer of the reference engine
+// writes the nearest triangles to a map of a single row, with a pixel for each chosen pixel. This
+// row is compared with the map.
 namespace fathom {
 using namespace reference;
 using namespace rendering;
@@ -44,13 +44,13 @@ struct Candidate {
   PixelBox box;
 };
 
-/// What is visible at a chosen pixel, as far as is known yet.
+/// The nearest triangle found so far at a chosen pixel.
 struct Visible {
   const Candidate* triangle = nullptr;
   Ratio depth;
 };
 
-/// What all pixels share.
+/// The data that all pixels share.
 struct Frame {
   const DepthMap& map;
   const TriangleSource& triangles;
@@ -137,8 +137,8 @@ std::vector<Band> cut_into_bands(const ChosenRows& chosen, const std::vector<Can
   return bands;
 }
 
-/// The pixels of a group computed again: a map of one row, with a pixel for each chosen one, and
-/// what the encoding could not hold.
+/// The recomputed pixels of a group: a map of a single row, with a pixel for each chosen pixel, and
+/// the values that the encoding could not hold.
 class ExactRow {
  public:
   ExactRow(const Frame& frame, const ChosenRows& chosen)
@@ -195,7 +195,8 @@ class ExactRow {
         if (!covers(*projected, s, tiers)) continue;
         Ratio depth = depth_at(*projected, s);
         if (!is_in_range(depth, frame_.camera)) continue;
-        // Triangles come in the order of their numbers: among equals the lowest number stays.
+        // Triangles are tested in the order of their numbers: among equals the lowest number
+        // remains.
         Visible& nearest = visible[k - first];
         if (!nearest.triangle || depth < nearest.depth) nearest = {&c, std::move(depth)};
       }
@@ -268,7 +269,7 @@ std::string value_at(const ImageChannel& channel, std::size_t at) {
   return std::visit([&](const auto& values) { return in_digits(values[at]); }, channel.values);
 }
 
-/// Where pixel `at` of a channel differs from pixel k of the exact one, the values of both.
+/// If pixel `at` of a channel differs from pixel k of the exact channel, the values of both.
 std::optional<std::pair<std::string, std::string>> difference(const ImageChannel& found,
                                                               std::size_t at,
                                                               const ImageChannel& exact,
@@ -327,7 +328,7 @@ Verification verify_in_arena(const Frame& frame, const PixelChoice& chosen,
   for (std::uint32_t row = 0; row < camera.height;) {
     const ChosenRows rows(chosen, camera.width, camera.height, row, pixels_per_group);
     row = rows.end_row();
-    if (rows.size() == 0) break;  // none is chosen from here to the end of the image
+    if (rows.size() == 0) break;  // no pixel is chosen from here to the end of the image
     const std::vector<Candidate> candidates = find_candidates(frame, rows);
     const std::vector<Band> bands = cut_into_bands(rows, candidates);
     ExactRow exact(frame, rows);

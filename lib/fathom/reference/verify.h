@@ -25,12 +25,12 @@ inline constexpr std::uint64_t verification_seed = 20260101;
 /// Source   [BF87]
 PixelChoice choose_pixels(std::uint32_t width, std::uint32_t height, std::uint64_t count);
 
-/// A value of a map that differs from that of the specification.
+/// A value of a map that differs from the value of the specification.
 struct Disagreement {
   std::uint32_t x = 0, y = 0;
   std::string channel;
-  /// With enough digits to tell it from every other, floats also in hexadecimal. `expected` may be
-  /// the reason why the encoding cannot hold the depth.
+  /// With enough digits to distinguish it from every other value; floats also in hexadecimal.
+  /// `expected` may be the reason why the encoding cannot hold the depth.
   std::string found, expected;
 };
 
@@ -44,17 +44,18 @@ struct Verification {
 /// Computes the chosen pixels of a rendered map again by exact arithmetic, without any part of the
 /// fast engine, and compares every channel bit for bit, including background.
 ///
-/// Exact    as the reference engine: the visible surface is that of the least exact depth among all
-///          triangles that cover the sample; each value is rounded once from exact numbers.
-/// Cost     the corners of every triangle are looked at once (per 4 million chosen pixels) for a
-///          box that certainly contains it; only triangles whose box contains a chosen pixel are
-///          looked at exactly.
+/// Exact    as the reference engine: the visible surface is the surface of the least exact depth
+///          among all triangles that cover the sample; each value is rounded once from exact
+///          numbers.
+/// Cost     the corners of every triangle are read once (per 4 million chosen pixels) for a box
+///          that certainly contains it; only triangles whose box contains a chosen pixel are tested
+///          exactly.
 /// Needs    in `options` the channels, culling and encoding with which the map was rendered;
 ///          threads are this call's own.
 /// Fails    InputError where map, scene or camera has a fault (find_fault), or the map is not of
-///          the camera's size; UsageError for options that mean nothing (require_meaningful), a
-///          channel of theirs that the map does not have so, or another number of choices than
-///          pixels.
+///          the camera's size; UsageError for meaningless options (require_meaningful), for a
+///          requested channel that the map does not have in this form, or if there are not as many
+///          choices as pixels.
 Verification verify(const DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                     const RenderOptions& options, const PixelChoice& chosen,
                     const std::function<void(double)>& progress = {});

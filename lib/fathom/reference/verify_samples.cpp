@@ -54,7 +54,7 @@ ChosenRays::ChosenRays(const View& view, const ChosenRows& chosen, std::uint32_t
   }
 }
 
-// Among equals the lowest number stays, which comes first.
+// Among equals the lowest number, which comes first, remains.
 void ChosenRays::draw(ProjectedTriangle t, const PixelBox& box) {
   const std::size_t first = chosen_.start(first_row_);
   const DepthRange range(t, view_.camera);

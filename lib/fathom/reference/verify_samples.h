@@ -73,7 +73,7 @@ class ChosenRays {
   const ChosenRows& chosen_;
   std::uint32_t first_row_, end_row_;
   std::vector<Pixel> pixels_;
-  /// Those that are or were the nearest of a pixel.
+  /// Triangles that are or were the nearest of a pixel.
   std::deque<triangle::ProjectedTriangle> triangles_;
 };
 

@@ -23,8 +23,8 @@ class RayGroups {
   RayGroups(const lens::Preimages& preimages, std::uint32_t width, std::uint32_t height,
             const std::vector<bool>* chosen);
 
-  /// A box that contains every pixel looked at whose sample the triangle covers; empty if there is
-  /// none.
+  /// A box that contains every chosen pixel whose sample the triangle covers; empty if there is no
+  /// such pixel.
   [[nodiscard]] PixelBox box_of(const triangle::ProjectedTriangle& t) const;
 
  private:

@@ -70,12 +70,12 @@ void ChannelValues::write(std::size_t pixel, const OriginNumbers& numbers) const
 
 namespace {
 
-/// Where the memory of a map's channels comes from.
+/// The sources of the memory of a map's channels.
 struct MapMemory {
   std::size_t pixels;
   const RenderOptions& options;
   const RenderContext& context;
-  /// A map whose channels are not needed any more.
+  /// A map whose channels are obsolete.
   DepthMap& before;
 };
 
@@ -113,7 +113,7 @@ ImageChannel valid_everywhere(const MapMemory& memory) {
   return {"valid", std::move(values)};
 }
 
-/// A channel whose kind decides which value says that no surface is seen.
+/// A channel whose kind decides which value means "no surface".
 ImageChannel channel_of_kind(const std::string& name, const ChannelDescription& d,
                              const MapMemory& memory, MapBackground& to_fill) {
   const DepthEncoding::Type encoding = memory.options.depth_encoding.type;

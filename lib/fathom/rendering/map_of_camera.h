@@ -18,7 +18,7 @@
 /// Where the values of a map's channels are.
 namespace fathom::rendering {
 
-/// What binary32 and binary64 channels have where no surface is seen.
+/// The values of binary32 and binary64 channels where no surface is visible.
 struct Backgrounds {
   static constexpr float depth = std::numeric_limits<float>::infinity();
   static constexpr float position = std::numeric_limits<float>::quiet_NaN();
@@ -50,14 +50,14 @@ struct OriginNumbers {
   }
 };
 
-/// Where the values of a map's channels are kept; null where a channel was not asked for.
+/// Pointers to the values of a map's channels; null if a channel was not requested.
 struct ChannelValues {
   explicit ChannelValues(DepthMap& map);
 
-  /// Whether a channel of OriginNumbers was asked for.
+  /// Whether a channel of OriginNumbers was requested.
   [[nodiscard]] bool wants_origins() const;
   void write(std::size_t pixel, const OriginNumbers& numbers) const;
-  /// In the order of OriginNumbers::all(); null where it was not asked for.
+  /// In the order of OriginNumbers::all(); null if not requested.
   [[nodiscard]] std::array<std::uint32_t*, OriginNumbers::count> origins() const {
     std::array<std::uint32_t*, OriginNumbers::count> values{face, object};
     std::copy(segments.begin(), segments.end(), values.begin() + 2);
@@ -89,11 +89,11 @@ DepthMap make_background(const Camera& camera, const RenderOptions& options,
 /// Fails    UsageError.
 void require_channels_of(const Camera& camera, const RenderOptions& options);
 
-/// What channels of a map have where no surface is seen, for filling a map part by part.
+/// The background of a map's channels, for filling a map part by part.
 class MapBackground {
  public:
-  /// `count` pixels from this one on (row · width + column). Several threads may fill different
-  /// ones at the same time.
+  /// Fills `count` pixels from this pixel on (row · width + column). Several threads may fill
+  /// different pixels at the same time.
   void fill(std::size_t first_pixel, std::size_t count) const;
   /// Calls visit(values of the channel, its background) for each.
   template <class Visit>

@@ -27,7 +27,7 @@ constexpr std::string_view words_then_dyadic =
     "double-words with Fathom's bounds, then dyadic numbers";
 
 // Where each stands: triangle/projected_triangle.cpp (facing, edges), reference/reference.cpp
-// (visibility, range), area/half_plane.cpp (coverage).
+// (visibility, range), area/convex_polygon.cpp (coverage).
 constexpr std::array<Deciders, 7> reference_deciders{{
     {"facing", cgal_determinant, dyadic_numbers},
     {"edges", cgal_form, dyadic_numbers},
@@ -38,7 +38,7 @@ constexpr std::array<Deciders, 7> reference_deciders{{
     {"rounding", "", ""},
 }};
 
-// fast/, and triangle/referee.cpp for what bounds in binary64 do not settle.
+// fast/, and triangle/referee.cpp for decisions that bounds in binary64 do not settle.
 constexpr std::array<Deciders, 7> fast_deciders{{
     {"facing", own_bounds, "CGAL::determinant over CGAL::Interval_nt, then dyadic numbers"},
     {"edges", own_bounds,

@@ -23,7 +23,7 @@ struct RenderStatistics {
   std::uint64_t samples_covered = 0;
   std::uint64_t pixels_with_surface = 0;
   TierCounts facing, edges, visibility, range;
-  /// Signs asked for by channel A.
+  /// Signs for channel A.
   TierCounts coverage;
 
   // Only in the fast engine:
@@ -93,18 +93,18 @@ constexpr void for_each_number(RenderStatistics& statistics, const Visit& visit)
 /// Adds the counts of a part of the work.
 void add(RenderStatistics& sum, const RenderStatistics& part);
 
-/// What rendering gives.
+/// The result of a render.
 struct Rendered {
   DepthMap map;
   RenderStatistics statistics;
-  /// Where FastSwitches::find_doubtful asks for them: the pixels (row · width + column) at which a
-  /// bound of the fast engine did not settle a decision about an edge, the range, visibility, or
-  /// the rounding of Z or of A; some of them twice.
+  /// If FastSwitches::find_doubtful is set: the pixels (row · width + column) at which a bound of
+  /// the fast engine did not settle a decision about an edge, the range, visibility, or the
+  /// rounding of Z or of A; some of them twice.
   std::vector<std::uint64_t> doubtful;
 };
 
-/// Which arithmetic settles which decision: the one place that `render --stats`, `probe` and the
-/// Python module take their words from. A table in docs/architecture.md repeats them;
+/// Which arithmetic settles which decision: the only source of the words in `render --stats`,
+/// `probe` and the Python module. A table in docs/architecture.md repeats them;
 /// tests/rendering/deciders_test.cpp compares the two.
 
 /// CGAL's part in the engines: intervals in binary64, rounded outwards, as a filter in front of

@@ -16,7 +16,7 @@ namespace fathom::triangle::surface_bounds {
 
 /// n = p × r; placed by cofactors; n·t; forms c + b·v + a·u; n·d for the turn of a normal.
 inline constexpr double normal = 4, placed_normal = 8, constant_form = 9, form = 12, turn = 15;
-/// The root of n·n, besides what the errors of the components do.
+/// The root of n·n, in addition to the effect of the errors of the components.
 inline constexpr double length = 3;
 /// Origin + direction·D; √(x² + y² + 1), in units of X̄² + Ȳ² + 1 (one more, and of the value).
 inline constexpr double position = 6, ray_length = 6;
@@ -95,7 +95,7 @@ Vector<Real> cross(const Vector<Real>& a, const Vector<Real>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// The magnitudes of the terms of a cross product, from those of the factors.
+/// The magnitudes of the terms of a cross product, from the magnitudes of its factors.
 inline Vector<double> cross_size(const Vector<double>& a, const Vector<double>& b) {
   return {a[1] * b[2] + a[2] * b[1], a[2] * b[0] + a[0] * b[2], a[0] * b[1] + a[1] * b[0]};
 }
@@ -143,7 +143,7 @@ struct DepthForms {
   }
 };
 
-/// What is needed to set up forms besides the triangle.
+/// The data for setting up forms that do not depend on the triangle.
 struct ImageBounds {
   bool perspective;
   double u, v;  // no sample's coordinates are greater
@@ -349,9 +349,10 @@ Vector<double> errors_of(const PlacedNormal<Real>& normal) {
   return {e * normal.size[0], e * normal.size[1], e * normal.size[2]};
 }
 
-/// |n|. Squares err by 2k + 1, sums by 2, the root by half of that and 1; but since the length's
-/// error comes from those of the components, it is counted thus: |n̂| and |n| differ by at most the
-/// sum of the components' errors, and |n̂| is computed with an error of (3/2 + 1)ε; 3 is used.
+/// |n|. Squares err by 2k + 1, sums by 2, the root by half of that and 1. But since the length's
+/// error comes from the errors of the components, it is counted as follows: |n̂| and |n| differ by
+/// at most the sum of the components' errors, and |n̂| is computed with an error of (3/2 + 1)ε; 3
+/// is used.
 /// Needs    squares of the components that stay in range.
 template <class Real>
 Certified<Real> length_of(const Vector<Real>& n, const Vector<double>& error) {
@@ -384,7 +385,7 @@ int turn_of(const PlacedNormal<Real>& normal, const ObjectRays& world, const Ima
   return nearest(nd.value) > 0 ? -1 : 1;
 }
 
-/// The unit normal in a frame, turned that way; every error is +∞ if it is not known.
+/// The unit normal in a frame, turned that way; every error is +∞ if it is unknown.
 ///
 /// Underflow. Components of placed normals are multiples of 2⁻⁵⁶⁶ (2⁻²⁶² of an entry times 2⁻³⁰⁴ of
 /// n), so their squares may lose words below 2⁻¹⁰⁷⁴. That is less than 2⁻³⁰⁰ of |n|²: quotient()
@@ -418,8 +419,8 @@ Vector<Certified<Real>> unit_normal(const MeshTriangle& corners, const ObjectRay
   return unit(normal, turn_of(normal, world, image, s));
 }
 
-/// The same in the camera frame. Cofactors of R take n to det R times what has the product with R·d
-/// that n has with d: so where det R < 0 it is turned the other way.
+/// The same in the camera frame. Cofactors of R transform n to det R times the vector whose product
+/// with R·d is n·d. So if det R < 0, the normal is turned the other way.
 /// Needs    also that camera normals are usable; `handedness`, the sign of det R.
 template <class Real>
 Vector<Certified<Real>> unit_camera_normal(const MeshTriangle& corners, const ObjectRays& object,

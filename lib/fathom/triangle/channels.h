@@ -30,26 +30,26 @@ struct EncodingFault {
 /// else. Several threads may write different pixels at the same time.
 class ChannelWriter {
  public:
-  /// Fails    UsageError where Ns is asked for of a scene that stays in its files.
+  /// Fails    UsageError if Ns is requested for a scene that stays in its files.
   ChannelWriter(DepthMap& map, const TriangleSource& triangles, const Camera& camera,
                 const RenderOptions& options);
-  /// Writes every channel. Returns what is wrong if the encoding cannot hold the depth.
+  /// Writes every channel. Returns a fault if the encoding cannot hold the depth.
   std::optional<EncodingFault> write(std::size_t pixel, const ProjectedTriangle& triangle,
                                      const ImagePoint& s);
   /// The same at the ray of a sample, where the camera bends rays.
   std::optional<EncodingFault> write(std::size_t pixel, const ProjectedTriangle& triangle,
                                      const lens::ExactDirection& d);
 
-  /// Of channel Ns; null if it was not asked for.
+  /// The normals of channel Ns; null if it was not requested.
   [[nodiscard]] const std::shared_ptr<const CornerNormals>& corner_normals() const {
     return corner_normals_;
   }
 
-  /// For writing one channel, or one component: it must have been asked for.
+  /// For writing one channel, or one component, which must have been requested.
   [[nodiscard]] const rendering::ChannelValues& values() const { return values_; }
   [[nodiscard]] const CodeFactor& code_factor() const { return code_factor_; }
   [[nodiscard]] rendering::OriginNumbers numbers_of(std::uint32_t triangle) const;
-  /// The number of the triangle, and those of its origin.
+  /// Writes the number of the triangle and the numbers of its origin.
   void write_origin(std::size_t pixel, std::uint32_t triangle);
   std::optional<EncodingFault> write_depth(std::size_t pixel, const ProjectedTriangle& triangle,
                                            const ImagePoint& s);

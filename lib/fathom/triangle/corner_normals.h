@@ -15,12 +15,13 @@
 /// section 6).
 namespace fathom::triangle {
 
-/// What the normal of a corner is, in the frame of its mesh.
+/// The normal of a corner, in the frame of its mesh.
 struct CornerNormal {
-  /// That of the file, if it has one; else null: the sum of the area vectors of `triangles`.
+  /// The normal of the file, if there is one; otherwise null: the normal is the sum of the area
+  /// vectors of `triangles`.
   const std::array<double, 3>* given = nullptr;
   std::span<const std::uint32_t> triangles;
-  /// A number that all corners with this sum, and no others of the scene, have.
+  /// A number shared by exactly the corners of the scene with this sum.
   std::uint64_t number = 0;
 };
 
@@ -28,7 +29,7 @@ struct CornerNormal {
 class CornerNormals {
  public:
   /// The scene must outlive this unchanged.
-  /// Fails    UsageError where the scene stays in its files: sums need all triangles of a mesh.
+  /// Fails    UsageError if the scene stays in its files: sums need all triangles of a mesh.
   CornerNormals(const TriangleSource& triangles, NormalSource source);
 
   [[nodiscard]] const TriangleSource& triangles() const { return triangles_; }
@@ -38,21 +39,21 @@ class CornerNormals {
  private:
   TriangleSource triangles_;
   NormalSource source_;
-  /// For each mesh; nothing in those of meshes that no object places or that need no sums.
+  /// For each mesh; empty for meshes that no object places or that need no sums.
   std::vector<mesh::SharedTriangles> shared_;
-  /// For each mesh, how many vertices the meshes before it have.
+  /// For each mesh, the number of vertices of all previous meshes.
   std::vector<std::uint64_t> first_vertex_;
 };
 
-/// The normals of corners in the world, as exact numbers. One for each thread: it remembers the
-/// sums that it was asked about last.
+/// The normals of corners in the world, as exact numbers. One for each thread, because it caches
+/// the sums that it used last.
 class ExactCornerNormals {
  public:
   explicit ExactCornerNormals(std::shared_ptr<const CornerNormals> normals)
       : normals_(std::move(normals)) {}
 
-  /// Those of the three corners of a triangle, as they are to be interpolated: their lengths count.
-  /// All three may be longer or shorter than specified by one factor above 0.
+  /// The normals of the three corners of a triangle, to be interpolated: their lengths count. All
+  /// three may be multiplied by a common factor above 0.
   std::array<ExactVector3, 3> of_triangle(std::uint32_t number);
 
  private:

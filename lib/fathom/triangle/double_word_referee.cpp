@@ -54,10 +54,10 @@ Certified<WordPair> WideReferee::depth_at(std::uint32_t number, const ImagePoint
 }
 
 // The weights are β = e_B/S, γ = e_C/S, α = 1 − β − γ with S = e_A + e_B + e_C, and the sample is
-// covered only where all e/Δ ≥ 0, and certainly where all are > 0. Perspective: D = Δ/S, so where
-// D > 0 the weights have the signs of e/Δ; where D < 0 the sum of the e/Δ is negative and so is one
-// of them. Orthographic: S = Δ. A negative weight therefore says "no" either way, and three
-// positive ones say "yes" if D > 0.
+// covered only where all e/Δ ≥ 0, and certainly where all are > 0. Perspective: D = Δ/S, so where D
+// > 0 the weights have the signs of e/Δ; where D < 0 the sum of the e/Δ is negative and so is one
+// of them. Orthographic: S = Δ. A negative weight therefore means "no" in either case, and three
+// positive weights mean "yes" if D > 0.
 std::optional<bool> WideReferee::covers(std::uint32_t number, const ImagePoint& s) {
   const Triangle& t = remember(number);
   if (!t.usable) return std::nullopt;

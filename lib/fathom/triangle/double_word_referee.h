@@ -10,19 +10,19 @@
 
 namespace fathom::triangle {
 
-/// A triangle under a perspective camera in double-words: what its weights of B and C and D are
-/// made of (certified_surface.h), at the samples of the image and up to `beyond` beyond them.
+/// A triangle under a perspective camera in double-words: the forms of its weights of B and C and
+/// of D (certified_surface.h), for the samples of the image and up to `beyond` outside it.
 struct WideForms {
   static constexpr double beyond = 8;
   WeightForms<WordPair> weights;
-  /// D is this over weights.divisor.
+  /// D = constant / weights.divisor.
   Certified<WordPair> constant;
-  /// What bounds the coordinates of those samples.
+  /// Bounds on the coordinates of these samples.
   double u, v;
 };
 
-/// Settles with double-words what binary64 did not: the tier before exact numbers. nullopt: not
-/// known. One for each thread: it remembers the triangles that it was asked about last.
+/// Settles decisions in double-words that binary64 left open: the tier before exact numbers.
+/// nullopt means "unknown". One for each thread, because it caches the triangles that it used last.
 class WideReferee {
  public:
   explicit WideReferee(const SceneRays& rays);
@@ -31,11 +31,11 @@ class WideReferee {
   std::optional<bool> covers(std::uint32_t number, const ImagePoint& s);
   /// nullopt also under an orthographic camera.
   std::optional<WideForms> forms(std::uint32_t number);
-  /// −1 or 1 if D, at a sample that the triangle covers, is certainly less or greater than `limit`.
+  /// −1 or 1 if D is certainly less or greater than `limit` at a sample that the triangle covers.
   std::optional<int> compare_depth(std::uint32_t number, const ImagePoint& s, double limit);
-  /// −1 or 1 if D of `a`, at a sample that both cover, is certainly less or greater than D of `b`.
+  /// −1 or 1 if D of `a` is certainly less or greater than D of `b` at a sample that both cover.
   std::optional<int> compare_depths(std::uint32_t a, std::uint32_t b, const ImagePoint& s);
-  /// True only if both triangles certainly lie in one plane, so that they have the same D.
+  /// Returns true only if both triangles certainly lie in one plane, so that they have the same D.
   bool lie_in_one_plane(std::uint32_t a, std::uint32_t b);
 
  private:
@@ -55,8 +55,9 @@ class WideReferee {
   RecentTriangles<Triangle, 256> remembered_;
 };
 
-/// True only if the six points certainly lie in one plane: all points of one triangle are points of
-/// the other, or the coordinates have so few bits that it can be computed. False: nothing is known.
+/// Returns true only if the six points certainly lie in one plane: all points of one triangle are
+/// points of the other, or the coordinates have so few bits that the test is exact. False means
+/// "unknown".
 bool certainly_coplanar(const MeshTriangle& a, const MeshTriangle& b);
 
 }  // namespace fathom::triangle

@@ -27,7 +27,7 @@ Certified<Real> ray_length(const SceneRays& rays, const ImagePoint& s) {
 
 /// The point of depth D on the ray of a sample, o + d·D. o and d err by 4ε of their sizes ō and d̄,
 /// so the point errs by 5ε·d̄·|D̂| + d̄·E_D + 4ε·ō for its terms and by ε for the sum. A coordinate
-/// of which all terms are 0 is exactly 0.
+/// whose terms are all 0 is exactly 0.
 template <class Real>
 Vector<Certified<Real>> position(const Rays& rays, const RaySizes& sizes, bool perspective,
                                  const ImagePoint& s, const Certified<Real>& depth) {
@@ -70,16 +70,16 @@ struct WideArithmetic {
 extern const WideArithmetic wide_without_fma;
 /// Runs on every processor; slow on one without the instruction.
 extern const WideArithmetic wide_with_fma;
-/// The one for this processor.
+/// The arithmetic for this processor.
 const WideArithmetic& wide_arithmetic();
 
-/// Depths of numbered triangles at samples, with bounds. One for each thread: it remembers the
-/// triangles that it was asked about last.
+/// Depths of numbered triangles at samples, with bounds. One for each thread, because it caches the
+/// triangles that it used last.
 class CertifiedSurfaces {
  public:
   explicit CertifiedSurfaces(const SceneRays& rays);
 
-  /// D of the triangle's plane at the sample; the error is +∞ where nothing is known.
+  /// D of the triangle's plane at the sample; the error is +∞ if D is unknown.
   Certified<double> depth(std::uint32_t number, const ImagePoint& s);
   Certified<WordPair> wide_depth(std::uint32_t number, const ImagePoint& s);
   /// True only if the triangle certainly does not cover the sample, or certainly not with D > 0.
@@ -97,7 +97,7 @@ class CertifiedSurfaces {
     WeightForms<double> weights;
   };
   Triangle& remember(std::uint32_t number);
-  /// The weights of A, B and C; errors are +∞ where nothing is known.
+  /// The weights of A, B and C; errors are +∞ if they are unknown.
   std::array<Certified<double>, 3> weights(std::uint32_t number, const ImagePoint& s);
 
   const SceneRays& rays_;

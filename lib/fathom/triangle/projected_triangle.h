@@ -61,7 +61,7 @@ inline ImagePoint centre_of_pixel(std::uint32_t column, std::uint32_t row) {
 bool is_in_range(const Ratio& depth, const Camera& camera);
 
 /// A triangle of the scene seen by a camera, all exact (specification, sections 4 and 5, with its
-/// symbols). It holds what is needed for coverage and depth at a sample. The forms are functions of
+/// symbols). It contains the data for coverage and depth at a sample. The forms are functions of
 /// the image, or of directions in the camera frame where the camera bends rays.
 struct ProjectedTriangle {
   std::uint32_t number = 0;
@@ -110,7 +110,7 @@ Ratio interpolate(const ProjectedTriangle& triangle, const ImagePoint& s,
 Ratio depth_at(const ProjectedTriangle& triangle, const ImagePoint& s);
 
 /// A certified box where edges are straight: around the corners' images if all are in front of the
-/// camera; empty if none is (every point of the triangle then has D ≤ 0); otherwise the whole
+/// camera; empty if no corner is (every point of the triangle then has D ≤ 0); otherwise the whole
 /// image.
 PixelBox bounding_box(const ProjectedTriangle& triangle, const Camera& camera);
 

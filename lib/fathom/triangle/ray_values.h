@@ -49,7 +49,7 @@ Real quotient_at(const lens::ExactDirection& d, const QuadraticForm& numerator,
 /// distance and Z in binary32, as far as binary64 settles them.
 class RaySurface {
  public:
-  /// The channels that it writes, of those that were asked for; Z where a caller sets that.
+  /// The requested channels that it writes; Z if the caller sets `depth`.
   struct Wanted {
     explicit Wanted(const rendering::ChannelValues& values)
         : position(values.position[0] != nullptr),

@@ -25,9 +25,9 @@ bool is_safe(double x) {
   return size == 0 || (size >= least_safe && size <= greatest_safe);
 }
 
-/// Sets an entry and its magnitude; false if that is not safe, or if the entry is not 0 but rounds
-/// to 0. lo is dropped if it is below 2⁻¹¹⁰·|hi|, so that its last bit is never far below: the
-/// relative error stays below 2⁻¹⁰⁶ + 2⁻¹¹⁰.
+/// Sets an entry and its magnitude; returns false if it is not safe, or if the entry is not 0 but
+/// rounds to 0. lo is dropped if it is below 2⁻¹¹⁰·|hi|, so that its last bit is never far below:
+/// the relative error stays below 2⁻¹⁰⁶ + 2⁻¹¹⁰.
 bool set(const Ratio& exact, WordPair& entry, double& size) {
   const std::optional<double> hi = round_to_normal(exact);
   if (!hi || !is_safe(*hi)) return false;

@@ -13,8 +13,8 @@
 
 namespace fathom::triangle {
 
-/// The points that a sample sees, in the frame of a mesh or in the world. The point of depth D on
-/// the ray of the sample (u, v) is
+/// The points on the ray of a sample, in the frame of a mesh or in the world. The point of depth D
+/// on the ray of the sample (u, v) is
 ///   perspective   O + D·(u·m₀ + v·m₁ + m₂)
 ///   orthographic  (O + u·m₀ + v·m₁) + D·m₂.
 /// Entries are exact numbers (quotients of dyadics) rounded to double-words: a relative error of
@@ -26,10 +26,10 @@ struct Rays {
   std::array<std::array<double, 3>, 4> sizes{};
 };
 
-/// An affine function of a mesh point with exact coefficients, the last of them the constant.
+/// An affine function of a mesh point with exact coefficients; the last one is the constant.
 struct ExactRow {
   std::array<Dyadic, 4> coefficients;
-  /// The coefficients where all of them are binary64 numbers.
+  /// The coefficients, if all of them are binary64 numbers.
   std::optional<std::array<double, 4>> binary64;
   /// Each coefficient is 0 or a multiple of 2^(this).
   std::array<long, 4> last_bits{};
@@ -39,18 +39,18 @@ struct ExactRow {
   /// n such that the value at every point whose coordinates are multiples of 2^(bits[k]) is a
   /// multiple of 2ⁿ.
   [[nodiscard]] long last_bit_at(const std::array<long, 3>& bits) const;
-  /// The value at X, if it is a double-word number and is found to be one.
+  /// The value at X, if it is found to be a double-word number.
   [[nodiscard]] std::optional<WordPair> value_at(const MeshPoint& X) const;
 };
 
-/// Takes normals from one frame to another: cofactors of a linear map, exact numbers rounded to
-/// double-words, and their magnitudes.
+/// Transforms normals from one frame to another: cofactors of a linear map, exact numbers rounded
+/// to double-words, and their magnitudes.
 struct NormalMatrix {
   std::array<std::array<WordPair, 3>, 3> rows;
   std::array<std::array<double, 3>, 3> sizes{};
 };
 
-/// How the mesh of an object lies relative to the camera: all that the channels need to know of it.
+/// The position of an object's mesh relative to the camera, as the channels need it.
 struct ObjectRays {
   ObjectRays(const Object& object, const Camera& camera);
 
@@ -58,7 +58,7 @@ struct ObjectRays {
   /// the mesh: then the object's channels are written from exact numbers.
   bool usable = false;
   Rays rays;
-  /// From the mesh to the world: the cofactors of the placement. Not set where the placement is the
+  /// From the mesh to the world: the cofactors of the placement. Not set if the placement is the
   /// identity.
   bool placed_as_is = true;
   NormalMatrix to_world;
@@ -75,8 +75,8 @@ struct ObjectRays {
   double determinant = 0;
 };
 
-/// What the channels need to know of camera and scene; objects are prepared when they are first
-/// asked for, by any thread.
+/// The data of camera and scene that the channels need; an object is prepared on its first use, by
+/// any thread.
 class SceneRays {
  public:
   SceneRays(const TriangleSource& triangles, const Camera& camera);
@@ -94,8 +94,8 @@ class SceneRays {
 
   /// x and y of the camera-frame point of depth 1 on the ray of (u, v), as k₀u + k₁v + k₂.
   [[nodiscard]] const std::array<std::array<WordPair, 3>, 2>& lens() const { return lens_; }
-  /// 1 + X² + Y², where X and Y bound the sums of the magnitudes of the terms of lens();
-  /// +∞ where it is not usable.
+  /// 1 + X² + Y², where X and Y bound the sums of the magnitudes of the terms of lens(); +∞ if it
+  /// is not usable.
   [[nodiscard]] double lens_size() const { return lens_size_; }
 
  private:

@@ -6,15 +6,15 @@
 
 namespace fathom::triangle {
 
-/// What was found out about the triangles (or vertices) that were asked about last, by number: one
-/// for each number modulo `most`, so that triangles with neighbouring numbers, which are often
-/// neighbours in the image, do not displace each other.
+/// A cache of facts about the last used triangles (or vertices), by number: one slot for each
+/// number modulo `most`, so that triangles with neighbouring numbers, which are often neighbours in
+/// the image, do not displace each other.
 template <class Facts, std::size_t most>
 class RecentTriangles {
  public:
-  /// The facts about a triangle. If they are not remembered, make(facts) is called first, on the
-  /// facts about another triangle or on Facts{}. The reference is valid until another number is
-  /// asked for.
+  /// The facts about a triangle. If they are not cached, make(facts) is called first, on the facts
+  /// about another triangle or on Facts{}. The reference is valid until get() is called with
+  /// another number.
   template <class Make>
   Facts& get(std::uint64_t number, const Make& make) {
     if (slots_.empty()) slots_.resize(most);

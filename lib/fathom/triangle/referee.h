@@ -14,7 +14,7 @@
 
 namespace fathom::triangle {
 
-/// The exact triangles that a referee was asked about last: about 5 kB each.
+/// A cache of the exact triangles that a referee used last: about 5 kB each.
 class RememberedTriangles {
  public:
   RememberedTriangles(const TriangleSource& triangles, const Camera& camera)
@@ -43,8 +43,8 @@ class RememberedTriangles {
   std::unordered_map<std::uint32_t, std::unique_ptr<ProjectedTriangle>> remembered_;
 };
 
-/// Settles with exact numbers what a bound did not settle. One for each thread: it remembers the
-/// triangles that it was asked about last.
+/// Settles decisions that a bound left open with exact numbers. One for each thread, because it
+/// caches the triangles that it used last.
 class Referee {
  public:
   /// With `rays`, double-words are tried before exact numbers.
@@ -75,14 +75,14 @@ class Referee {
   const Camera& camera_;
   std::optional<WideReferee> wide_;
   RememberedTriangles remembered_;
-  /// The pair asked about last, lower number first, and whether they lie in one plane.
+  /// The last pair, lower number first, and whether they lie in one plane.
   std::uint32_t first_ = 0, second_ = 0;
   bool same_plane_ = false;
 };
 
-/// The referee of a camera that bends rays: settles with exact numbers, along the ray of a sample,
-/// what a bound did not settle. One for each thread: it remembers the triangles that it was asked
-/// about last.
+/// The referee of a camera that bends rays: settles decisions that a bound left open with exact
+/// numbers, along the ray of a sample. One for each thread, because it caches the triangles that it
+/// used last.
 class RayReferee {
  public:
   RayReferee(const TriangleSource& triangles, const Camera& camera)
@@ -95,8 +95,8 @@ class RayReferee {
   }
 
   bool covers(std::uint32_t number, const lens::ExactDirection& d, RenderStatistics& statistics);
-  /// Whether D > 0 and near ≤ D ≤ far, where the triangle covers the sample; of a camera whose
-  /// limits bound ray distances, whether those are between them.
+  /// Whether D > 0 and near ≤ D ≤ far, where the triangle covers the sample; for a camera whose
+  /// limits bound ray distances, whether the ray distance is between them.
   bool is_in_range(std::uint32_t number, const lens::ExactDirection& d,
                    RenderStatistics& statistics);
   /// Whether, at a sample that both cover, `a` hides `b`: it is nearer along the ray, or as near

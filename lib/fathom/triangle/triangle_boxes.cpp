@@ -7,7 +7,7 @@
 
 namespace fathom::triangle {
 
-// An affine function is known from its values at four points.
+// An affine function follows from its values at four points.
 std::array<std::array<Dyadic, 4>, 3> image_rows(const Object& object, const Camera& camera) {
   const auto image = [&](const MeshPoint& p) {
     const HomogeneousImagePoint a =
@@ -28,8 +28,8 @@ namespace {
 constexpr std::size_t remembered_corners = 4096;
 
 /// The integers near an interval of the image, one more on each side, so that roundings of the ends
-/// do no harm; `first` at most `count`, `last` at least −1. An end that is not known (NaN) becomes
-/// that of the image.
+/// do no harm; `first` at most `count`, `last` at least −1. An unknown end (NaN) becomes the end of
+/// the image.
 void near(const Interval& range, std::uint32_t count, std::int64_t& first, std::int64_t& last) {
   const double low = std::floor(range.lower) - 1, high = std::ceil(range.upper) + 1;
   const double size = count;

@@ -10,8 +10,8 @@
 #include "fathom/mesh/mesh.h"
 #include "fathom/mesh/object.h"
 
-/// Where a triangle certainly covers nothing: outside its box, and where all of it lies to one side
-/// of a sample.
+/// Bounds on the pixels that a triangle covers: its box, and tests whether it lies wholly to one
+/// side of a sample.
 namespace fathom::triangle {
 
 /// U, V and W of the image of a point of an object's mesh, as exact affine functions of that point:
@@ -20,8 +20,8 @@ std::array<std::array<Dyadic, 4>, 3> image_rows(const Object& object, const Came
 
 /// Boxes of the triangles of one object: outside its box a triangle covers no sample that counts.
 /// Equal to bounding_box() or a little larger. Corners are projected in binary64 with a bound, or
-/// exactly where the bound leaves open whether W > 0; only once where consecutive triangles share
-/// them.
+/// exactly if the bound leaves open whether W > 0. Corners that consecutive triangles share are
+/// projected once.
 class TriangleBoxes {
  public:
   TriangleBoxes(const Object& object, const Mesh& mesh, const Camera& camera);
@@ -45,7 +45,7 @@ class TriangleBoxes {
   const Camera& camera_;
   /// U, V and W.
   std::array<ApproximateRow, 3> rows_;
-  /// The corner that was projected last among those whose numbers have the same low bits.
+  /// The last projected corner of those whose numbers have the same low bits.
   std::vector<Corner> recent_;
 };
 

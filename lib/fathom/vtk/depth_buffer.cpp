@@ -67,7 +67,7 @@ void turn_rows(std::vector<double>& values, const WindowPart& part) {
   }
 }
 
-/// What VTK itself resolves several samples to.
+/// The values to which VTK itself resolves several samples.
 std::vector<double> resolved(vtkOpenGLRenderWindow& window, const WindowPart& part) {
   vtkNew<vtkFloatArray> values;
   window.GetZbufferData(part.left, part.bottom, part.left + part.width - 1,

@@ -14,7 +14,7 @@ struct WindowPart {
   int left = 0, bottom = 0, width = 0, height = 0;
 };
 
-/// What OpenGL holds after a frame.
+/// The content of OpenGL's depth buffer after a frame.
 struct DepthBuffer {
   /// Window depths exactly as stored, rows from the top; with several samples, the depths of the
   /// first sample, as binary32.

@@ -36,7 +36,7 @@
 namespace fathom::vtk {
 namespace {
 
-/// VTK keeps those for OpenGL column by column.
+/// VTK stores matrices for OpenGL column by column.
 std::array<double, 16> rows_of(vtkMatrix4x4& columns) {
   std::array<double, 16> rows{};
   for (int r = 0; r < 4; ++r) {
@@ -134,7 +134,7 @@ double squared_sine(vtkCamera& c) {
   return 1 - cosine * cosine / (dot(up, up) * dot(sight, sight));
 }
 
-/// Collects the first number that is not what it should be.
+/// Collects the first number that differs from its expected value.
 class Check {
  public:
   void expect(const char* what, double is, double should, double terms) {

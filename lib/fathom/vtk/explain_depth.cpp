@@ -108,7 +108,8 @@ std::string cause_of(const DepthVerdict& verdict, vtkRenderer& renderer) {
 DepthVerdict explain_depth(vtkRenderWindow& any_window, vtkRenderer& renderer) {
   const StandardArithmetic standard;
   vtkOpenGLRenderWindow& window = window_to_judge(any_window, renderer);
-  // A renderer without a camera makes one that sees all props: also those that will be hidden.
+  // A renderer without a camera makes a camera that sees all props, including props that will be
+  // hidden.
   if (renderer.IsActiveCameraCreated() == 0) renderer.ResetCamera();
   DrawnScene drawn = drawn_scene(renderer);
   if (drawn.scene.objects.empty()) {

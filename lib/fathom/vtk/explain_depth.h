@@ -13,8 +13,7 @@ class vtkRenderWindow;
 class vtkRenderer;
 
 /// VTK's depth buffer, explained pixel by pixel: the oracle for a regression test without a
-/// baseline. The sources of this library are installed and compiled with the VTK of whoever uses
-/// it.
+/// baseline. The sources of this library are installed, and users compile them with their own VTK.
 namespace fathom::vtk {
 
 /// A prop that is hidden while depth is drawn, and why.
@@ -25,7 +24,7 @@ struct LeftOut {
   std::string why;
 };
 
-/// What explain_depth() found out.
+/// The result of explain_depth().
 struct DepthVerdict {
   /// VTK's depths, the assumed model, the exact map, and the causes of differences. Rows from the
   /// top; depths in scene units.
@@ -40,8 +39,8 @@ struct DepthVerdict {
   [[nodiscard]] bool is_good() const { return cause.empty(); }
 };
 
-/// The cause or that all is explained, the pixels of each class, and what was left out: a line
-/// each.
+/// Prints the cause, or that all pixels are explained, then the pixels of each class and the props
+/// that were left out: a line each.
 std::ostream& operator<<(std::ostream& out, const DepthVerdict& verdict);
 
 /// Renders the window and compares the depth buffer with the exact depths of its renderer's scene.
@@ -56,9 +55,9 @@ std::ostream& operator<<(std::ostream& out, const DepthVerdict& verdict);
 ///             transform or an explicit projection are trusted).
 /// Leaves out  everything but opaque triangles, each omission named in the verdict: translucent
 ///             actors, actors with clipping planes, visible edges, culled faces, lines, vertices,
-///             wireframes or points, user shaders, polygon offsets, hidden cells; glyphs,
-///             composite mappers, volumes, annotations and other props. They are hidden for this
-///             one Render() and shown again afterwards.
+///             wireframes or points, user shaders, polygon offsets, hidden cells; glyphs, composite
+///             mappers, volumes, annotations and other props. They are hidden for a single Render()
+///             and shown again afterwards.
 /// Exact       the truth and the bounds, as attribute_and_name().
 /// Fails       InputError, one line: if nothing is left to compare, VTK has no OpenGL, stereo or
 ///             more than one layer is drawn, or the camera cannot be expressed.

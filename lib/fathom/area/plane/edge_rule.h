@@ -22,7 +22,7 @@ class EdgeRule {
   /// Fails    UsageError for an angle outside 0 to 180.
   EdgeRule(const TriangleSource& triangles, const PlaneMesh& mesh, const EdgeOptions& options);
 
-  /// Whether an edge between two triangles whose surface goes on there is wanted.
+  /// Whether an edge between two triangles whose surface continues there is wanted.
   [[nodiscard]] bool wants_joined(std::uint32_t i, std::uint32_t j) const;
   /// Whether they are neighbours in one object, and an edge between them is not wanted.
   [[nodiscard]] bool leaves_out(std::uint32_t i, std::uint32_t j) const;

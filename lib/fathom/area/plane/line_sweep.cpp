@@ -126,7 +126,7 @@ void LineSweep::find_meetings(const LinePolygon& common, const std::vector<Sign>
   }
 }
 
-/// What happens along one line.
+/// The walk along one line.
 class LineSweep::Walk {
  public:
   Walk(LineSweep& sweep, std::uint32_t along)

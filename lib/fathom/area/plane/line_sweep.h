@@ -12,11 +12,11 @@
 
 namespace fathom::area {
 
-/// Visibility among the triangles of a small part, along each line that bounds one of them, a side
-/// of the part, or places where two of them change their order in depth. Between the places where
-/// such lines cross it, a line has one visible triangle on either side; where these differ, it is a
-/// part of the boundary of both visible regions. No polygons are cut up, and surfaces that cross,
-/// touch or coincide are no special cases.
+/// Visibility among the triangles of a small part, along each line that bounds a triangle, a side
+/// of the part, or the area where two triangles change their order in depth. Between its crossings
+/// with other such lines, a line has a single visible triangle on either side. Where these
+/// triangles differ, the line is a part of the boundary of both visible regions. No polygons are
+/// cut, and surfaces that cross, touch or coincide need no special cases.
 /// Exact    always. Cost: lines × (triangles + lines·log lines).
 class LineSweep {
  public:
@@ -30,7 +30,7 @@ class LineSweep {
   LineSweep(const LineSweep&) = delete;
   LineSweep& operator=(const LineSweep&) = delete;
 
-  /// Whether there are at most so many lines; if not, spans() and boundaries() must not be called.
+  /// Whether there are at most `limit` lines; if not, spans() and boundaries() must not be called.
   [[nodiscard]] bool is_simple() const { return lines_.size() <= limit_; }
 
   /// A side of a span: the visible piece, and which of its half-planes the line bounds, as their
@@ -44,15 +44,16 @@ class LineSweep {
     std::uint32_t along, from, to;
     Side left, right;
   };
-  /// All such parts of all lines. Outside the part nothing is visible.
+  /// All spans of all lines. Outside the part nothing is visible.
   [[nodiscard]] std::vector<Span> spans();
   [[nodiscard]] const PartLines& lines() const { return lines_; }
   /// The lines u = 0, v = 0, u = width and v = height of the part.
   [[nodiscard]] const LinePolygon& sides() const { return sides_; }
-  /// Whether two pieces are equally deep all along a side of the part where both are.
+  /// Whether two pieces are equally deep along the whole stretch of a side of the part that both
+  /// cover.
   [[nodiscard]] bool pieces_meet_at_side(std::size_t side) const { return meets_at_side_[side]; }
-  /// The boundaries of what is visible of each triangle, in the coordinates of the part, which
-  /// begin at its left top corner. Their lines stay where they are as long as this lives.
+  /// The boundaries of the visible part of each triangle, in the coordinates of the part, which
+  /// begin at its top left corner. Their lines do not move during the lifetime of this object.
   [[nodiscard]] std::vector<Boundary> boundaries();
   /// The exact forms of a triangle of the list.
   [[nodiscard]] const SurfaceRegion& surface(std::size_t piece);
@@ -61,19 +62,19 @@ class LineSweep {
  private:
   struct Piece {
     std::uint32_t triangle;
-    /// Its half-planes, and its part in the part; no edges if there is no area.
+    /// Its half-planes, and its polygon within the part; no edges if there is no area.
     std::vector<OrientedLine> region;
     LinePolygon polygon;
     Interval depths;
     std::optional<SurfaceRegion> surface;
   };
-  /// The order of two pieces where both are: everywhere, or by the side of a line where they change
-  /// places.
+  /// The order of two pieces where they overlap: the same everywhere, or different on the two sides
+  /// of a line.
   struct Order {
     Sign sign = Sign::zero;  // positive if the first is in front
     std::optional<OrientedLine> line;
   };
-  /// Where a piece is on a line, by ranks, and on which sides.
+  /// The stretch of a line that a piece covers, by ranks, and the sides on which it lies.
   struct Extent {
     std::uint32_t piece, from, to;
     bool left, right;
@@ -102,7 +103,7 @@ class LineSweep {
   std::vector<Piece> pieces_;
   /// Of the pieces s < t, at s·size + t.
   std::vector<Order> orders_;
-  /// Lines that are walked along, and among them those of orders.
+  /// The lines of changes of order.
   std::vector<std::uint32_t> changes_;
 };
 

@@ -13,13 +13,13 @@
 namespace fathom::area {
 namespace {
 
-/// What is visible next to a side, in one of the parts at it; places count along the side.
+/// A visible triangle next to a side, in one of its two parts; places count along the side.
 struct SideSpan {
   Ratio from, to;
   EdgeSide visible;
 };
 
-/// What is visible on the two sides of a line: at smaller and at greater coordinates.
+/// The visible triangles on the two sides of a line: at smaller and at greater coordinates.
 struct LineSpans {
   std::vector<SideSpan> before, after;
 };
@@ -32,7 +32,7 @@ class SideEdges {
     for (const PartSide& side : sides) lines_[side];
   }
 
-  /// What is visible at the sides of a part.
+  /// Adds the visible triangles at the sides of a part.
   void add_part(const PlanePart& part, const std::vector<std::uint32_t>& triangles) {
     std::array<LineSpans*, 4> lines{};
     for (std::size_t k = 0; k < 4; ++k) {
@@ -89,7 +89,7 @@ class SideEdges {
     return ends;
   }
 
-  /// Visits, from neighbouring end to end, what is visible on a side.
+  /// Visits the visible triangles on a side, from one end of a span to the next.
   class Cursor {
    public:
     explicit Cursor(std::vector<SideSpan>& spans) : spans_(spans) {

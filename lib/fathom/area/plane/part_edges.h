@@ -41,8 +41,8 @@ std::vector<VisibleEdge> edges_on_sides(const PlaneMesh& mesh, const EdgeRule& r
 ///
 /// In a simple part every edge lies between neighbours that are both visible. In a crowded part a
 /// line sweep finds the edges. An edge on a side between two parts has one side in each;
-/// part_edges.h puts them together. An edge between two triangles that are wholly visible takes no
-/// arithmetic.
+/// edges_on_sides() puts them together. An edge between two triangles that are wholly visible takes
+/// no arithmetic.
 class PartEdges {
  public:
   PartEdges(const PlaneMesh& mesh, const EdgeRule& rule)
@@ -50,7 +50,7 @@ class PartEdges {
 
   /// Finds the edges that are not visible as a whole by whole_edges().
   [[nodiscard]] std::vector<VisibleEdge> partial_edges();
-  /// Calls visit(edge) for those between wholly visible triangles.
+  /// Calls visit(edge) for the edges between wholly visible triangles.
   void whole_edges(const std::function<void(const VisibleEdge&)>& visit) const;
 
  private:

@@ -21,14 +21,14 @@ struct OrientedLine {
 };
 
 /// The lines of a part of the image, each once, in the coordinates of the part.
-/// Exact    whether two lines are one, and every sign. Lines that pass through the same vertex of a
-///          mesh are known to by its number, which bounds could never decide.
+/// Exact    whether two lines are equal, and every sign. Lines that pass through the same vertex of
+///          a mesh are recognised by its number, which bounds could never decide.
 class PartLines {
  public:
   /// The line of some coefficients; `vertices` are numbers of vertices on it.
   OrientedLine add(ExactVector3 coefficients, std::span<const std::uint32_t> vertices = {});
   /// The line through two vertices, with the inside on the left of the way from the first to the
-  /// second. Asks for its coefficients, which are of that direction, where it is new.
+  /// second. Calls coefficients(), for a line of that direction, if the line is new.
   template <class Coefficients>
   OrientedLine through(std::uint32_t from, std::uint32_t to, const Coefficients& coefficients) {
     const bool reversed = from > to;
@@ -78,22 +78,22 @@ inline Sign determinant(const PartLines& lines, OrientedLine a, OrientedLine b, 
                   (a.reversed != b.reversed) != c.reversed);
 }
 
-/// A bounded convex polygon as the half-planes of its edges, each of which turns left from the one
-/// before; empty if there is no area. (ConvexPolygon over PartLines, without bounds.)
+/// A bounded convex polygon as the half-planes of its edges; each turns left from the previous
+/// edge. Empty if there is no area. (ConvexPolygon over PartLines, without bounds.)
 using LinePolygon = std::vector<OrientedLine>;
 /// The part of the polygon in a half-plane.
 LinePolygon clipped(const PartLines& lines, LinePolygon polygon, OrientedLine h);
 
-/// Where the other lines cross a line, in the order in which a walk meets them that has the line's
-/// inside on its left.
+/// The places where the other lines cross a line, in the order of a walk along it with its inside
+/// on the left.
 class LineOrder {
  public:
-  /// Places that lie certainly outside a polygon `within`, if given, have the rank of the end of
-  /// the line's part in it that is nearer. That saves most comparisons of places that coincide.
+  /// If a polygon `within` is given, places that lie certainly outside it have the rank of the
+  /// nearer end of the line's part in it. That saves most comparisons of coinciding places.
   LineOrder(const PartLines& lines, std::uint32_t along, const LinePolygon& within = {});
 
-  /// The rank of the place where a line that is not parallel crosses; places that are the same have
-  /// the same rank, from 0 on.
+  /// The rank, from 0, of the place where a line that is not parallel crosses; equal places have
+  /// the same rank.
   [[nodiscard]] std::uint32_t rank(std::uint32_t line) const { return ranks_[line]; }
   /// A line that crosses at the place of a rank.
   [[nodiscard]] std::uint32_t line_at(std::uint32_t rank) const { return first_of_rank_[rank]; }
@@ -109,8 +109,8 @@ class LineOrder {
   [[nodiscard]] static Place place_of(const Certified<double>& value, const Certified<double>& turn,
                                       std::uint32_t line);
 
-  /// The greatest lower bound of where the line enters a half-plane of a polygon, and the least
-  /// upper bound of where it leaves one.
+  /// The greatest lower bound of the places where the line enters a half-plane of a polygon, and
+  /// the least upper bound of the places where it leaves a half-plane.
   struct Ends {
     double least_low, greatest_high;
   };

@@ -25,9 +25,9 @@ ExactVector3 localised(const LinearForm& form, const PlanePart& part) {
   return {l[0], l[1], form.at(part.left, part.top)};
 }
 
-/// The edge functions of B and C, and their sum with that of A, in a cell's coordinates. At the
-/// point where two lines cross, homogeneous with the weight turn(line, other), a form has the value
-/// det(form, line, other); the weight cancels from β and γ.
+/// The edge functions of B and C, and the sum of all three edge functions, in a cell's coordinates.
+/// At the point where two lines cross, homogeneous with the weight turn(line, other), a form has
+/// the value det(form, line, other); the weight cancels from β and γ.
 class SurfaceForms {
  public:
   explicit SurfaceForms(const SurfaceOnPart& on)
@@ -131,7 +131,7 @@ PlaneAreas::PlaneAreas(const PlaneMesh& mesh, const WantedTerms& wanted,
     if (!is_whole) place_[i] = places++;
   }
   terms_.resize(places);
-  // Pieces of about equal size, in steps of which a report tells.
+  // Pieces of about equal size, in reported steps.
   const std::size_t crowded = resolved_.crowded.size(), all = crowded + resolved_.clips.size();
   for (std::size_t step = 0; step < parts; ++step) {
     const std::size_t first = all * step / parts, end = all * (step + 1) / parts;

@@ -55,14 +55,14 @@ enum class Visibility : std::uint8_t { hidden, whole, partly };
 /// find the visibility of each triangle; triangles that are partly visible have terms of areas.
 class PlaneAreas {
  public:
-  /// Calls `part_done` so many times.
+  /// The number of calls of `part_done`.
   static constexpr std::uint64_t parts = 64;
   PlaneAreas(
       const PlaneMesh& mesh, const WantedTerms& wanted,
       const std::function<void()>& part_done = [] {});
 
-  /// Of triangle i of the mesh. A triangle that reaches beyond the image is at most `partly`
-  /// visible, and so is one that is known by its forms.
+  /// The visibility of triangle i of the mesh. A triangle that reaches beyond the image is at most
+  /// `partly` visible, and so is a triangle of kind by_forms.
   [[nodiscard]] Visibility visibility(std::uint32_t i) const { return visibility_[i]; }
   /// The terms of the visible part of triangle i; empty if it is wholly visible or hidden.
   [[nodiscard]] const SurfaceTerms& terms(std::uint32_t i) const;
@@ -84,7 +84,7 @@ class PlaneAreas {
   std::vector<SurfaceTerms> terms_;
   /// Where the terms of a triangle are.
   std::vector<std::uint32_t> place_;
-  /// Of the terms; so many that threads seldom wait for each other.
+  /// Mutexes for the terms; enough that threads seldom wait for each other.
   std::array<std::mutex, 64> mutexes_;
 };
 

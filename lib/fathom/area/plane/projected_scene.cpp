@@ -14,10 +14,10 @@ using namespace triangle;
 namespace {
 
 constexpr std::uint32_t triangles_of_chunk = 4096;
-/// Of the points of a file, so many are in memory at the same time.
+/// The number of triangles of a file that are in memory at the same time.
 constexpr std::uint32_t triangles_in_memory = 1U << 20U;
 
-/// A point that is not finite where the quotient is not known.
+/// A point, which is not finite if the quotient is unknown.
 BoundedPoint bounded_point(const Interval& U, const Interval& V, const Interval& W) {
   const Interval x = quotient(U, W), y = quotient(V, W);
   const BoundedPoint p{x.lower / 2 + x.upper / 2, y.lower / 2 + y.upper / 2, 0};

@@ -17,7 +17,7 @@ namespace fathom::area {
 /// How the engine of parts treats a triangle.
 enum class TriangleKind : std::uint8_t {
   absent,   // seen edge on, culled, or nowhere in front of the camera and within its range
-  regular,  // all of it is, and its corners are known well enough in binary64
+  regular,  // all of it is, and binary64 bounds its corners well enough
   by_forms  // others: only their exact forms count
 };
 
@@ -27,7 +27,7 @@ enum class TriangleExtent : std::uint8_t { none, within_image, elsewhere };
 /// All triangles of a scene on the image plane of a camera without a lens. Vertices at the same
 /// exact place are one vertex, so that neighbours know their common edge by two numbers.
 ///
-/// Does not hold exact forms of regular triangles, which are made when they are asked for.
+/// Does not store exact forms of regular triangles, which are computed on demand.
 class ProjectedScene {
  public:
   /// Reports count() parts of its work to `progress`.

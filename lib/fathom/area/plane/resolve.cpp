@@ -14,7 +14,7 @@ namespace {
 
 /// So few triangles are not divided any further.
 constexpr std::size_t few = 32;
-/// A part has at most so many cuts on its way from the whole.
+/// The greatest number of cuts from the whole to a part.
 constexpr int most_cuts = 48;
 /// A cut is in vain if the halves have many more triangles together than the part.
 constexpr int cuts_in_vain = 4;
@@ -151,7 +151,7 @@ ResolvedParts resolve(const PlaneMesh& mesh, const PlanePart& whole) {
   for (std::uint32_t i = 0; i < mesh.size(); ++i) {
     if (!misses(mesh, i, whole)) all.triangles.push_back(i);
   }
-  // Large parts first, one after the other; then small ones at the same time.
+  // Large parts first, one after another; then small parts at the same time.
   Resolver of_large(mesh);
   std::vector<Work> large, small;
   large.push_back(std::move(all));

@@ -11,7 +11,7 @@
 /// work only where something changes).
 namespace fathom::area {
 
-/// What the parts say about a triangle, as flags.
+/// The results of the parts about a triangle, as flags.
 using PartFlags = std::uint8_t;
 /// Visible wherever it is, in some part; hidden in some part; in some crowded part.
 inline constexpr PartFlags is_seen_somewhere = 1, is_hidden_somewhere = 2, is_crowded_somewhere = 4;

@@ -79,7 +79,7 @@ void PlaneMesh::find_mates() {
 
 namespace {
 
-/// Bounds of the values of a form at the corners of a part; not known where an end is NaN.
+/// Bounds of the values of a form at the corners of a part; unknown if an end is NaN.
 Interval values_at_corners(const LinearForm& form, const PlanePart& part) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Interval range{infinity, -infinity};
@@ -138,8 +138,8 @@ Interval depth_of(const PlaneMesh& mesh, std::uint32_t i) {
   return {std::min({a.lower, b.lower, c.lower}), std::max({a.upper, b.upper, c.upper})};
 }
 
-// The plane's depth at the part's corners says more than the corners of a triangle only where that
-// is larger than the part.
+// The plane's depth at the part's corners gives tighter bounds than the corners of the triangle
+// only if the triangle is larger than the part.
 Interval depth_in(const PlaneMesh& mesh, std::uint32_t i, const PlanePart& part) {
   const Interval of_corners = depth_of(mesh, i);
   if (!mesh.is_regular(i)) {

@@ -8,23 +8,23 @@
 
 #include "fathom/area/plane/projected_scene.h"
 
-/// Sheets: connected triangles of a mesh that lie beside each other on the image.
+/// Sheets: connected triangles of a mesh that lie next to each other on the image.
 ///
-/// Count. Let S be triangles, each turned so that its area is positive. If in the open part C every
-/// directed edge of S is there as often as its opposite, almost all points of C lie in the same
-/// number of triangles of S: the boundary of the sum of their areas vanishes in C.
-/// Cover. If that number is at least 1, a triangle whose least depth in C is greater than the
-/// greatest depth of S in C is hidden in C.
-/// Simple. If all triangles left have together the number 1, each is visible wherever it is in C.
+/// Count. Let S be triangles, each turned so that its area is positive. If every directed edge of S
+/// occurs in the open part C as often as its opposite, almost all points of C lie in the same
+/// number of triangles of S: the boundary of the sum of their areas vanishes in C. Cover. If that
+/// number is at least 1, a triangle whose least depth in C is greater than the greatest depth of S
+/// in C is hidden in C. Simple. If the remaining triangles together have the number 1, each is
+/// visible throughout its part of C.
 namespace fathom::area {
 
-/// Some triangles of a scene, each place once, and who their neighbours are.
+/// Some triangles of a scene, without duplicates, and their neighbours.
 class PlaneMesh {
  public:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-  /// From numbers of triangles, in ascending order; absent ones are left out, and so are triangles
-  /// with the corners of one of a lower number: they lie on it and are hidden by it.
+  /// From numbers of triangles, in ascending order; absent triangles are left out, and so are
+  /// triangles with the corners of a triangle of a lower number, which hides them.
   PlaneMesh(const ProjectedScene& scene, std::span<const std::uint32_t> numbers);
 
   [[nodiscard]] const ProjectedScene& scene() const { return *scene_; }
@@ -66,8 +66,8 @@ Interval depth_in(const PlaneMesh& mesh, std::uint32_t i, const PlanePart& part)
 /// Connected triangles in a part, as places in the list of the triangles in it.
 struct Sheet {
   std::vector<std::uint32_t> members;
-  /// In how many of its triangles almost every point of the part lies; 0 where that is not known,
-  /// or not the same everywhere.
+  /// The number of its triangles in which almost every point of the part lies; 0 if unknown, or not
+  /// the same everywhere.
   std::uint32_t count = 0;
 };
 
@@ -75,7 +75,7 @@ struct Sheet {
 class SheetFinder {
  public:
   explicit SheetFinder(const PlaneMesh& mesh) : mesh_(mesh), place_(mesh.size(), 0) {}
-  /// Of triangles none of which certainly misses the part.
+  /// The sheets of triangles, none of which may certainly miss the part.
   std::vector<Sheet> sheets(const PlanePart& part, std::span<const std::uint32_t> triangles);
 
  private:

@@ -137,7 +137,8 @@ std::optional<Line> robust_fit(const std::vector<Pair>& pairs, const Form& form)
   return line;
 }
 
-/// A factor that is nearly 1, 10, 100, … of a unit or its inverse, or the negative, is that.
+/// Rounds a factor that is nearly 1, 10, 100, … of a unit, or its inverse or negative, to this
+/// value.
 double rounded_factor(double alpha) {
   for (const double round : {1.0, 10.0, 100.0, 1000.0, 10000.0, 1e6, 0.0254, 0.3048, 0.9144, 255.0,
                              256.0, 5000.0, 65535.0, 65536.0}) {

@@ -9,7 +9,7 @@
 
 namespace fathom::attribution {
 
-/// A formula by which what another map holds follows from the exact depths.
+/// A formula that computes the values of another map from the exact depths.
 struct DepthRelation {
   /// As of a Finding: `scale` or `decoding`.
   std::string kind, text;

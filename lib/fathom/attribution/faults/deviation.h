@@ -11,8 +11,8 @@
 
 namespace fathom::attribution {
 
-/// What may be a little off in a whole image: the camera's pose, its intrinsic parameters, the
-/// lens, the numbers that depths became.
+/// Parameters of a whole image that may deviate slightly: the camera's pose, its intrinsic
+/// parameters, the lens, the stored depths.
 enum class Parameter {
   turn_x,  ///< of the pose: X′ = X + turn × X + move in the camera's frame, rad
   turn_y,
@@ -42,18 +42,18 @@ inline double of(const Deviation& d, Parameter p) {
   return d[static_cast<int>(p)];
 }
 
-/// The camera that deviates; k1, k2 and what concerns depths are not its business. The turn is
-/// applied as a rotation.
+/// The deviating camera. Ignores k1, k2 and the parameters of depths. The turn is applied as a
+/// rotation.
 Camera deviating(const Camera& camera, const Deviation& deviation);
 
-/// How a model stores depths: nothing for one without window depths.
+/// How a model stores depths; nullopt for a model without window depths.
 struct WindowSteps {
   WindowDepth window;
-  double step = 0;  ///< a typical one, as a window depth
+  double step = 0;  ///< a typical step, as a window depth
 };
 std::optional<WindowSteps> window_steps(const Camera& camera, const RendererModel& model);
 
-/// What depths become: scaled and offset, their window depths biased, then decoded with another
+/// A deviation of depths: scaled and offset, their window depths biased, then decoded with another
 /// near and far.
 class DepthDeviation {
  public:
@@ -69,7 +69,7 @@ class DepthDeviation {
   /// The depth that became `depth`.
   [[nodiscard]] double undone(double depth) const;
 
-  /// As which the decoder took them; scene units.
+  /// The near and far that the decoder used; scene units.
   [[nodiscard]] double near() const;
   [[nodiscard]] double far() const;
 
@@ -86,7 +86,7 @@ class DepthDeviation {
   double read_as_first_ = 0, read_as_second_ = 1;  ///< near and far of the decoder
 };
 
-/// Parameters that deviate together: a fault that has a name.
+/// Parameters that deviate together as a named fault.
 struct DeviationSet {
   /// As of a Finding.
   const char* kind;
@@ -94,7 +94,7 @@ struct DeviationSet {
   /// decoding.
   const char* subject;
   std::span<const Parameter> parameters;
-  /// focal_x and focal_y are one.
+  /// Whether focal_x and focal_y are equal.
   bool one_focal = false;
 
   [[nodiscard]] int size() const {
@@ -104,7 +104,7 @@ struct DeviationSet {
   [[nodiscard]] bool has(Parameter p) const;
 };
 
-/// All that are tried, the smallest first.
+/// All sets that are tried, the smallest first.
 std::span<const DeviationSet> deviation_sets();
 
 /// A parameter's name and unit, as an Estimate has them.

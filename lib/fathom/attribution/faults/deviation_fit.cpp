@@ -18,7 +18,7 @@ namespace {
 /// A smaller set is as good as a larger set whose cost is at least this fraction of its own: larger
 /// sets also fit roundings that the corners of a triangle share.
 constexpr double as_good = 0.5;
-/// Residuals below a tenth of the model's half width are roundings, whatever fits them.
+/// Residuals below a tenth of the model's half width are roundings, whatever parameters fit them.
 constexpr double roundings = 0.01;
 /// Sets of the same size with costs as close as this cannot be distinguished: the first in order is
 /// named, the others are alternatives.
@@ -306,7 +306,7 @@ std::vector<Candidate> Fitting::candidates() const {
   return best;
 }
 
-/// Nothing for what no camera can be.
+/// nullopt if no camera has these parameters.
 std::optional<Residuals> Fitting::residuals_at(const DeviationSet& set,
                                                const Deviation& deviation) const {
   if (!set.moves_the_view()) return source_.of(truth_, deviation);

@@ -32,8 +32,8 @@ bool is_as_good(double cost, double least);
 /// the others are its alternatives.
 std::optional<FittedDeviation> simplest_of(const std::vector<FittedDeviation>& fits, double least);
 
-/// What was fitted as a hypothesis: the truth that the deviating camera sees, the map with the
-/// depths put right, a sentence and the estimates.
+/// The fit as a hypothesis: the truth of the deviating camera, the map with corrected depths, a
+/// sentence and the estimates.
 Hypothesis deviation_hypothesis(const Truth& truth, const OtherMap& other,
                                 const RendererModel& model, const FittedDeviation& fit);
 

@@ -30,7 +30,7 @@ struct WholeShift {
 /// Number of pixels whose content at this offset is right.
 std::uint64_t agreeing(const Truth& truth, const OtherMap& other, double agreement,
                        const WholeShift& shift) {
-  constexpr int every = 3;  // a prime to what rows and columns repeat by
+  constexpr int every = 3;  // coprime to the periods of rows and columns
   const int width = static_cast<int>(other.width), height = static_cast<int>(other.height);
   std::uint64_t count = 0;
   for (int y = 0; y < height; y += every) {

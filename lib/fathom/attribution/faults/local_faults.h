@@ -16,14 +16,13 @@ namespace fathom::attribution {
 std::vector<std::vector<std::size_t>> pixel_groups(std::uint32_t width, std::uint32_t height,
                                                    const std::function<bool(std::size_t)>& is_one);
 
-/// A finding about some pixels, and which of the unexplained ones it explains: 1 for each that it
-/// does.
+/// A finding about some pixels; `explained` is 1 for each unexplained pixel that it explains.
 struct PixelFinding {
   Finding finding;
   std::vector<std::uint8_t> explained;
 };
 
-// Each of these explains nine tenths of the unexplained pixels or is nothing.
+// Each function returns a finding that explains nine tenths of the unexplained pixels, or nullopt.
 
 /// `clipped`: all surfaces nearer than some depth are missing, or all that are farther.
 std::optional<PixelFinding> clipped(const Truth& truth, const OtherMap& other,

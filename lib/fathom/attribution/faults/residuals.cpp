@@ -90,8 +90,8 @@ SamplePoint sample_point(const Camera& c, const SamplePosition& sample, std::siz
   return {.x = x, .y = y, .shown_y = shown_y, .shown_x = shown_x};
 }
 
-/// Derivatives of the affine value by where the lens shows the point: those by the ideal point p
-/// times the inverse of ∂(f·p)/∂p = f·1 + 2f′·p·pᵀ, f = 1 + k1·|p|² + k2·|p|⁴.
+/// Derivatives of the affine value by the point where the lens shows it: the derivatives by the
+/// ideal point p times the inverse of ∂(f·p)/∂p = f·1 + 2f′·p·pᵀ, f = 1 + k1·|p|² + k2·|p|⁴.
 Vector2d by_shown(const AffineValue& v, const SamplePoint& s, const SamplePosition& lens) {
   const Vector2d by_ideal(v.by_x, v.by_y), p(s.x, s.y);
   const double square = p.squaredNorm();
@@ -100,7 +100,7 @@ Vector2d by_shown(const AffineValue& v, const SamplePoint& s, const SamplePositi
   return (by_ideal - p * (change * p.dot(by_ideal) / (factor + change * square))) / factor;
 }
 
-/// Derivatives of the affine value by what moves the view.
+/// Derivatives of the affine value by the parameters that move the view.
 void set_view_slopes(const Camera& c, const AffineValue& v, const SamplePoint& s,
                      const SamplePosition& lens,
                      Eigen::Ref<Eigen::Matrix<double, 1, parameter_count>> slopes) {
@@ -272,7 +272,7 @@ using Eigen::VectorXd;
 /// Standard deviation of a number that is uniform in [−1, 1].
 constexpr double uniform_variance = 1.0 / 3;
 
-/// What one corner does to the parameters.
+/// The effect of one corner on the parameters.
 struct CornerEffect {
   VectorXd shown;    ///< by the residuals about it
   VectorXd allowed;  ///< where it is off by all that the model allows

@@ -19,12 +19,12 @@ struct Residuals {
   /// Derivatives of the expected depth by each parameter, in the same unit.
   Eigen::Matrix<double, Eigen::Dynamic, parameter_count> slopes;
   std::vector<std::uint32_t> triangles;
-  /// Barycentric coordinates of what each pixel shows of its triangle.
+  /// Barycentric coordinates of the point of its triangle that each pixel shows.
   Eigen::Matrix<double, Eigen::Dynamic, 3> corner_parts;
 
   /// Median of |r|.
   [[nodiscard]] double median() const;
-  /// Mean of r² over the four fifths of the pixels where it is least.
+  /// Mean of r² over the four fifths of the pixels with the least r².
   [[nodiscard]] double cost() const;
 };
 

@@ -154,7 +154,7 @@ std::optional<double> common_step(const std::vector<double>& values) {
     for (const double v : values) refine(v - values.front());
     for (const double v : values) refine(std::abs(v));
     const double inverse = std::nearbyint(1 / step);
-    // A step may come close to 1/n without being it.
+    // A step may be close to 1/n without being 1/n.
     const bool is_part = inverse > 0 && std::abs(inverse * step - 1) < 1e-5;
     if (is_part && fits(multiples_of(1 / inverse), values)) return 1 / inverse;
     if (fits(multiples_of(step), values)) return step;

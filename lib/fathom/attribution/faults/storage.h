@@ -31,7 +31,7 @@ std::optional<CoarseStorage> coarse_storage(const Camera& camera, const OtherMap
 /// Whether depths were rounded down to the storage's steps rather than to nearest, on the whole.
 bool is_rounded_down(const Truth& truth, const OtherMap& other, const RecordedDepth& recorded);
 
-/// A lattice through all of the values, the coarsest that there is: origin 0.
+/// The step of the coarsest lattice with origin 0 that contains all values.
 std::optional<double> common_step(const std::vector<double>& values);
 
 /// Depths, in scene units.
@@ -39,14 +39,14 @@ struct ClipPlanes {
   double near = 0, far = 0;
 };
 
-/// Near and far between which a map's window depths were stored, where the camera has others.
+/// The near and far between which a map's window depths were stored, if the camera's differ.
 ///
 /// Source   a window depth of n bits is the code k of 1/D = 1/near − k·(1/near − 1/far)/(2ⁿ − 1),
 ///          so the inverse depths of a map lie on a lattice. Its step and its phase give near and
 ///          far, if near has at most three digits and far is the camera's or has at most two.
-/// Exact    a depth fits if 1/D is within four roundings to binary32 of a code. All depths have to,
-///          the codes have to be at least 16 times as far apart, and so many have to fit that
-///          chance gives a map such a lattice at most once in 2²⁰.
+/// Exact    a depth fits if 1/D is within four roundings to binary32 of a code. All depths must
+///          fit, the codes must be at least 16 times as far apart, and there must be so many depths
+///          that chance gives a map such a lattice at most once in 2²⁰ maps.
 /// Needs    a perspective camera and a model of OpenGL's window depths in 16, 24 or 32 bits; else
 ///          nothing.
 std::optional<ClipPlanes> stored_planes(const Camera& camera, const OtherMap& other,

@@ -30,8 +30,8 @@ WorldMesh world_mesh(const Scene& scene);
 /// is no point.
 std::optional<WorldBounds> box_of(const WorldMesh& mesh);
 
-/// The camera as other renderers take it: OpenGL's matrices and rays. OpenGL's eye space has x to
-/// the right, y up, z backward; clip space is that of [GL46] 13.7, −w ≤ z ≤ w.
+/// The camera in the form of other renderers: OpenGL's matrices and rays. OpenGL's eye space has x
+/// to the right, y up, z backward; clip space is as in [GL46] 13.7, −w ≤ z ≤ w.
 
 /// Row by row, for column vectors.
 using Matrix4 = std::array<double, 16>;
@@ -52,7 +52,7 @@ Matrix4 eye_from_world(const Camera& camera);
 /// needs glClipControl.
 enum class ClipDepth { minus_one_to_one, one_to_zero };
 
-/// Takes the image point (u, v) in pixels to x = 2u/width − 1, y = 1 − 2v/height.
+/// Maps the image point (u, v) in pixels to x = 2u/width − 1, y = 1 − 2v/height.
 /// Exact    each entry is rounded to binary64 a few times.
 Matrix4 clip_from_eye(const Camera& camera, const ClipRange& range,
                       ClipDepth depth = ClipDepth::minus_one_to_one);
@@ -72,8 +72,8 @@ struct CameraRays {
 
 CameraRays camera_rays(const Camera& camera);
 
-/// The matrix from held positions, (position − shift)·scale, to clip coordinates as OpenGL has
-/// them, row by row. Whatever matrix the model already has is not looked at.
+/// The matrix from held positions, (position − shift)·scale, to OpenGL's clip coordinates, row by
+/// row. Ignores a matrix that the model already has.
 ///
 /// Needs    near and far of the camera as the model's mapping does.
 /// Exact    made in binary64, each entry then rounded to binary32.

@@ -10,19 +10,20 @@
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/depth_format/depth_format.h"
 
-/// What is assumed of a renderer whose map is compared with the truth. docs/validation.md derives
-/// the bounds that follow from it.
+/// The assumptions about a renderer whose map is compared with the truth. docs/validation.md
+/// derives the bounds that follow from them.
 namespace fathom::attribution {
 
 /// The factor by which bounds are enlarged for the binary64 roundings of their own evaluation: each
-/// bound is a sum of at least 2⁻²⁴ times magnitudes whose evaluation here, and that of the values
-/// that they bound, errs by less than 2⁻⁴⁶ of the same magnitudes.
+/// bound is a sum of at least 2⁻²⁴ times some magnitudes. The evaluation of the bound, and of the
+/// values that it bounds, errs by less than 2⁻⁴⁶ of the same magnitudes.
 inline constexpr double own_roundings = 1 + 0x1p-20;
 
-/// Corners that a renderer holds in a frame of their own, in binary32 as position − shift, and
-/// takes to clip coordinates by one matrix, which it has multiplied in binary64 and rounded once.
+/// Corners that a renderer holds in binary32, as position − shift, in a frame of their own. It
+/// transforms them to clip coordinates by one matrix, a product computed in binary64 and rounded
+/// once.
 struct RasterPart {
-  /// Takes the part's frame to the world.
+  /// Transforms the part's frame to the world.
   Pose world_from_part{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
   /// In the part's frame.
   std::array<double, 3> shift{0, 0, 0};
@@ -35,40 +36,41 @@ struct RasterModel {
   ///
   /// Frame    world, scene units.
   std::array<double, 3> shift{0, 0, 0}, scale{1, 1, 1};
-  /// Whether the shift is the one that VTK's mappers choose for the mesh (raster/clip_vertex.h),
-  /// where the matrix is not known; `shift` then says nothing.
+  /// Whether the shift is the shift that VTK's mappers choose for the mesh (raster/clip_vertex.h),
+  /// if the matrix is unknown; `shift` is ignored then.
   bool shift_as_vtk = false;
-  /// The matrix that takes held positions to clip coordinates, row by row, where it is known; its
-  /// entries then are not a source of error, and neither are the positions.
+  /// The matrix from held positions to clip coordinates, row by row, if known. Then neither its
+  /// entries nor the positions are a source of error.
   std::optional<std::array<float, 16>> matrix;
-  /// Where parts of the scene are held in frames of their own: together all points of the mesh, in
-  /// its order. Then shift, scale, matrix and premultiplied say nothing.
+  /// The parts of the scene, if each is held in a frame of its own: together all points of the
+  /// mesh, in its order. Then shift, scale, matrix and premultiplied are ignored.
   std::vector<RasterPart> parts;
-  /// Whether model-view and projection are multiplied to one matrix before corners meet them.
+  /// Whether model-view and projection matrix are multiplied before corners are transformed.
   bool premultiplied = true;
   /// Corners are snapped to multiples of 2^−subpixel_bits pixel.
   int subpixel_bits = 8;
-  /// Whether triangles are cut at the border of the image, or may be, or are not.
+  /// Whether triangles are cut at the border of the image: always, perhaps, or never.
   enum class Cut { always, unknown, never } border = Cut::unknown;
 
-  /// From depths to window depths, of the one that is interpolated.
+  /// The mapping from depths to the window depths that are interpolated.
   Mapping mapping = Mapping::opengl;
   Storage storage = Storage::unorm24;
-  /// What a fragment shader writes in place of the interpolated window depth; `mapping` is then
-  /// that of the interpolated one, between whose near and far triangles are cut.
+  /// The depth that a fragment shader writes in place of the interpolated window depth. `mapping`
+  /// remains the mapping of the interpolated depth; triangles are cut at its near and far.
   std::optional<WrittenDepth> written;
-  /// Whether depth is interpolated between corners as they were before they were snapped.
+  /// Whether depth is interpolated between the corners before snapping.
   bool depth_before_snap = false;
-  /// Whether a window depth is rounded to the nearest code, or to either of the two about it.
+  /// Whether a window depth is rounded to the nearest code; if not, to either of the two
+  /// neighbouring codes.
   bool nearest_codes = true;
-  /// Depths were decoded from window depths in binary32 before they reached us.
+  /// The depths of the map were decoded from window depths in binary32.
   bool decoded_in_binary32 = false;
   /// Added to every window depth (polygon offset), and how uncertain that is.
   double bias = 0, bias_error = 0;
   /// Depth and not window depth is interpolated linearly: a fault, for hypotheses.
   bool affine = false;
 
-  /// The mapping of what is stored.
+  /// The mapping of the stored depths.
   [[nodiscard]] Mapping stored_mapping() const { return written ? written->mapping : mapping; }
 };
 
@@ -78,35 +80,36 @@ struct RayModel {
   std::array<double, 3> shift{0, 0, 0};
   /// Roundings that an edge test or a distance may have gone through.
   double roundings = 16;
-  /// How far each entry of the camera's rotation may be off, where the renderer makes it anew.
+  /// The error of each entry of the camera's rotation, if the renderer computes the rotation
+  /// itself.
   double rotation_error = 0;
   /// The depth of a hit is computed from its position in the world.
   bool depth_from_point = false;
 };
 
-/// Where in the pixel the sample lies, from its top left corner, and how far from there it may be
-/// in either direction. In pixels.
+/// The position of the sample in the pixel, from its top left corner, and its error in either
+/// direction. In pixels.
 struct SamplePosition {
   double x = 0.5, y = 0.5;
   double error = 0;
-  /// Radial distortion of the lens, without a unit: what an ideal one shows at radius r of the
-  /// plane at depth 1 is shown at r·(1 + k1·r² + k2·r⁴). Perspective only.
+  /// Radial distortion of the lens, without a unit: a point that an ideal lens shows at radius r of
+  /// the plane at depth 1 appears at r·(1 + k1·r² + k2·r⁴). Perspective only.
   /// Source   [Bro71], as OpenCV has it.
   double k1 = 0, k2 = 0;
 };
 
-/// What renderers of all kinds have, and the kind.
+/// The properties that renderers of all kinds have, and the kind.
 struct RendererModel {
   std::string name;
   SamplePosition sample;
   /// No sample between two triangles that share an edge is missed.
   bool watertight = true;
-  /// Of triangles with the same corners, which have equal depths whatever the roundings are, the
-  /// one that is seen, where the renderer's rule is known. Triangles are drawn in the order of
-  /// their numbers.
+  /// Which of several triangles with the same corners is visible, if the renderer's rule is known:
+  /// they have equal depths whatever the roundings are. Triangles are drawn in the order of their
+  /// numbers.
   std::optional<EqualDepths> equal_depths;
-  /// What was written down in place of the depths, where that is known; depths of the map are then
-  /// those that its values mean.
+  /// The quantity that was recorded instead of the depths, if known; the depths of the map are then
+  /// decoded from its values.
   std::optional<RecordedDepth> recorded;
   std::variant<RasterModel, RayModel> kind;
 };

@@ -109,7 +109,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The distance of neighbouring numbers of `bits` bits about x, none less than 2^least.
+/// The distance of neighbouring numbers of `bits` bits about x, at least 2^least.
 double spacing(double x, int bits, int least) {
   if (x == 0 || !std::isfinite(x)) return std::ldexp(1.0, least);
   return std::ldexp(1.0, std::max(std::ilogb(x) - bits, least));

@@ -26,8 +26,8 @@ struct WindowDepth {
   [[nodiscard]] bool reversed() const { return log_range == 0 && (perspective ? b > 0 : a < 0); }
 };
 
-/// `mapping` is standard, opengl, log_ulrich or one of the reversed and infinite ones; `near` and
-/// `far` are depths.
+/// `mapping` is standard, opengl, log_ulrich or one of the reversed and infinite mappings; `near`
+/// and `far` are depths.
 WindowDepth window_depth(ProjectionModel projection, Mapping mapping, double near, double far);
 
 /// A window depth z that a fragment shader computes in binary32 from q, which is 1/w as it is
@@ -54,17 +54,17 @@ WrittenDepth written_depth(ProjectionModel projection, Mapping mapping, double n
 /// 3 ulp, but 2⁻²¹ for x from ½ to 2 ([GLSL46] 4.7.1).
 double log2_error(double log2_x);
 
-/// What a depth D is recorded by: itself, 1/D, or ln D.
+/// The quantity that records a depth D: D, 1/D, or ln D.
 enum class DepthTerm { depth, inverse, logarithm };
 
 double term_of(DepthTerm term, double depth);
-/// The depth of a term; of one that no finite depth has, infinity.
+/// The depth of a term; infinity if no finite depth has this term.
 double depth_of(DepthTerm term, double value);
 
-/// How depths were written down after a renderer had made them: as factor·term + offset, rounded.
-/// Millimetres, codes of 16 bits, half floats, window depths that were not decoded.
+/// How the depths of a renderer were recorded: as factor·term + offset, rounded. Examples are
+/// millimetres, codes of 16 bits, half floats, and window depths that were not decoded.
 ///
-/// Exact    in binary64; what is recorded as a number of binary32 is known to two roundings of it.
+/// Exact    in binary64; a value recorded in binary32 is known up to two of its roundings.
 struct RecordedDepth {
   enum class Rounding {
     binary32,  ///< as other maps are
@@ -76,21 +76,21 @@ struct RecordedDepth {
   DepthTerm term = DepthTerm::depth;
   double factor = 1, offset = 0;
   Rounding rounding = Rounding::binary32;
-  double origin = 0, step = 0;  ///< of what is recorded
-  /// How far off what is recorded may be besides: of constants that were estimated.
+  double origin = 0, step = 0;  ///< of recorded values
+  /// An additional error of recorded values, from estimated constants.
   double error = 0;
 
-  /// What is recorded for a depth, before it is rounded and after.
+  /// The recorded value of a depth, before and after rounding.
   [[nodiscard]] double exact(double depth) const;
   [[nodiscard]] double rounded(double recorded) const;
   [[nodiscard]] double to_depth(double recorded) const;
-  /// The distance of neighbours about a recorded value.
+  /// The distance between neighbouring values about a recorded value.
   [[nodiscard]] double step_at(double recorded) const;
   /// The depths that may be read where one of `depths` was recorded.
   [[nodiscard]] Interval read_back(const Interval& depths) const;
 };
 
-/// The number of binary16 that is nearest; greater ones than 65504 stay what they are.
+/// The nearest binary16 number; numbers above 65504 remain unchanged.
 double round_to_binary16(double x);
 
 }  // namespace fathom::attribution

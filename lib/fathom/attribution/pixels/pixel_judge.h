@@ -17,11 +17,11 @@ namespace fathom::attribution {
 
 /// The allowed values of a sample with these fragments.
 struct PixelVerdict {
-  /// Nothing farther than this can be stored; infinite where nothing need be covered.
+  /// The greatest value that can be stored; infinite if no surface need be drawn.
   double cap = std::numeric_limits<double>::infinity();
-  /// Some surface is certain to be seen.
+  /// Some surface is certainly visible.
   bool must = false;
-  /// Some surface would be seen if no sample between two triangles were missed.
+  /// Some surface would be visible if no sample between two triangles were missed.
   bool must_if_watertight = false;
 };
 
@@ -34,28 +34,30 @@ PixelVerdict verdict_of(std::span<const Fragment> fragments, bool watertight,
 /// Verdict on one pixel.
 struct PixelResult {
   PixelClass pixel_class = PixelClass::equal;
-  /// A triangle may be seen here or not; some triangle is drawn here or may be.
+  /// may: a triangle may or may not be visible here. touched: some triangle is or may be drawn
+  /// here.
   bool may = false, touched = false;
-  /// The visible triangle is certain to be drawn, and no other is near it in depth.
+  /// The visible triangle is certainly drawn, and no other triangle is near it in depth.
   bool alone = false;
-  /// Unexplained, and of equal triangles another than the model's rule lets win is shown.
+  /// The pixel is unexplained and shows, of several equal triangles, a different one than the
+  /// model's rule selects.
   bool wrong_tie = false;
   /// The triangle whose absence would explain it, if it is unexplained.
   std::uint32_t absent = no_surface;
 
-  /// Of the visible triangle: the depths that the model allows, in scene units, and their width in
+  /// For the visible triangle: the depths that the model allows, in scene units, and their width in
   /// steps of the storage.
   struct Visible {
     Interval depths;
     double relative_width = 0, steps_width = 0;
   };
   std::optional<Visible> visible;
-  /// Where both maps show the same surface: how far the depth is off, in scene units and relative.
+  /// The error of the depth, in scene units and relative, if both maps show the same surface.
   struct Error {
     double absolute = 0, relative = 0;
   };
   std::optional<Error> error;
-  /// Stored minus expected, where nothing else is near.
+  /// Stored minus expected window depth, if no other surface is near.
   std::optional<BiasSteps> bias;
 };
 
@@ -91,7 +93,7 @@ class PixelJudge {
   const Truth& truth_;
   const OtherMap& other_;
   bool watertight_;
-  /// Nothing where it is not known, or the map has no numbers of triangles.
+  /// nullopt if the rule is unknown, or if the map has no numbers of triangles.
   std::optional<EqualDepths> equal_depths_;
   std::unique_ptr<const StoredValues> values_;
 };

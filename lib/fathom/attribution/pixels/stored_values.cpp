@@ -198,7 +198,7 @@ class RasterValues final : public StoredValues {
 
   [[nodiscard]] bool is_background(std::size_t pixel) const override {
     if (!has_windows()) return other_.depths[pixel] == infinity;
-    return other_.windows[pixel] == (window_.reversed() ? 0 : 1);  // what the buffer is cleared to
+    return other_.windows[pixel] == (window_.reversed() ? 0 : 1);  // the clear value of the buffer
   }
   [[nodiscard]] bool surfaces_may_look_like_background() const override { return has_windows(); }
 
@@ -217,7 +217,7 @@ class RasterValues final : public StoredValues {
 
   const OtherMap& other_;
   RasterModel model_;
-  WindowDepth window_;  ///< of what is stored
+  WindowDepth window_;  ///< of the stored depths
   double sign_;         ///< of a window depth in a fragment's value
   MatrixRoundings roundings_;
 };

@@ -11,7 +11,7 @@
 #include "fathom/geometry/eigen_arrays.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
-// docs/validation.md, "A rasterizer", "Corners", derives what stands here.
+// docs/validation.md, "A rasterizer", "Corners", derives the bounds in this file.
 namespace fathom::attribution {
 namespace {
 
@@ -142,8 +142,8 @@ RasterModel with_known_shift(const RasterModel& model, const WorldMesh& mesh) {
 
 namespace {
 
-/// γₙ of the roundings on the way from a position to a clip coordinate: product and sums of each
-/// matrix and one to spare; where they are not known, an entry and the position itself.
+/// γₙ of the roundings from a position to a clip coordinate: the product and the sums of each
+/// matrix and one spare rounding; if they are unknown, also an entry and the position itself.
 double gamma_of(const RasterModel& model) {
   const bool one_matrix = model.premultiplied || !model.parts.empty();
   const double roundings = model.matrix && model.parts.empty() ? 5 : one_matrix ? 7 : 13;
@@ -151,7 +151,7 @@ double gamma_of(const RasterModel& model) {
   return n / (1 - n);
 }
 
-/// A position as the rows expect it; as the renderer holds it where its matrix is known.
+/// A position as the rows expect it; if the renderer's matrix is known, as the renderer holds it.
 std::array<double, 3> held(const std::array<double, 3>& point, const RasterModel& model) {
   std::array<double, 3> position{};
   for (std::size_t k = 0; k < 3; ++k) {

@@ -6,7 +6,7 @@
 #include "fathom/attribution/model/renderer_model.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
-// docs/validation.md, "Window depth", derives what stands here.
+// docs/validation.md, "Window depth", derives the bounds in this file.
 namespace fathom::attribution {
 
 WindowVertex to_window(const ClipVertex& v, const Camera& camera, const RasterModel& model) {
@@ -28,7 +28,7 @@ WindowVertex to_window(const ClipVertex& v, const Camera& camera, const RasterMo
   window.from_border = std::max(std::abs(window.y), std::abs(camera.height - window.y));
 
   const double z = v.value[2] / w;
-  // Of z_ndc/2 where there is one: z is that and a half.
+  // The magnitude of z_ndc/2 if the mapping has it: z is z_ndc/2 + ½.
   const double divided = model.mapping == Mapping::opengl ? z - 0.5 : z;
   window.z = z;
   window.error_z =
@@ -55,7 +55,7 @@ namespace {
 constexpr double u = unit_roundoff<float>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Twice the area by which displaced corners can change that of a triangle.
+/// Twice the greatest change of a triangle's area by displaced corners.
 double area_error(const WindowVertex& a, const WindowVertex& b, const WindowVertex& c) {
   const double dx = std::max({a.snapped_x, b.snapped_x, c.snapped_x});
   const double dy = std::max({a.snapped_y, b.snapped_y, c.snapped_y});

@@ -9,7 +9,7 @@
 #include "fathom/attribution/model/renderer_model.h"
 #include "fathom/attribution/raster/raster_polygon.h"
 
-// docs/validation.md, "A rasterizer", "Coverage", derives what stands here.
+// docs/validation.md, "A rasterizer", "Coverage", derives the bounds in this file.
 namespace fathom::attribution {
 namespace {
 
@@ -18,7 +18,7 @@ struct EdgeAt {
   double value = 0, error = 0;
 };
 
-/// e = (a − s) × (b − s), and what displaced corners do to it.
+/// e = (a − s) × (b − s), and the effect of displaced corners on it.
 EdgeAt edge_at(const WindowVertex& a, const WindowVertex& b, double x, double y, double spread) {
   const double ax = a.x - x, ay = a.y - y, bx = b.x - x, by = b.y - y;
   const double dax = a.snapped_x + spread, day = a.snapped_y + spread;
@@ -53,12 +53,12 @@ std::optional<Fragment> covered(const RasterPolygon& p, double x, double y, doub
   if (!certain_area) f.coverage = Coverage::may;
   if (!one_way && !other_way) return std::nullopt;
   if (certain_area && !(p.turned ? other_way : one_way)) return std::nullopt;
-  // The corners that a polygon lost when it was cut are not known here: it joins no others.
+  // The corners that a polygon lost by cutting are unknown here: it joins no others.
   if (count != 3 && f.coverage == Coverage::may) f.open_edges = joins_no_other;
   return f;
 }
 
-/// What holds for both ways to cut a triangle.
+/// The facts that hold for both ways to cut a triangle.
 std::optional<Fragment> both(const std::optional<Fragment>& a, const std::optional<Fragment>& b) {
   if (!a && !b) return std::nullopt;
   Fragment f = a ? *a : *b;

@@ -48,8 +48,8 @@ double slack(const ClipVertex& v, unsigned border) {
 }
 
 /// The new corner between `a` and `b`. The renderer's own lies on its own edge up to the roundings
-/// of an interpolation; where along the edge does not matter, since what is beyond the border is
-/// not drawn.
+/// of an interpolation; where along the edge does not matter, because nothing beyond the border is
+/// drawn.
 ClipVertex between(const ClipVertex& a, const ClipVertex& b, unsigned border) {
   const double from_a = distance(a, border) + slack(a, border);
   const double from_b = distance(b, border) + slack(b, border);
@@ -110,7 +110,7 @@ std::vector<ClipVertex> cut(const std::array<const ClipVertex*, 3>& triangle, bo
   return polygon;
 }
 
-// docs/validation.md, "A rasterizer", "Cuts", derives what stands here.
+// docs/validation.md, "A rasterizer", "Cuts", derives the bounds below.
 
 namespace {
 
@@ -185,7 +185,7 @@ double RasterDepth::storage_error(double z) const {
     return error + codes / greatest_code(model_.storage) + u * std::abs(z);
   }
   if (model_.storage == Storage::float16) return error + 0x1p-11 * std::abs(z) + 0x1p-25;
-  return error;  // what is interpolated is binary32 already
+  return error;  // the interpolated value is binary32 already
 }
 
 /// Of an interpolated value: the bound of its plane, and where the sample lies.
@@ -193,7 +193,7 @@ double RasterDepth::error_of(const DepthPlane& plane) const {
   return plane.error + sample_error_ * (std::abs(plane.g_x) + std::abs(plane.g_y));
 }
 
-/// What is stored where nothing is rounded.
+/// The stored value without roundings.
 double RasterDepth::expected(const RasterPolygon& p, double x, double y) const {
   if (model_.affine && p.plane.is_known) return stored_.of_depth(p.linear.at(x, y));
   const DepthPlane& plane = model_.written ? p.q : p.plane;
@@ -201,7 +201,7 @@ double RasterDepth::expected(const RasterPolygon& p, double x, double y) const {
   return model_.written ? model_.written->value(value) + model_.bias : value;
 }
 
-/// All values about the expected one that may come before they are rounded to the storage.
+/// All possible values about the expected value, before rounding to the storage.
 Interval RasterDepth::around(double z, const RasterPolygon& p, double x, double y) const {
   const double error = error_of(model_.written ? p.q : p.plane);
   if (!std::isfinite(z) || !(error < infinity)) return {-infinity, infinity};

@@ -24,21 +24,23 @@ bool is_certainly_outside(const std::array<const ClipVertex*, 3>& triangle);
 /// is cut.
 bool is_certainly_inside(const std::array<const ClipVertex*, 3>& triangle);
 
-/// A triangle in the image as a rasterizer may have cut it, with what it interpolates over it.
+/// A triangle in the image as a rasterizer may have cut it, with the interpolated quantities.
 struct RasterPolygon {
   std::vector<WindowVertex> corners;
-  /// Of the window depth; of what a fragment shader makes its own of, where it writes one.
+  /// The plane of the window depth; the plane of the quantity from which a fragment shader computes
+  /// the depth that it writes, if it does.
   DepthPlane plane, q;
-  /// The plane of depths instead, for a renderer that interpolates those linearly.
+  /// The plane of depths, for a renderer that interpolates depths linearly.
   DepthPlane linear;
   /// The corners run clockwise, seen with y down.
   bool turned = false;
-  /// A corner may lie in the plane of the eye: nothing is known of where it is seen.
+  /// Whether a corner may lie in the plane of the eye, so that its position in the image is
+  /// unknown.
   bool anywhere = false;
 };
 
-/// Every way in which a renderer of the model may cut a triangle, whatever its roundings are: none
-/// where it is certainly not seen, else one or two.
+/// All ways in which a renderer of the model may cut a triangle, whatever its roundings are: none
+/// if the triangle is certainly invisible, otherwise one or two.
 class RasterPolygons {
  public:
   RasterPolygons(const Camera& camera, const RasterModel& model)
@@ -59,7 +61,7 @@ class RasterPolygons {
 
   Camera camera_;
   RasterModel model_;
-  WindowDepth window_;  ///< of what is interpolated
+  WindowDepth window_;  ///< of the interpolated depth
 };
 
 /// The window depths that a rasterizer may store for a polygon at a sample (docs/validation.md,
@@ -76,10 +78,10 @@ class RasterDepth {
             window_depth(camera.projection.model, model.stored_mapping(), camera.near, camera.far)),
         sign_(stored_.reversed() ? -1 : 1) {}
 
-  /// Sets the fragment's value and what is expected without roundings, and lowers its coverage
-  /// where the range of window depths may cut it away.
+  /// Sets the fragment's value and its expectation without roundings, and lowers its coverage if
+  /// the range of window depths may cut it away.
   void set(Fragment& fragment, const RasterPolygon& polygon, double x, double y) const;
-  /// The same where nothing is known of where the polygon is seen.
+  /// The same if the position of the polygon is unknown.
   void set_anything(Fragment& fragment) const;
 
  private:
@@ -93,7 +95,7 @@ class RasterDepth {
   RasterModel model_;
   double sample_error_;
   WindowDepth stored_;
-  double sign_;  ///< of a window depth in a fragment's value, where the nearer is the less
+  double sign_;  ///< of a window depth in a fragment's value, where smaller is nearer
 };
 
 }  // namespace fathom::attribution

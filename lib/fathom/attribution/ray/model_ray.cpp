@@ -11,7 +11,7 @@
 #include "fathom/attribution/model/renderer_model.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
-// docs/validation.md, "A ray tracer", derives what stands here.
+// docs/validation.md, "A ray tracer", derives the bounds in this file.
 namespace fathom::attribution {
 namespace {
 
@@ -96,10 +96,9 @@ Seen seen_from(const Ray& ray, const std::array<Vector3, 3>& corners) {
   return seen;
 }
 
-/// The volumes of two corners and the ray, one for each edge, and their bounds without what they
-/// have in common: `rounded`, the roundings of all three. Each in whichever way it is computed, by
-/// differences with one corner or by sums of two, takes no more than the model's roundings of these
-/// products.
+/// The volumes of two corners and the ray, one for each edge, and their bounds without the common
+/// part: `rounded`, the roundings of all three. Whether a volume is computed by differences with
+/// one corner or by sums of two, its roundings are at most the model's roundings of these products.
 struct EdgeTests {
   std::array<double, 3> volume{}, error{};
   double rounded = 0;

@@ -8,8 +8,8 @@
 #include "fathom/camera/camera.h"
 #include "fathom/geometry/eigen_arrays.h"
 
-/// Vectors of three binary64 numbers. Bounds here hold for sums in any order, which is Eigen's
-/// business (docs/validation.md, own_roundings).
+/// Vectors of three binary64 numbers. Bounds here hold for any order of summation, which Eigen
+/// chooses (docs/validation.md, own_roundings).
 namespace fathom::attribution {
 
 using Vector3 = Eigen::Vector3d;
@@ -23,16 +23,16 @@ inline Vector3 abs(const Vector3& a) {
   return a.cwiseAbs();
 }
 
-/// det(a, b, c) with every product taken absolutely: what roundings of a determinant are relative
-/// to.
+/// det(a, b, c) with the absolute value of every product: roundings of a determinant are relative
+/// to it.
 inline double permanent(const Vector3& a, const Vector3& b, const Vector3& c) {
   const Vector3 p = abs(a), q = abs(b), r = abs(c);
   return p[0] * (q[1] * r[2] + q[2] * r[1]) + p[1] * (q[2] * r[0] + q[0] * r[2]) +
          p[2] * (q[0] * r[1] + q[1] * r[0]);
 }
 
-/// A ray origin + t·direction, t the depth, and how far the renderer's own may be from it,
-/// component by component.
+/// A ray origin + t·direction, where t is the depth, with bounds on the deviation of the renderer's
+/// own ray, component by component.
 struct Ray {
   Vector3 origin, direction, origin_error, direction_error;
 };
@@ -47,11 +47,11 @@ class ModelRays {
 
   [[nodiscard]] Ray through(double x, double y) const;
 
-  /// What the rotation's error makes of a vector: a component is a row, off by at most
-  /// rotation_error in each of its entries, times a vector of this length.
+  /// The effect of the rotation's error on a vector: a component is a row, whose entries err by at
+  /// most rotation_error each, times a vector of this length.
   [[nodiscard]] double tilt(const Vector3& v) const;
 
-  /// What it adds to the error of a depth t to compute it from the position of the hit.
+  /// The additional error of a depth t that is computed from the position of the hit.
   [[nodiscard]] double depth_error(const Ray& ray, double t) const;
 
   /// In the moved world.

@@ -21,7 +21,7 @@ bool is_between(const Number& x, const Number& a, const Number& b) {
   return a < b ? a <= x && x <= b : b <= x && x <= a;
 }
 
-/// An edge, with the place where it comes from.
+/// An edge, with its origin.
 template <class Number>
 struct PlacedEdge {
   Segment2<Number> segment;
@@ -65,22 +65,21 @@ bool is_one_sided(const PlacedEdge<Number>& a, const PlacedEdge<Number>& b) {
   return start && end && *start * *end > 0;
 }
 
-/// Whether one lies strictly on one side of the other, as far as that is told quickly.
+/// Whether an edge lies strictly on one side of the other, if a quick test settles it.
 template <class Number>
 bool are_apart(const PlacedEdge<Number>& a, const PlacedEdge<Number>& b) {
   return is_one_sided(a, b) || is_one_sided(b, a);
 }
 
-/// contacts(a, b) of edges whose boxes meet. Over double it is decided by rounded numbers whether
-/// they meet, as where they do.
+/// contacts(a, b) of edges whose boxes meet. Over double, rounded numbers decide whether and where
+/// they meet.
 template <class Number>
 std::vector<Point2<Number>> contacts_of(const PlacedEdge<Number>& a, const PlacedEdge<Number>& b) {
   if (std::is_same_v<Number, Rational> && are_apart(a, b)) return {};
   return contacts(a.segment, b.segment);
 }
 
-/// Whether edges that begin or end in one corner have no more in common, as far as that is told
-/// quickly.
+/// Whether edges with a common corner have no other point in common, if a quick test settles it.
 template <class Number>
 bool meet_in_an_end_at_most(const PlacedEdge<Number>& a, const PlacedEdge<Number>& b) {
   const auto is_at = [](const Box& p, const Box& q) {
@@ -94,7 +93,7 @@ bool meet_in_an_end_at_most(const PlacedEdge<Number>& a, const PlacedEdge<Number
   return false;
 }
 
-/// A kernel of CGAL's as is_simple_2() needs it. Its predicates are where that can be interrupted.
+/// A CGAL kernel for is_simple_2(), whose predicates check for interruptions.
 template <class Kernel>
 class InterruptibleTraits {
  public:
@@ -167,7 +166,7 @@ std::vector<Rings<Number>> contacts_on_edges(const Rings<Number>& rings,
   std::size_t count = 0;
   visit_meeting_edges(edges, first_of_clip, [&](std::size_t i, std::size_t k) {
     check_interruption();
-    // Over double it matters which comes first.
+    // Over double the order of the arguments matters.
     const PlacedEdge<Number>&a = edges[std::min(i, k)], &b = edges[std::max(i, k)];
     if (std::is_same_v<Number, Rational> && meet_in_an_end_at_most(a, b)) return;
     for (const Point2<Number>& p : contacts_of(a, b)) {

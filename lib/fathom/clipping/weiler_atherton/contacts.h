@@ -10,10 +10,10 @@
 namespace fathom::clipping {
 
 /// The points that two segments of positive length have in common, as far as rings need to know
-/// them: the point of a proper crossing, and every end of one that lies on the other. A collinear
-/// overlap gives its two ends, so that after splitting there two edges are the same or meet only in
-/// ends.
-/// Fails    InputError over double, where the products that tell are beyond binary64
+/// them: the point of a proper crossing, and every end of a segment that lies on the other. A
+/// collinear overlap gives its two ends, so that after splitting there, edges are equal or meet
+/// only in ends.
+/// Fails    InputError over double, if the deciding products are beyond binary64
 template <class Number>
 std::vector<Point2<Number>> contacts(const Segment2<Number>& a, const Segment2<Number>& b);
 
@@ -40,7 +40,7 @@ struct SelfContact {
   std::size_t first_edge, second_edge;
   Point2<Rational> point;
 };
-/// nullopt where there are none, by a sweep; else the first pair from the left.
+/// The first pair from the left, found by a sweep; nullopt if there is none.
 std::optional<SelfContact> self_contact(const Ring<Rational>& ring);
 
 /// "(1/3, 2)", with long fractions to 17 digits: for messages.

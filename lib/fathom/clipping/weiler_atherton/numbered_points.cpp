@@ -7,7 +7,7 @@
 namespace fathom::clipping {
 namespace {
 
-/// −1, 0 or 1 as a is less than, equal to or greater than b; their bounds tell most.
+/// −1, 0 or 1 as a is less than, equal to or greater than b; their bounds settle most comparisons.
 template <class Number>
 int compare(const Number& a, const Bounds& a_bounds, const Number& b, const Bounds& b_bounds) {
   if (a_bounds.is_below(b_bounds)) return -1;

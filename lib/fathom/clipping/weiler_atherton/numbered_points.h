@@ -7,16 +7,16 @@
 #include "fathom/clipping/exact_kernel.h"
 #include "fathom/clipping/points.h"
 
-/// Points that are compared once, and are numbers from then on.
+/// Points that are compared once and then represented by numbers.
 namespace fathom::clipping {
 
-/// What may be asked of points by their numbers, which are in lexicographic order: p < q says that
-/// p comes before q. A direction is written P → q.
-/// Exact    over both kernels: what is asked are signs for the points as they stand.
+/// Predicates of points by their numbers, which are in lexicographic order: p < q means that p
+/// comes before q. A direction is written P → q.
+/// Exact    over both kernels: all predicates are signs, computed for the given points.
 class PointOrder {
  public:
   PointOrder() = default;
-  /// Points in lexicographic order, none twice.
+  /// Points in lexicographic order, without repetitions.
   explicit PointOrder(const std::vector<Point2<double>>& points);
   explicit PointOrder(const std::vector<Point2<Rational>>& points);
 
@@ -30,7 +30,7 @@ class PointOrder {
 
  private:
   std::vector<Box> boxes_;
-  /// Over Rational; boxes of binary64 numbers tell all.
+  /// Over Rational; boxes suffice for binary64 numbers.
   std::vector<Point2<Rational>> exact_;
 };
 
@@ -40,7 +40,7 @@ using NumberedRings = std::vector<NumberedRing>;
 
 template <class Number>
 struct NumberedCorners {
-  /// In lexicographic order, none twice.
+  /// In lexicographic order, without repetitions.
   std::vector<Point2<Number>> points;
   NumberedRings rings;
 };
@@ -49,7 +49,7 @@ struct NumberedCorners {
 template <class Number>
 NumberedCorners<Number> numbered(const Rings<Number>& rings);
 
-/// The ring of points, from one by numbers.
+/// The ring of points of a ring of numbers.
 template <class Number>
 Ring<Number> ring_of(const NumberedRing& ring, const std::vector<Point2<Number>>& points) {
   Ring<Number> result;

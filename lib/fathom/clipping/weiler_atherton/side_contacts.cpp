@@ -63,7 +63,7 @@ class TouchSweep {
  private:
   using Line = std::set<std::size_t, IsBelow>;
 
-  /// Enters the point in the edges that it lies within, and takes out those that end there.
+  /// Enters the point in the edges that it lies within, and removes the edges that end there.
   void pass(std::size_t point) {
     auto place = line_.lower_bound(IsBelow::Point{point});
     while (place != line_.end()) {
@@ -81,7 +81,7 @@ class TouchSweep {
       throw InputError("the rings meet in more than " + std::to_string(most_contacts) + " points");
     on_edge_[edge].push_back(point);
   }
-  /// Looks at all neighbours from the edge just below the point to the one just above. Edges that
+  /// Checks all neighbours from the edge just below the point to the edge just above. Edges that
   /// cross in the point itself are neighbours now, if not before.
   void look_around(std::size_t point) {
     auto place = line_.lower_bound(IsBelow::Point{point});
@@ -148,8 +148,7 @@ struct Passage {
   std::size_t point, ring, corner;
 };
 
-/// Passages through points that more than one ring passes, point by point, in the order in which
-/// the rings come to them.
+/// Passages through points of more than one ring, point by point, in the order of the rings.
 std::vector<std::vector<Passage>> shared_points(const NumberedRings& rings, std::size_t points) {
   std::vector<std::vector<Passage>> at(points);
   std::vector<std::size_t> order;
@@ -165,15 +164,15 @@ std::vector<std::vector<Passage>> shared_points(const NumberedRings& rings, std:
   return shared;
 }
 
-/// One of the two ends that a passage has at its point. Directions about the point are numbered;
-/// the same number is the same direction.
+/// One of the two ends of a passage at its point. Directions about the point are numbered; equal
+/// numbers are equal directions.
 struct PassageEnd {
   std::size_t towards, passage, direction, other_direction;
 };
 
-/// Both ends of each passage, by their directions. Of ends in the same direction those come first
-/// whose passage has its other end before, the nearest first; then the others, the farthest first:
-/// so only passages that must cross are entwined.
+/// Both ends of each passage, by their directions. Among ends in the same direction, ends whose
+/// passage has its other end before come first, the nearest first; then the others, the farthest
+/// first. So only passages that must cross are entwined.
 std::vector<PassageEnd> ends_about(const std::vector<Passage>& passages, const NumberedRings& rings,
                                    const PointOrder& points) {
   std::vector<PassageEnd> ends;
@@ -196,7 +195,7 @@ std::vector<PassageEnd> ends_about(const std::vector<Passage>& passages, const N
   std::sort(ends.begin(), ends.end(), [](const PassageEnd& a, const PassageEnd& b) {
     const auto key = [](const PassageEnd& end) {
       const bool begins = end.other_direction > end.direction;
-      // The last to begin is the first to end.
+      // The passage that begins last ends first.
       return std::tuple(end.direction, begins, ~end.other_direction,
                         begins ? end.passage : ~end.passage);
     };
@@ -238,13 +237,14 @@ Runs shared_edges(const NumberedRings& rings) {
   return runs;
 }
 
-/// The pieces that one ring shares with others, edge by edge.
+/// The pieces that a ring shares with others, edge by edge.
 class SharedPieces {
  public:
   SharedPieces(const NumberedRings& rings, const PointOrder& points, const Runs& runs)
       : rings_(rings), points_(points), runs_(runs) {}
 
-  /// Where `ring` crosses another along a piece that begins with the edge from `corner`.
+  /// The crossing of `ring` with another ring along a shared piece that begins with the edge from
+  /// `corner`, if there is one.
   [[nodiscard]] std::optional<RingCrossing> crossing_from(std::size_t ring,
                                                           std::size_t corner) const {
     const auto found = runs_.find(edge(ring, corner));
@@ -276,8 +276,8 @@ class SharedPieces {
                                       [](const Run& a, std::size_t r) { return a.ring < r; });
     return run != found->second.end() && run->ring == other ? &*run : nullptr;
   }
-  /// On which side of `ring` the other is where their piece ends, at `corner`; `run` is the other's
-  /// part of the last edge.
+  /// Whether the other ring is on the left of `ring` at `corner`, where their shared piece ends;
+  /// `run` is the other's part of the last edge.
   [[nodiscard]] bool comes_from_left(const Run& run, std::size_t ring, std::size_t corner) const {
     const NumberedRing &own = rings_[ring], &other = rings_[run.ring];
     const std::size_t P = own[corner];
@@ -317,7 +317,7 @@ bool are_apart(const NumberedRings& split, const PointOrder& points) {
   return corners == points.size();
 }
 
-/// The edges without those that cancel each other, because they run there and back.
+/// The edges without pairs of opposite edges, which cancel each other.
 std::vector<DirectedEdge> border_of(const NumberedRings& rings) {
   const std::vector<DirectedEdge> all = edges_of(rings);
   std::map<UndirectedEdge, int> rising;  // how many more run from left to right

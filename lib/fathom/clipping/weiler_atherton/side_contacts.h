@@ -17,12 +17,12 @@ struct EdgeCrossing {
   std::size_t first_ring, second_ring;
 };
 
-/// The rings, with every point in which one touches another entered as a corner, so that edges are
-/// the same or meet only in ends: by a sweep, in which edges that touch keep their order. All such
-/// points are corners of rings already. Or else a crossing, if there is one within an edge of each
-/// ring. Each ring by itself is simple.
+/// Enters every point in which a ring touches another as a corner, so that edges are equal or meet
+/// only in ends, by a sweep in which touching edges keep their order. All such points are corners
+/// of rings already. Returns a crossing instead if two rings cross within an edge of each. Each
+/// ring by itself is simple.
 /// Cost     n log n, with n also the touches
-/// Fails    InputError where there are more than `most_contacts` (contacts.h)
+/// Fails    InputError if there are more than `most_contacts` (contacts.h)
 /// Source   [SH76]
 std::variant<NumberedRings, EdgeCrossing> enter_touches(const NumberedRings& rings,
                                                         const PointOrder& points);

@@ -17,14 +17,14 @@ namespace {
 /// A ring of a side passes through a point.
 struct Visit {
   std::size_t point, ring, corner;
-  /// It is a contact: the other side comes here too.
+  /// Whether it is a contact: the other side passes here too.
   bool is_contact = false;
-  /// The visits of the other side in whose wedges its way begins and ends.
+  /// The visits of the other side in whose wedges its path begins and ends.
   const Visit *begins_within = nullptr, *ends_within = nullptr;
-  /// In the order along its way, at most two.
+  /// In the order along its path, at most two.
   std::vector<std::size_t> crossings = {};
 
-  /// Whether it crosses the visit in whose wedge it begins or ends: not if that is the same one.
+  /// Whether it crosses the visit in whose wedge it begins or ends: not if both are the same visit.
   [[nodiscard]] bool crosses(const Visit* other) const {
     return other != nullptr && begins_within != ends_within;
   }
@@ -42,7 +42,7 @@ std::vector<Visit> visits_by_point(const NumberedRings& rings) {
 
 constexpr std::size_t subject_side = 0, clip_side = 1;
 
-/// Where a visit comes from, or leaves to.
+/// The direction from which a visit comes, or in which it leaves.
 struct VisitEnd {
   std::size_t towards, side;
   Visit* visit;
@@ -65,7 +65,7 @@ void add_ends(std::vector<VisitEnd>& ends, std::span<Visit> visits, const Number
 }
 
 /// Finds for each end the wedge of the other side in which it lies, going round counter-clockwise:
-/// a wedge begins at an end that leaves, and ends at the same visit's other.
+/// a wedge begins at an end that leaves, and ends at the other end of the same visit.
 void place_in_wedges(const std::vector<VisitEnd>& ends) {
   std::array<Visit*, 2> wedge{};
   for (const VisitEnd& end : ends) wedge[end.side] = end.leaves ? end.visit : nullptr;
@@ -111,7 +111,7 @@ class PointOfContact {
   std::vector<const Visit*> clips_;
 };
 
-/// The visits of the point that `visits` begins with.
+/// The visits of the first point in `visits`.
 std::span<Visit> first_point(std::span<Visit> visits) {
   const auto end = std::find_if(visits.begin(), visits.end(), [&](const Visit& visit) {
     return visit.point != visits.front().point;
@@ -186,7 +186,7 @@ PlaceList list_of(std::vector<Visit>& visits, const NumberedRings& rings, const 
   return list;
 }
 
-/// Numbers the crossings anew, along the subject.
+/// Renumbers the crossings along the subject.
 void number_along_subject(PlaceLists& lists) {
   std::vector<std::size_t> new_number(lists.subject.of_crossing.size());
   std::size_t next = 0;
@@ -224,7 +224,7 @@ PlaceLists enter_crossings(const NumberedSides& sides, const PointOrder& points,
 
 namespace {
 
-/// The walks of one operation. A contact is `inwards` where the subject comes into the result.
+/// The walks of one operation. A contact is `inwards` if the subject enters the result there.
 class Walker {
  public:
   Walker(const PlaceLists& lists, SetOperation operation)

@@ -68,7 +68,7 @@ PixelBox visible_box_exactly(const ImageObject& object, const CornerIndices& cor
                   &c = object.mesh.vertices[corners[2]];
   RenderStatistics& statistics = context.statistics;
   ++statistics.facing.exact;
-  // Exact numbers would say the same of points that are equal, in a thousand times the time.
+  // Exact numbers would give the same answer for equal points, in a thousand times the time.
   const bool distinct = a != b && b != c && c != a;
   const ProjectedTriangle* t =
       distinct ? &context.referee.projected(object.number_in_scene(number)) : nullptr;

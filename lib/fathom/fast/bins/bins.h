@@ -14,7 +14,7 @@ namespace fathom::fast {
 
 /// The image cut into tiles, numbered row by row.
 struct TileGrid {
-  /// Fails    InputError if there are 2³² tiles or more, which is more than bins can tell apart.
+  /// Fails    InputError if there are 2³² tiles or more, too many for the numbers in bins.
   TileGrid(std::uint32_t image_width, std::uint32_t image_height);
   [[nodiscard]] std::uint32_t count() const { return columns * rows; }
   [[nodiscard]] PixelBox area(std::uint32_t tile) const;
@@ -25,8 +25,8 @@ struct TileGrid {
   std::uint32_t columns, rows;
 };
 
-/// Consecutive triangles of some objects, and for each tile those that can be visible in it, or
-/// that meet it.
+/// Consecutive triangles of some objects and, for each tile, the triangles that can be visible in
+/// it or that meet it.
 class Bins {
  public:
   /// For the triangles first ≤ number < end of the objects.
@@ -41,7 +41,7 @@ class Bins {
     const ImageObjects& objects;
     const Camera& camera;
     Cull cull;
-    /// Take all tiles that a triangle meets, not only those in which it can cover a sample.
+    /// Include all tiles that a triangle meets, not only tiles in which it can cover a sample.
     bool by_area;
     const TileGrid& grid;
     triangle::Referee& referee;
@@ -51,8 +51,8 @@ class Bins {
   };
   void fill(const Context& context);
 
-  /// Numbers of the triangles of a side (front, where that takes exact numbers), those of one
-  /// object next to each other.
+  /// The numbers of the triangles of a side (front, if the side takes exact numbers to find),
+  /// grouped by object.
   [[nodiscard]] std::span<const TileEntry> in_tile(std::uint32_t tile, Side side) const {
     return lists_[index(side)].in_tile(tile);
   }

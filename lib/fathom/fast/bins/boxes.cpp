@@ -133,8 +133,8 @@ HWY_INLINE void append(const Sorted& s, std::uint32_t first_number, BoxBatch& ou
   }
 }
 
-/// Whether all corners of as many triangles as there are lanes are vertices. Asked here, where they
-/// are read anyway, because to look at all of them beforehand takes a twentieth of a map's time.
+/// Whether all corners of as many triangles as there are lanes are vertices. Checked here, where
+/// they are read anyway, because a separate pass takes a twentieth of the time of a map.
 HWY_INLINE bool are_vertices(const CornerIndices* triangles, std::uint32_t end) {
   const hn::Rebind<std::uint32_t, D> d;
   const std::uint32_t* indices = triangles->data();
@@ -143,7 +143,7 @@ HWY_INLINE bool are_vertices(const CornerIndices* triangles, std::uint32_t end) 
   return hn::AllTrue(d, hn::Lt(hn::Max(hn::Max(a, b), c), hn::Set(d, end)));
 }
 
-/// False if a corner is none of the vertices.
+/// Returns false if a corner is not a vertex.
 bool sort_triangles(const BoxRequest& r, BoxBatch& out) {
   const D d;
   const std::size_t lanes = hn::Lanes(d);
@@ -164,8 +164,8 @@ bool sort_triangles(const BoxRequest& r, BoxBatch& out) {
   return true;
 }
 
-/// The edge functions of triangles of the batch, by their places in it, as many as there are lanes
-/// or fewer. Those of all lanes are made, with the first triangle in what is left.
+/// The edge functions of at most as many triangles of the batch as there are lanes, by their
+/// places. All lanes are computed; unused lanes repeat the first triangle.
 HWY_INLINE void put_edges_at(const BoxRequest& r, const std::size_t* places, std::size_t count,
                              BoxBatch& out) {
   CornerIndices corners[8];

@@ -13,9 +13,9 @@
 
 namespace fathom::fast {
 
-/// The edge functions of a triangle at the samples of a box and up to 8 beyond it, as those of
-/// TriangleSetup: c + a·x + b·y, with x and y from the box's first sample, is positive inside, less
-/// or more by at most `error`.
+/// The edge functions of a triangle at the samples of a box and up to 8 samples beyond it, as in
+/// TriangleSetup: c + a·x + b·y, with x and y from the box's first sample, is positive inside and
+/// errs by at most `error`.
 struct BoxEdges {
   std::array<double, 3> a, b, c;
   double error;
@@ -36,12 +36,13 @@ class TileRowEdges {
     }
   }
 
-  // An edge function that is certainly negative at the corner of a tile's part of the box where it
-  // is greatest is so at all its samples; and in all of their pixels, as that part is taken to be
-  // greater by one sample on each side, for which the bound holds, too. Products and sums are
-  // rounded monotonically, so a function that is so in a tile is so in all tiles of the row on one
-  // side of it: what is left between missed tiles at the row's ends are tiles of which none is.
-  /// Empty if there is none.
+  // Consider the corner of a tile's part of the box where an edge function is greatest. If the
+  // function is certainly negative there, it is negative at all samples of the part; and in all of
+  // their pixels, because the part is enlarged by one sample on each side, where the bound still
+  // holds. Products and sums are rounded monotonically, so a function that is negative throughout a
+  // tile is negative throughout all tiles of the row on one side of it: missed tiles lie at the
+  // ends of the row only.
+  /// Empty if no tile is met.
   [[nodiscard]] PixelBox met() const {
     std::uint32_t first = box_.first_column / size_, last = box_.last_column / size_;
     if (misses(first, last)) return {};
@@ -56,7 +57,7 @@ class TileRowEdges {
   }
 
  private:
-  /// Whether one of the edge functions is negative in all of some columns of tiles.
+  /// Whether an edge function is negative throughout these columns of tiles.
   [[nodiscard]] bool misses(std::uint32_t first_tile, std::uint32_t last_tile) const {
     const std::uint32_t first = std::max(box_.first_column, first_tile * size_);
     const std::uint32_t last = std::min(box_.last_column, last_tile * size_ + (size_ - 1));
@@ -89,8 +90,8 @@ void for_parts_met(const BoxEdges& edges, const PixelBox& box, std::uint32_t til
 
 struct ImageVertex;
 
-/// The side of a triangle that is seen. Where a mesh is closed its front faces hide the others:
-/// drawn first, they save time.
+/// The visible side of a triangle. The front faces of a closed mesh hide its back faces: drawing
+/// them first saves time.
 enum class Side : std::uint8_t { front, back };
 
 /// Consecutive triangles of one object; corners index `vertices`.
@@ -101,20 +102,20 @@ struct BoxRequest {
   std::uint32_t count;  // at most BoxBatch::most
   std::uint32_t first_number;
   Cull cull;
-  /// Take all pixels that triangles meet, not only those whose samples they can cover.
+  /// Include all pixels that triangles meet, not only pixels whose samples they can cover.
   bool by_area;
   std::uint32_t image_width, image_height;
   std::uint32_t tile_columns;
 };
 
-/// Whether so many tiles meet a box that some of them are likely to miss its triangle.
+/// Whether the box meets so many tiles that some tiles are likely to miss its triangle.
 inline bool meets_many_tiles(const PixelBox& box, std::uint32_t tile_size) {
   const std::uint32_t columns = box.last_column / tile_size - box.first_column / tile_size;
   const std::uint32_t rows = box.last_row / tile_size - box.first_row / tile_size;
   return columns != 0 && rows != 0 && columns + rows > 2;
 }
 
-/// What is certain about them: which can be visible, and where.
+/// The certain facts about the triangles: which can be visible, and where.
 struct BoxBatch {
   static constexpr std::size_t most = 1024;
 
@@ -136,16 +137,16 @@ struct BoxBatch {
   std::array<std::uint32_t, most> nearest;
   std::array<std::uint32_t, most> number;
   std::array<PixelBox, most> box;
-  /// The edge functions of those whose boxes meet many tiles, one after the other.
+  /// The edge functions of the triangles whose boxes meet many tiles, in order.
   std::vector<BoxEdges> edges;
-  /// A corner is not usable, or the orientation not certain.
+  /// The number of triangles with an unusable corner or an uncertain orientation.
   std::size_t unsettled = 0;
   std::array<std::uint32_t, most> unsettled_number;
 
   std::uint64_t degenerate = 0, culled = 0;
 };
 
-/// Fails    scene::ElementFault if a corner is none of the vertices.
+/// Fails    scene::ElementFault if a corner is not a vertex.
 void box_triangles(const BoxRequest& request, BoxBatch& boxes);
 
 }  // namespace fathom::fast

@@ -28,8 +28,8 @@ struct Triangles {
   std::array<CornerIndices, SetupBatch::most> corners;
 };
 
-/// Reads those from `first` on, and prefetches those that come next: triangles of a tile may be
-/// anywhere in the mesh.
+/// Reads the triangles from `first` on and prefetches the following ones: triangles of a tile may
+/// be anywhere in the mesh.
 HWY_INLINE void fetch(const ImageObject& object, std::span<const std::uint32_t> numbers,
                       std::size_t first, Triangles& next) {
   const std::size_t lanes = hn::Lanes(D());

@@ -18,11 +18,11 @@ using Nearness = std::uint32_t;
 inline constexpr Nearness nearness_of_q = 0xFFFFFF00, nearness_of_block = 0x3F,
                           nearness_of_more = 0x40, nearness_without_samples = 0x80;
 
-/// Of a triangle about which that is not known: NaN, for which no comparison holds.
+/// The nearness of a triangle about which nothing is known: NaN, for which no comparison holds.
 inline constexpr Nearness never_hidden = 0x7FC00000;
 
-/// A bit pattern of binary32 moved up by one to two of the 256 steps that are left out. What
-/// overflows becomes NaN, as do negative numbers next to 0.
+/// A bit pattern of binary32 moved up by one to two times 256 steps, with its last 8 bits cleared.
+/// Numbers that overflow become NaN, as do negative numbers next to 0.
 template <class Bits>
 constexpr Bits moved_up_in_24_bits(Bits bits) {
   const bool negative = (bits & 0x80000000) != 0;

@@ -83,10 +83,10 @@ void TileSurfaces::make_forms(const ValueFrame& frame) {
   }
 }
 
-// How to read this file: CertifiedWriter::write() is the list of channels. What follows from q
-// alone is rounded for a whole row (channel_rows.h), and so is what follows from the triangle
-// (surface_lanes.h, wide_rows.h); for what that leaves, PixelWriter has a function for each
-// channel, which goes through the tiers. Values and their bounds come from
+// How to read this file: CertifiedWriter::write() is the list of channels. Channels that follow
+// from q alone are rounded for a whole row (channel_rows.h), and so are channels that follow from
+// the triangle (surface_lanes.h, wide_rows.h). For the remaining values, PixelWriter has a function
+// for each channel, which goes through the tiers. Values and their bounds come from
 // triangle/certified_surface.h and double_word_surface.h, roundings from
 // numeric/certified_rounding.h.
 
@@ -194,7 +194,7 @@ std::uint64_t CertifiedWriter::write_encoded(const VisibleRow& row, const Encode
   return write_row(rows_, row, rounded, Backgrounds::depth, values.binary32, statistics);
 }
 
-// In binary32 what is left to write is what an interval did not settle (resolve()).
+// In binary32 the remaining values are those that an interval did not settle (resolve()).
 std::uint64_t CertifiedWriter::write_open_depths(const VisibleRow& row,
                                                  RenderStatistics& statistics) const {
   if (!values_.depth.wanted() || values_.depth.binary64 || row.open_depth == 0) return 0;
@@ -214,7 +214,7 @@ void CertifiedWriter::write_origins(const VisibleRow& row) const {
     rows_.write(numbers, row.columns, values_.id + row.first_pixel);
   }
   if (!values_.wants_origins()) return;
-  // face, object, and what segmentations have.
+  // face, object, and the segments.
   std::array<MapRow<std::uint32_t>, OriginNumbers::count> rows;
   for (MapRow<std::uint32_t>& numbers : rows) numbers.fill(no_surface);
   std::uint32_t last = no_surface;

@@ -22,8 +22,8 @@ namespace fathom::fast {
 
 class Tile;
 
-/// The surfaces that are visible in a tile, and what channels need to know of each of them,
-/// computed for several at once. One for each thread.
+/// The visible surfaces of a tile and the properties that channels need, computed for several
+/// surfaces at once. One for each thread.
 class TileSurfaces {
  public:
   /// A surface, and one of the samples that show it, by its column and row in the tile.
@@ -33,16 +33,16 @@ class TileSurfaces {
 
   /// Finds the surfaces of a tile.
   void start(const Tile& tile);
-  /// In the order of their indices, which are 1, 2, …; 0 is that of no surface.
+  /// In the order of their indices, 1, 2, …; index 0 means no surface.
   [[nodiscard]] std::span<const Visible> visible() const { return visible_; }
   /// The indices of the surfaces that have these places in the tile.
   void find(const std::uint32_t* places, SurfaceIndices& indices) const;
 
-  /// Forms of weights, by index; nothing is known of those of no surface.
+  /// Computes the forms of weights, by index; the forms of index 0 are unknown.
   void make_forms(const ValueFrame& frame);
   [[nodiscard]] LaneForms forms() { return {forms_[0].data(), forms_[1].data(), forms_[2].data()}; }
-  /// Normals by index, 0 of no surface. settle(index): writes one that is not settled here.
-  /// Returns how many are.
+  /// Normals by index; index 0 is no surface. Calls settle(index) to write a normal that is not
+  /// settled here. Returns the number of normals that are settled here.
   using Normals = std::vector<NormalOfSurface>;
   template <class Settle>
   std::size_t make_normals(const ValueFrame& frame, bool in_camera_frame, Normals& normals,
@@ -81,7 +81,7 @@ class TileSurfaces {
 
   double left_ = 0, top_ = 0;
   std::vector<Visible> visible_;
-  /// By place; and, while surfaces are looked for, one of the samples that show it, and 1.
+  /// The index of each place; during the search, a sample that shows it, plus 1.
   std::vector<std::uint32_t> index_at_;
   std::array<std::vector<LaneForm>, 3> forms_;
 };
@@ -91,7 +91,7 @@ struct VisibleRow {
   SurfaceRow lanes;
   /// A bit for each sample that shows a surface.
   std::uint64_t surface = 0;
-  /// Those of them at which Z is still to be written.
+  /// A bit for each of these samples at which Z is still to be written.
   std::uint64_t open_depth = 0;
   std::size_t first_pixel = 0;  // of the first sample (MapLayout)
   std::size_t columns = TileShape::size;
@@ -107,25 +107,25 @@ struct VisibleRow {
   }
 };
 
-/// Writes every channel of the specification, section 6, by certified floating point: a value comes
-/// with a proved bound on its error, and is written if all numbers that the bound allows round to
-/// the same one. Tiers, each tried where the one before does not settle a value:
+/// Writes every channel of the specification, section 6, by certified floating point: a value has a
+/// proved bound on its error, and is written if all numbers within the bound round to the same
+/// result. Tiers, each tried where the previous tier does not settle a value:
 ///   binary64      from the tile's q (Z, distance, P) or from the triangle (N, Nc, Ns, bary);
 ///   double-words  from the triangle, not Ns; Zlow and binary64 output begin here;
 ///   constants     depth or a world coordinate is exactly the same at the three corners, or a
 ///                 value is proved to be exactly 0, or a depth to be a binary32 number, because
 ///                 its numerator is a multiple of a power of two above its bound;
 ///   exact         ChannelWriter, that value alone.
-/// One for each thread: it remembers the triangles that it was asked about last.
+/// One for each thread, because it caches the triangles that it used last.
 class CertifiedWriter {
  public:
   CertifiedWriter(triangle::ChannelWriter& exact, const triangle::SceneRays& rays, MapRows rows);
   [[nodiscard]] const MapRows& rows() const { return rows_; }
 
-  /// To be called before the rows of a tile are written.
+  /// Call it before writing the rows of a tile.
   void start(const Tile& tile, const MapLayout& layout, triangle::Referee& referee,
              RenderStatistics& statistics);
-  /// If the encoding cannot hold a depth, returns what is wrong at the first such pixel.
+  /// If the encoding cannot hold a depth, returns the fault of the first such pixel.
   /// `statistics.rounding` counts values.
   std::optional<triangle::EncodingFault> write(const VisibleRow& row, triangle::Referee& referee,
                                                RenderStatistics& statistics);
@@ -134,18 +134,18 @@ class CertifiedWriter {
   /// The samples of a row at which channels are still to be written.
   struct Open;
 
-  /// id, face, object and what a segmentation has.
+  /// Writes id, face, object and the segments.
   void write_origins(const VisibleRow& row) const;
-  /// What is the same at all pixels of a triangle.
+  /// Writes the channels that are the same at all pixels of a triangle.
   void write_normals(const VisibleRow& row, const SurfaceIndices& indices) const;
-  /// Writes what follows from number and q; returns what is left.
+  /// Writes the channels that follow from number and q; returns the samples that remain.
   Open write_settled(const VisibleRow& row, RenderStatistics& statistics);
   std::uint64_t write_encoded(const VisibleRow& row, const rendering::EncodedValues& values,
                               bool distance, RenderStatistics& statistics) const;
   std::uint64_t write_open_depths(const VisibleRow& row, RenderStatistics& statistics) const;
   void write_shading_normals(const VisibleRow& row, const SurfaceIndices& indices, Open& open,
                              RenderStatistics& statistics);
-  /// What binary64 never settles.
+  /// Writes the channels that binary64 never settles.
   void write_wide(const VisibleRow& row, const SurfaceIndices& indices, Open& open,
                   RenderStatistics& statistics) const;
 
@@ -157,10 +157,9 @@ class CertifiedWriter {
   const rendering::ChannelValues values_;
   const MapRows rows_;
   const ValueFrame frame_;
-  /// Whether a channel was asked for that double-words begin with: Zlow, or depth or distance in
-  /// binary64.
+  /// Whether a requested channel begins with double-words: Zlow, or depth or distance in binary64.
   bool needs_wide_;
-  /// Whether one was asked for that needs to know the surfaces of the tile.
+  /// Whether a requested channel needs the surfaces of the tile.
   bool needs_surfaces_;
   TileSurfaces surfaces_;
   /// By the surfaces' indices.

@@ -19,9 +19,9 @@ namespace {
 constexpr double ulp = epsilon<double>;
 
 /// D from q. Perspective: 1/q, where |1/q̂ − 1/q| = |q − q̂|/(q·q̂) and q ≥ q̂·(1 − 2⁻²⁰), and the
-/// division rounds (validation/proofs/depth/depth_row.gappa.in). Orthographic: −q. A bound that is
-/// NaN says that nothing is known. Nothing underflows: bounds on q are at least 2⁻¹⁰⁰ or u·|q|, so
-/// known depths lie between 2⁻¹⁰⁰ and 2⁸⁰, or err by at least 2⁻¹⁰⁰.
+/// division rounds (validation/proofs/depth/depth_row.gappa.in). Orthographic: −q. A bound of NaN
+/// means "unknown". Nothing underflows: bounds on q are at least 2⁻¹⁰⁰ or u·|q|, so known depths
+/// lie between 2⁻¹⁰⁰ and 2⁸⁰, or err by at least 2⁻¹⁰⁰.
 HWY_INLINE CertifiedLanes load_depth(const SurfaceRow& row, std::size_t first, bool perspective) {
   const D d;
   const V q = hn::LoadU(d, row.q + first);

@@ -9,8 +9,8 @@
 
 namespace fathom::fast {
 
-/// What is visible along a row: for each sample q and its tag, whose bits as a binary64 number are
-/// a bound on the error of q and whose lower half is the triangle's number (see surface_tag()).
+/// The visible surfaces of a row: for each sample q and its tag, whose bits as a binary64 number
+/// are a bound on the error of q and whose lower half is the triangle's number (see surface_tag()).
 /// Samples without a surface may have anything.
 struct SurfaceRow {
   const double* q = nullptr;
@@ -29,9 +29,9 @@ struct RoundedValues {
   std::uint64_t settled = 0;
 };
 
-// The binary64 tier of what follows from q alone, several samples at once, by the instructions that
-// the processor has. triangle/certified_surface.h and numeric/certified_rounding.h do the same for
-// one sample, and say why.
+// The binary64 tier of the channels that follow from q alone, for several samples at once, by the
+// instructions of the processor. triangle/certified_surface.h and numeric/certified_rounding.h do
+// the same for one sample and give the proofs.
 
 /// World x, y, z of the visible points, in scene units.
 /// Needs    usable rays of the world.

@@ -31,7 +31,7 @@ struct Reciprocal {
 // By a quotient in binary32, which takes a third of the time of one in binary64, and a step of
 // third order: 1/q = z₀/(1 − r) with r = 1 − q·z₀, and z₀·(1 + r + r²) leaves out r³, which is
 // below 2⁻⁶³. r is computed with an error of 2u at most, whether the product is fused or not.
-// Nothing is assumed of z₀: its error is looked at (depth_interval.gappa.in).
+// Nothing is assumed about z₀: its error is checked (depth_interval.gappa.in).
 HWY_INLINE Reciprocal reciprocal(V q) {
   const D d;
   const V z = hn::PromoteTo(d, hn::Div(hn::Set(D32(), 1.0F), to_binary32(q)));

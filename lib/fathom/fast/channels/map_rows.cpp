@@ -16,7 +16,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// What the processor writes at once, if the whole of it is written.
+/// The size of a cache line, which the processor writes at once if it is written completely.
 constexpr std::size_t line = 64;
 
 void write_row(const std::byte* from, std::size_t bytes, std::byte* to) {

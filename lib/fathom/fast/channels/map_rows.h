@@ -27,10 +27,10 @@ struct MapLayout {
 template <class T>
 struct alignas(64) MapRow : std::array<T, TileShape::size> {};
 
-/// How rows are written to a map: as usual where the system has just provided its memory; else past
-/// the caches. Then nothing waits for what the memory held before: writing a tile's rows into a map
-/// of 8 MB, other writes in between, takes a third of the time of ordinary writes. Other threads
-/// see what was written after finish() of this thread.
+/// How rows are written to a map: as usual if the system has just provided its memory, otherwise
+/// past the caches. Then no write waits for the previous content of the memory: writing a tile's
+/// rows into a map of 8 MB, with other writes in between, takes a third of the time of ordinary
+/// writes. Other threads see the written values after finish() of this thread.
 struct MapRows {
   bool past_caches = false;
 
@@ -48,8 +48,8 @@ struct MapRows {
   static void write_past_caches(const void* from, std::size_t bytes, void* to);
 };
 
-/// What channels of a map have where no surface is seen, as rows of a tile that are ready to be
-/// written. Several threads may write different pixels at the same time.
+/// The background of a map's channels, as rows of a tile that are ready to be written. Several
+/// threads may write different pixels at the same time.
 class BackgroundRows {
  public:
   BackgroundRows(const rendering::MapBackground& background, MapRows rows);

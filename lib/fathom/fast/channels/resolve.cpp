@@ -28,7 +28,7 @@ struct RowBits {
   std::uint64_t surface = 0, open = 0;
 };
 
-/// What is visible along a row of a tile: q in binary64, tags, and places of the surfaces.
+/// The visible surfaces along a row of a tile: q in binary64, tags, and places of the surfaces.
 struct SurfacesOfRow {
   alignas(64) std::array<double, Tile::size> q{};
   alignas(64) std::array<std::uint64_t, Tile::size> tags{};
@@ -45,7 +45,7 @@ namespace {
 HWY_INLINE hn::Vec<DT32> lane_tags_at(const Tile& tile, std::uint32_t column, std::uint32_t row) {
   const LaneTag* const first = tile.tags() + Tile::index(column, row);
 #if HWY_HAVE_SCALABLE
-  // A vector may be longer than a row of a cell, and no constant tells whether it is.
+  // A vector may be longer than a row of a cell, and no constant shows whether it is.
   HWY_ALIGN LaneTag tags[SetupBatch::most];
   for (std::uint32_t k = 0; k < hn::Lanes(D()); ++k) {
     tags[k] = tile.tags()[Tile::index(column + k, row)];
@@ -131,8 +131,8 @@ HWY_INLINE RowBits round_row(const Tile& tile, std::uint32_t row, float* depths,
   return bits;
 }
 
-/// Writes the depths of a row rounded to binary32, +∞ where there is no surface; those that are
-/// open mean nothing. `surfaces`: filled if not null.
+/// Writes the depths of a row rounded to binary32, +∞ where there is no surface; open depths are
+/// meaningless. `surfaces`: filled if not null.
 RowBits round_depths_of_row(const Tile& tile, std::uint32_t row, bool perspective, float* depths,
                             SurfacesOfRow* surfaces) {
   return perspective ? round_row<true>(tile, row, depths, surfaces)

@@ -18,15 +18,15 @@ struct TileOutput {
   CertifiedWriter& certified;
   /// If not null, the values of channel Z, which are written for the whole area.
   float* depths;
-  /// Whether there are channels besides Z in binary32 and A, and what these have where there is
-  /// no surface, as far as they have to be filled.
+  /// Whether there are channels other than Z in binary32 and A, and their background, if they must
+  /// be filled.
   bool others;
   const BackgroundRows& background;
   MapLayout layout;
 };
 
-/// Writes the visible surfaces; stops at the first fault in row order, whose pixel is that of the
-/// map.
+/// Writes the visible surfaces; stops at the first fault in row order, whose pixel is numbered in
+/// the map.
 std::optional<triangle::EncodingFault> resolve(const Tile& tile, const TileOutput& output,
                                                const DrawContext& context);
 
@@ -65,7 +65,7 @@ class FastOutput {
   float* depths_;
   /// Whether there are channels besides these and A.
   bool others_;
-  /// Of all channels, and of those besides A and these.
+  /// The background of all channels, and of all channels except A and these.
   BackgroundRows all_, beside_surfaces_;
 };
 

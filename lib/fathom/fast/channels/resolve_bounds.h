@@ -6,7 +6,7 @@
 // validation/proofs/depth/depth_*.gappa.in and weight_row.gappa.in prove each.
 namespace fathom::fast::resolve_bounds {
 
-/// Relative room for the roundings of the ends of the interval, and of what spreads it.
+/// Relative room for the roundings of the ends of the interval, and of the factor that spreads it.
 inline constexpr double end_room = 0x1p-50;
 inline constexpr double spread_room = 1 + 0x1p-18;
 /// Of the quotient in binary32 that 1/q is computed from: 1 − q·z.

@@ -51,7 +51,7 @@ HWY_INLINE Vector3 cross3(const Vector3& a, const Vector3& b) {
   return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
           hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
 }
-/// Of factors of these magnitudes, those of the terms of their cross product.
+/// The magnitudes of the terms of a cross product, from the magnitudes of its factors.
 HWY_INLINE Vector3 cross_sizes(const Vector3& a, const Vector3& b) {
   return {hn::MulAdd(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulAdd(a.z, b.x, hn::Mul(a.x, b.z)),
           hn::MulAdd(a.x, b.y, hn::Mul(a.y, b.x))};
@@ -135,7 +135,8 @@ struct RoundedNormals {
   unsigned settled;
 };
 
-/// `factor`: of the bounds on n. `towards`: its sign in each lane says which way n is turned.
+/// `factor`: of the bounds on n. `towards`: its sign in each lane is the direction in which n is
+/// turned.
 HWY_INLINE RoundedNormals unit_normals(const SizedVector& n, double factor,
                                        const CertifiedLanes& towards) {
   const V greatest = greatest_of(n.size.x, n.size.y, n.size.z);
@@ -196,7 +197,7 @@ HWY_INLINE void store_form(V c, V b, V a, V error, M safe, LaneForm* form) {
   hn::StoreInterleaved4(c, b, a, known, D(), &form->c);
 }
 
-/// What forms are made of besides the triangle.
+/// The data of forms that do not depend on the triangle.
 struct FormFrame {
   const Rays& rays;
   const ImageBounds& image;
@@ -347,7 +348,7 @@ HWY_INLINE CertifiedLanes interpolated_component(const LaneShadingNormal* normal
   return certified_sum(n[0], certified_sum(certified_product(B, n[1]), certified_product(C, n[2])));
 }
 
-/// The inverse of the length; nothing is known where squares may leave their range.
+/// The inverse of the length; unknown if squares may leave their range.
 HWY_INLINE Divisor length_of(const CertifiedLanes& x, const CertifiedLanes& y,
                              const CertifiedLanes& z) {
   const Vector3 n{x.value, y.value, z.value};
@@ -362,7 +363,7 @@ HWY_INLINE Divisor length_of(const CertifiedLanes& x, const CertifiedLanes& y,
           hn::IfThenElse(known, error, constant(std::numeric_limits<double>::quiet_NaN()))};
 }
 
-/// One that is exactly 0 stays so where the length is known.
+/// A component that is exactly 0 remains 0 if the length is known.
 HWY_INLINE unsigned store_component(const CertifiedLanes& c, const Divisor& length,
                                     std::size_t first, MapRow<float>& row) {
   const M is_zero = hn::And(is_exact_zero(c), hn::Eq(length.error, length.error));

@@ -7,8 +7,9 @@
 #include "fathom/fast/channels/channel_rows.h"
 #include "fathom/fast/pixels/surface_values.h"
 
-// The binary64 tier of what channels need to know of visible triangles, several of them at once.
-// triangle/certified_surface.h does the same for one triangle, and says why.
+// The binary64 tier of the properties of visible triangles that channels need, for several
+// triangles at once. triangle/certified_surface.h does the same for one triangle and gives the
+// proofs.
 namespace fathom::fast {
 
 /// Visible triangles of one object: one array for each number.
@@ -22,11 +23,11 @@ struct TriangleLanes {
   alignas(64) Numbers u{}, v{};
 };
 
-/// A unit normal, in four numbers so that it lies in one piece of memory.
+/// A unit normal, padded to four numbers so that it can be loaded at once.
 using NormalOfSurface = std::array<float, 4>;
 
-/// Normals of such triangles in the world, or in the camera frame, turned towards the camera.
-/// Returns a bit for each lane whose three numbers are settled.
+/// Computes the normals of such triangles in the world, or in the camera frame, turned towards the
+/// camera. Returns a bit for each lane whose three numbers are settled.
 /// Needs    a usable object and a usable world; for the camera frame, usable camera normals.
 unsigned round_normals(const TriangleLanes& triangles, const triangle::ObjectRays& object,
                        const ValueFrame& frame, bool in_camera_frame, NormalOfSurface* normals);
@@ -35,8 +36,8 @@ unsigned round_normals(const TriangleLanes& triangles, const triangle::ObjectRay
 struct alignas(32) LaneForm {
   double c, b, a, error;
 };
-/// Those of WeightForms: the weights of B and of C, and the divisor. Bounds are +∞ where the
-/// magnitudes of corners are none for which they were derived.
+/// The forms of WeightForms: the weights of B and of C, and the divisor. Bounds are +∞ if they were
+/// not derived for the magnitudes of the corners.
 struct LaneForms {
   LaneForm *B, *C, *divisor;
 };
@@ -59,11 +60,11 @@ struct alignas(32) LaneShadingNormal {
   };
   std::array<Component, 3> components;
 };
-/// Nothing is known where `normals` is null.
+/// The result is unknown if `normals` is null.
 LaneShadingNormal lane_shading_normal(const SurfaceNormals* normals);
 
-/// Interpolated normals of unit length at the samples of a row; of a sample all three numbers are
-/// settled, or none. Like interpolated() and unit() in shading_normals.h.
+/// Interpolated normals of unit length at the samples of a row; either all three numbers of a
+/// sample are settled or none. Like interpolated() and unit() in shading_normals.h.
 void round_shading_normals(const SurfaceRow& row, const SurfaceIndices& indices,
                            const LaneForms& forms, const LaneShadingNormal* normals,
                            std::array<RoundedValues<float>, 3>& rounded);

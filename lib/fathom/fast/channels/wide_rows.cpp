@@ -18,7 +18,7 @@ using namespace triangle;
 
 namespace {
 
-/// What forms are at the samples of a row: begin + a·u.
+/// Forms at the samples of a row: begin + a·u.
 struct WideForms {
   WideLanes begin, a, constant;
   V error, constant_error;
@@ -41,7 +41,7 @@ HWY_INLINE WideForms wide_forms_of(const WideDepth* depths, const std::uint32_t*
           third.second};
 }
 
-/// Those of the surfaces of a row, one vector after the other.
+/// The forms of the surfaces of a row, one vector after another.
 class FormsOfRow {
  public:
   HWY_INLINE FormsOfRow(const WideDepth* depths, const SurfaceIndices& indices, double v)
@@ -72,9 +72,9 @@ HWY_INLINE CertifiedWideLanes depth_of(const WideForms& f, V u, bool perspective
   return perspective ? quotient(fixed, varying) : quotient(varying, fixed);
 }
 
-/// Like ray_length() in triangle/double_word_surface.h; terms that are 0 are left out, and of the
-/// sum of the squares the one of y and 1 are added first, which is the same for a row of pixels if
-/// y is.
+/// Like ray_length() in triangle/double_word_surface.h; terms that are 0 are left out, and in the
+/// sum of the squares the square of y and 1 are added first: their sum is the same for a row of
+/// pixels if y is.
 class RayLengths {
  public:
   HWY_INLINE RayLengths(const SceneRays& rays, double v)

@@ -4,22 +4,22 @@
 
 #include "fathom/fast/channels/surface_lanes.h"
 
-// The double-word tier of what binary64 never settles, several samples at once: depth and distance
-// in binary64, and what Z leaves of the depth. triangle/double_word_surface.h does the same for one
-// sample, and says why.
+// The double-word tier of the channels that binary64 never settles, for several samples at once:
+// depth and distance in binary64, and Zlow, the depth minus Z. triangle/double_word_surface.h does
+// the same for one sample and gives the proofs.
 namespace fathom::fast {
 
-/// DepthForms<WordPair> of a surface: c + b·v + a·u, and a constant. Where the depth is known to be
-/// the same number everywhere, forms without errors, of which one is 1, that give it.
+/// DepthForms<WordPair> of a surface: c + b·v + a·u, and a constant. If the depth is known to be
+/// the same number everywhere, the forms give it without errors, and one of them is 1.
 struct alignas(32) WideDepth {
   WordPair c, b, a, constant;
   double error, constant_error;
   std::array<double, 2> unused{};
 };
 
-/// That of a surface.
+/// The form of a surface.
 WideDepth wide_depth(SurfaceFacts& surface, const ValueFrame& frame);
-/// That of a surface of which nothing is known.
+/// The form of an unknown surface.
 WideDepth unknown_wide_depth();
 
 /// Null where it is not wanted.

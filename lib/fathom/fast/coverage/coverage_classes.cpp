@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
-/// Whether no depth of the triangles counts: q of a point lies between those of the corners.
+/// Whether no depth of the triangles counts: q of a point lies between the q of the corners.
 HWY_INLINE M certainly_miss(const DepthRange& range, const Corners& t) {
   const V error = hn::Add(t.q_error, t.q_error);
   const V least = hn::Sub(least_of(t.A.q, t.B.q, t.C.q), error);

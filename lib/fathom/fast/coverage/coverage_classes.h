@@ -9,7 +9,7 @@
 
 namespace fathom::fast {
 
-/// What is certain about a triangle whose area counts for channel A.
+/// The certain facts about a triangle whose area counts for channel A.
 enum class CoverageClass : std::uint8_t {
   nothing,   // no point of it has a depth in the range that counts
   positive,  // certainly Δ > 0; all of it in front of the camera and in the range

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-// Directed edges of triangles, of which opposite ones cancel.
+// Directed edges of triangles; opposite edges cancel.
 namespace fathom::fast {
 
-// An edge between vertices less than 2³² − 1 as a single word, which is never 0 or 1.
+// An edge as a single word, which is never 0 or 1; its vertices are less than 2³² − 1.
 inline std::uint64_t word_of_edge(std::uint32_t from, std::uint32_t to) {
   return (std::uint64_t{from} + 1) << 32 | to;
 }
@@ -21,30 +21,30 @@ inline std::uint32_t end_of_edge(std::uint64_t word) {
   return static_cast<std::uint32_t>(word);
 }
 
-/// Of 2^(64 − shift) places in a table, that of an edge and of its opposite (Fibonacci hashing,
-/// [Knu98] 6.4).
+/// The place of an edge, and of its opposite, in a table of 2^(64 − shift) places (Fibonacci
+/// hashing, [Knu98] 6.4).
 inline std::size_t place_of_edge(std::uint32_t from, std::uint32_t to, int shift) {
   const std::uint64_t sum = std::uint64_t{from} + to, product = std::uint64_t{from} * to;
   return static_cast<std::size_t>(((sum ^ product << 1) * 0x9E3779B97F4A7C15) >> shift);
 }
 
-/// Directed edges, of which opposite ones cancel.
+/// Directed edges; opposite edges cancel.
 ///
-/// Triangles turned so that their area is positive run along a common edge in opposite directions
-/// if they lie on its two sides. How many triangles cover a point changes only across the edges
-/// that are left.
+/// Two triangles that are turned so that their areas are positive, and lie on different sides of a
+/// common edge, run along it in opposite directions. So the number of triangles that cover a point
+/// changes only across the edges that remain.
 class EdgeBalance {
  public:
   struct Edge {
     std::uint32_t from, to;
-    /// How often it is there more than its opposite.
+    /// How many more times the edge was added than its opposite.
     std::uint32_t times = 1;
   };
 
-  /// Empties it, with room for about so many different edges; there may be more.
+  /// Removes all edges and makes room for about so many different edges; more are allowed.
   void start(std::size_t expected_edges);
-  /// Vertices must be less than 2³² − 1. Cancels edges from `to` to `from`, and keeps this one
-  /// until its opposite comes.
+  /// Adds an edge, which cancels an edge from `to` to `from` or is kept until such an edge is
+  /// added. Vertices must be less than 2³² − 1.
   void add(std::uint32_t from, std::uint32_t to, std::uint32_t times = 1) {
     const std::uint64_t edge = word_of_edge(from, to), opposite = word_of_edge(to, from);
     for (std::size_t i = place_of_edge(from, to, shift_);; i = (i + 1) & mask_) {
@@ -64,7 +64,7 @@ class EdgeBalance {
       }
     }
   }
-  /// Calls visit(Edge) for each edge that is left.
+  /// Calls visit(Edge) for each edge that remains.
   template <class Visit>
   void for_each_left(const Visit& visit) const {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
@@ -82,7 +82,7 @@ class EdgeBalance {
     if (more_.empty()) more_.resize(slots_.size());
     more_[i] += times;
   }
-  /// Takes an edge `times` times from its opposite in slot i.
+  /// Cancels the opposite of an edge, in slot i, `times` times.
   void cancel(std::size_t i, std::uint64_t edge, std::uint32_t times) {
     const std::uint32_t there = 1 + (more_.empty() ? 0 : more_[i]);
     if (!more_.empty()) more_[i] = 0;
@@ -98,7 +98,7 @@ class EdgeBalance {
   void grow();
 
   std::vector<std::uint64_t> slots_;
-  /// How often the edge in each slot is there beyond once; empty as long as none is.
+  /// How often the edge in each slot was added, less one; empty while this is 0 for all slots.
   std::vector<std::uint32_t> more_;
   /// Slots that are not empty.
   std::size_t used_ = 0;
@@ -123,13 +123,13 @@ inline void EdgeBalance::grow() {
   before.for_each_left([&](const Edge& edge) { add(edge.from, edge.to, edge.times); });
 }
 
-/// Directed edges, of which most opposite ones cancel: what EdgeBalance does, without its care. An
-/// edge has one place, without regard to what is there, and an edge that was there has to leave.
-/// Where triangles come in the order of a surface, few edges wait at any time, so that few have to;
-/// and nothing is asked that a processor would have to guess.
+/// Directed edges; most opposite edges cancel. A cheaper EdgeBalance: an edge has a single place in
+/// the table and evicts any edge already there. If triangles come in the order of a surface, few
+/// edges wait at any time, so few are evicted; and the code has no branches that a processor would
+/// mispredict.
 class EdgeSieve {
  public:
-  /// Empties it, for so many edges at most.
+  /// Removes all edges and makes room for at most so many.
   void start(std::size_t most_edges) {
     const std::size_t size = std::bit_ceil(std::clamp<std::size_t>(most_edges / 4, 16, 4096));
     shift_ = std::countl_zero(size - 1);
@@ -147,7 +147,7 @@ class EdgeSieve {
     left_[left_count_] = other;
     left_count_ += static_cast<std::size_t>(other != none && !cancels);
   }
-  /// Calls visit(from, to) for each edge that is left: opposite ones may be among them.
+  /// Calls visit(from, to) for each edge that remains; some may be opposites of each other.
   template <class Visit>
   void for_each_left(const Visit& visit) const {
     const auto show = [&](std::uint64_t edge) { visit(start_of_edge(edge), end_of_edge(edge)); };
@@ -161,7 +161,7 @@ class EdgeSieve {
   static constexpr std::uint64_t none = 0;
 
   std::vector<std::uint64_t> slots_;
-  /// Those that had to leave: the first so many.
+  /// The evicted edges: the first elements, as many as the following count.
   std::vector<std::uint64_t> left_;
   std::size_t left_count_ = 0;
   int shift_ = 60;

@@ -24,7 +24,8 @@ void PixelUnion::add(std::span<const SquarePoint> corners, double area_error) {
 }
 
 // A line crosses the boundary of each polygon twice or not at all; between the two it is inside.
-// The measure of a union of spans changes by no more than one of its ends is moved.
+// The measure of a union of spans changes by at most the distance by which one of its ends is
+// moved.
 double PixelUnion::covered_length(std::span<const SquareEdges::Crossing> crossings) {
   is_inside_.assign(static_cast<std::size_t>(polygons_), false);
   double length = 0, left = 0;
@@ -48,9 +49,9 @@ Interval PixelUnion::area() {
   return {std::max(sum - bound, 0.0), std::min(sum + bound, 1.0)};
 }
 
-// Corners where the computed f is not negative stay. So whatever is cut off or kept by mistake has
-// |exact f| ≤ 2·error + (|a| + |b|)·8u: a strip across the square with a width of at most twice
-// that over max(|a|, |b|), and a length of at most √2.
+// Corners where the computed f is not negative remain. So any part that is cut off or kept by
+// mistake has |exact f| ≤ 2·error + (|a| + |b|)·8u: a strip across the square with a width of at
+// most twice that over max(|a|, |b|), and a length of at most √2.
 void ClippedSquare::clip(const UncertainHalfPlane& h) {
   std::array<double, most> f{};
   bool all_inside = true, all_outside = true;
@@ -93,11 +94,11 @@ void ClippedSquare::clip(const UncertainHalfPlane& h) {
 // From there it follows everywhere else. Let each edge be bent so that it passes the middles of
 // slabs where its crossings are computed: that moves it by at most ξ, and no end. The number just
 // to the left of x = 0 changes from one middle to another exactly where bent edges pass it in
-// between, and along a middle at the crossings as computed. The point of which the number is known
-// is more than 2ξ away from any crossing, so it has the same number with bent edges.
+// between, and along a middle at the crossings as computed. The point whose number is known is more
+// than 2ξ away from any crossing, so it has the same number with bent edges.
 //
-// The length of the points with a positive winding number changes by no more than a crossing is
-// moved, and crossings at the same place may come in any order: square_edges.h.
+// The length of the points with a positive winding number changes by at most the distance by which
+// a crossing is moved, and crossings at the same place may have any order: square_edges.h.
 
 namespace {
 
@@ -158,8 +159,8 @@ void PixelWinding::add(const SquarePoint& from, const SquarePoint& to, double po
 }
 
 // With x to the right and y downwards, a triangle of positive area lies to the left of its edges
-// that go down and to the right of those that go up. An edge with both ends beyond the left side
-// bounds no length in the square, and never passes that side.
+// that go down and to the right of its edges that go up. An edge with both ends beyond the left
+// side bounds no length in the square, and never passes that side.
 void PixelWinding::set_edges() {
   edges_.clear();
   for (const auto& [first, second, times] : added_) {

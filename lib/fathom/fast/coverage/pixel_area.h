@@ -17,8 +17,8 @@ class PixelUnion {
  public:
   void clear();
   /// Corners in the order of the boundary, either way round, finite; they may lie outside the
-  /// square. `area_error`: at most by how much area, within the square, the polygon differs from
-  /// the one that is meant.
+  /// square. `area_error`: a bound on the area, within the square, by which the polygon differs
+  /// from the intended one.
   void add(std::span<const SquarePoint> corners, double area_error);
   /// An interval that contains the area of the union of the polygons that are meant, within [0, 1].
   Interval area();
@@ -37,8 +37,8 @@ class PixelUnion {
 struct UncertainHalfPlane {
   /// Finite: an infinite term minus another one is NaN, which no comparison finds on either side.
   double a, b, c;
-  /// Of f at any point of the unit square, including the roundings of its evaluation; +∞: nothing
-  /// is known.
+  /// A bound on the error of f at any point of the unit square, including the roundings of its
+  /// evaluation; +∞ if unknown.
   double error;
 };
 
@@ -67,17 +67,17 @@ class ClippedSquare {
 class PixelWinding {
  public:
   void clear();
-  /// An edge of a triangle turned so that its area is positive, which is there so many times.
+  /// Adds an edge `times` times; its triangle is turned so that its area is positive.
   /// `position_error` bounds the errors of the ends' coordinates. Edges with the same computed ends
-  /// become one.
+  /// are merged.
   void add(const SquarePoint& from, const SquarePoint& to, double position_error, int times = 1);
   /// How many edges differ from each other.
   [[nodiscard]] std::size_t size() const { return added_.size(); }
 
   /// An interval that contains the area, within [0, 1]. `count(point)` is the number of triangles
   /// that cover a point of the square, if it is certain that it is the same for all points within
-  /// the position errors around it; otherwise negative. If it is negative at several points of
-  /// each slab, nothing is known about the area ({0, 1}).
+  /// the position errors around it; otherwise negative. If it is negative at several points of each
+  /// slab, the area is unknown ({0, 1}).
   template <class Count>
   Interval area(const Count& count);
 

@@ -8,8 +8,8 @@
 namespace fathom::fast {
 namespace {
 
-/// Sorts numbers, or what is nearly in order; visit(a, b) for each two that change places, a having
-/// been before b.
+/// Sorts numbers, or nearly sorted items; calls visit(a, b) for each two that change places, where
+/// a was before b.
 template <class Items, class Key, class Visit>
 void sort_by(Items& items, const Key& key, const Visit& visit) {
   for (std::size_t i = 1; i < items.size(); ++i) {
@@ -85,7 +85,8 @@ void SquareEdges::start() {
   breaks_.erase(std::unique(breaks_.begin(), breaks_.end()), breaks_.end());
 }
 
-/// To the heights between two breaks: leaves out the edges that end, and takes those that begin.
+/// Moves to the heights between two breaks: removes the edges that end and adds the edges that
+/// begin.
 void SquareEdges::enter(double low, double high) {
   std::size_t kept = 0;
   for (Crossing& crossing : crossings_) {
@@ -141,8 +142,8 @@ void SquareEdges::add_cut(double low, double high, double d_low, double d_high) 
   cuts_.push_back(low + (high - low) * (d_low / (d_low - d_high)));
 }
 
-// Two crossings change places exactly once while what was sorted by x at one height is sorted by
-// that at another. Where they do so beyond a side of the square, that bounds no length in it.
+// Two crossings change places exactly once while crossings that are sorted by x at one height are
+// sorted by x at another. If they do so beyond a side of the square, this bounds no length in it.
 void SquareEdges::find_cuts(double low, double high) {
   cuts_.clear();
   for (const Crossing& c : crossings_) {

@@ -11,9 +11,10 @@
 // validation/proofs/areas/area_*.gappa.in proves each.
 namespace fathom::fast::area_bounds {
 
-/// x of an edge at a height, in units of its greatest |x| (square_edges.h).
+/// x of an edge at a height, in units of its greatest |x| (SquareEdges).
 inline constexpr double crossing_error = 16 * unit_roundoff<double>;
-/// What moving the ends of an edge, or the corners of a triangle, by ε does to an area, over ε.
+/// The effect on an area, over ε, of moving the ends of an edge, or the corners of a triangle, by
+/// ε.
 inline constexpr double moved_edge = 4.1, moved_triangle = 16;
 /// The same for an edge, over ε times its length near the square, and for its ends, over ε².
 inline constexpr double moved_length = 2.83, moved_end = 6.3;
@@ -32,10 +33,10 @@ struct SquarePoint {
   double x, y;
 };
 
-/// Line segments that cross the unit square, swept from top to bottom in slabs: heights within
-/// which none of them ends and, except for rounding, no two cross each other or a side of the
-/// square. There, a length along a horizontal line that depends on the order of the crossings is
-/// linear in the height.
+/// Line segments that cross the unit square, swept from top to bottom in slabs: ranges of heights
+/// in which no segment ends and, except for rounding, no two segments cross each other or a side of
+/// the square. There, a length along a horizontal line that depends on the order of the crossings
+/// is linear in the height.
 ///
 /// Let X ≥ 1 bound the x of the segments' ends, and u be the unit roundoff.
 /// 1. x at a height y of an edge is computed as x₀ + (y − y₀)·s with s = (x₁ − x₀)/(y₁ − y₀), y
@@ -43,28 +44,30 @@ struct SquarePoint {
 ///    5.1u·|x₁ − x₀| ≤ 10.2uX, and the sum 3uX more: ξ = 16uX covers it.
 /// 2. Breaks at ends are exact. Where the computed distance of two edges has opposite signs at two
 ///    successive ends, a break is set where the linear interpolation of these two distances
-///    vanishes. The true distance differs from that by at most 2ξ everywhere, so it is at most 2ξ
-///    at that place, which is computed with an error of at most 8u. Where the signs are not
-///    opposite, the distance does not fall below −2ξ on the other side. The same holds for an edge
-///    and a side of the square.
-/// 3. So in a slab, except for the 8u at its two ends, any two crossings whose order is somewhere
-///    different from that at mid-height differ there by at most 4ξ. Sorting them as at mid-height
-///    moves each by at most 4ξ (running maximum).
-/// 4. A length that changes by no more than a crossing is moved, and that is a linear combination
-///    of crossings as long as their order is fixed, therefore differs by at most 8nξ from a linear
-///    function that has the value at mid-height, n being the number of crossings and of sides of
-///    the square; the value computed at mid-height adds nξ. Edges of which the computed x is below
-///    −4ξ at two successive ends, or above 1 + 4ξ, lie beyond that side in between: they do not
-///    count, and where there are no others, the length is constant, and no break is set.
+///    vanishes. The true distance differs from the interpolation by at most 2ξ everywhere, so it is
+///    at most 2ξ at the break, whose height is computed with an error of at most 8u. Where the
+///    signs are not opposite, the distance does not fall below −2ξ on the other side. The same
+///    holds for an edge and a side of the square.
+/// 3. So in a slab, except for the 8u at its two ends, any two crossings whose order somewhere
+///    differs from their order at mid-height differ there by at most 4ξ. Sorting them as at
+///    mid-height moves each by at most 4ξ (running maximum).
+/// 4. Consider a length that changes by at most the distance by which a crossing is moved, and that
+///    is a linear combination of the crossings while their order is fixed. It therefore differs by
+///    at most 8nξ from a linear function with its value at mid-height, where n is the number of
+///    crossings and of sides of the square; the value computed at mid-height adds nξ. An edge whose
+///    computed x is below −4ξ at two successive ends, or above 1 + 4ξ at both, lies beyond that
+///    side between them and does not count. If all edges do, the length is constant, and no break
+///    is set.
 /// 5. The 8u at both ends of a slab, times a length of at most 1: 16u per slab that an edge may
 ///    meet. A slab too thin for its middle to lie inside it is left out: 2u. An edge that rises by
-///    less than 2⁻⁶⁰ is left out, except for breaks at its ends: it is met in a slab no higher than
-///    that. Products and sums: 4u of the sum per slab.
-/// Together 9nξ times the heights in which edges may be met, 32u per slab there, per thin slab and
-/// per level edge, and 4u of the sum per slab; error() returns 10nξ times those heights, and that.
+///    less than 2⁻⁶⁰ is left out, except for breaks at its ends: the slab in which it is met is no
+///    higher than 2⁻⁶⁰. Products and sums: 4u of the sum per slab.
+/// Together: 9nξ times the heights in which edges may be met; 32u per slab there, per thin slab and
+/// per level edge; and 4u of the sum per slab. error() returns these terms, with 10nξ in place of
+/// 9nξ.
 ///
-/// Where the length is all or nothing between two successive ends, because all edges together could
-/// not change what it depends on, neither order nor place of the edges matters.
+/// If the length is all or nothing between two successive ends, because all edges together cannot
+/// change the quantity that it depends on, neither order nor place of the edges matters.
 ///
 /// Between two successive ends where a single edge may be met, nothing depends on an order:
 /// 6. In a slab the edge's x differs from what of it is within the square by at most 4ξ if that is
@@ -95,10 +98,10 @@ class SquareEdges {
     double thickness, middle;
     /// In the order of their x.
     std::span<const Crossing> crossings;
-    /// On the way here from the top: the sum of the tags of edges that have come from the right to
-    /// the left of x = 0, less those that have gone from the left to the right. If a tag says by
-    /// how much something that depends on the point grows from the left of the edge to its right,
-    /// then it has grown by so much at x = 0 (at the left of it, as far as edges pass through it).
+    /// The sum of the tags of edges that have moved, from the top to here, from the right to the
+    /// left of x = 0, minus the tags of edges that have moved from the left to the right. If a tag
+    /// is the increase of a quantity from the left of the edge to its right, then the quantity has
+    /// increased by `passed` at x = 0 (at the left of x = 0, if edges pass through it).
     std::int32_t passed;
   };
 
@@ -107,8 +110,8 @@ class SquareEdges {
     double thickness;
     /// As in a slab, at the upper end.
     std::int32_t passed;
-    /// What depends on the point, as above, is at any point of the square in the strip at least and
-    /// at most by so much greater than at x = 0 at the upper end.
+    /// The least and the greatest increase of such a quantity from x = 0 at the upper end to any
+    /// point of the square in the strip.
     std::int32_t least, greatest;
   };
 
@@ -116,17 +119,17 @@ class SquareEdges {
   /// A segment between points that may lie outside the square. The tag is for the caller's use.
   void add(const SquarePoint& p, const SquarePoint& q, std::int32_t tag);
 
-  /// Those that are neither level nor certainly outside the square.
+  /// The edges that are neither level nor certainly outside the square.
   [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
-  /// Calls visit(Slab) for one after another, as long as it returns true, but for those in strips
+  /// Calls visit(Slab) for one slab after another while it returns true, except for slabs in strips
   /// for which decide(Strip) returns true.
   template <class Decide, class Visit>
   void for_each_slab(const Decide& decide, const Visit& visit);
   /// The sum over the slabs of thickness times length(Slab); and over strips of thickness times
-  /// length_in(Strip) where that is the length all over it, not a negative number.
+  /// length_in(Strip), if this is not negative: then it is the length throughout the strip.
   template <class LengthIn, class Length>
   double integrate(const LengthIn& length_in, const Length& length);
-  /// The error of the integrate() that returned the sum, which was the last.
+  /// The error of the last integrate(), which returned the sum.
   [[nodiscard]] double error(double sum) const;
   /// ξ.
   [[nodiscard]] double crossing_error() const;

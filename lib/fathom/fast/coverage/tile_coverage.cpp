@@ -61,8 +61,8 @@ void TileCoverage::settle_open(const DrawContext& context) {
 
 namespace {
 
-/// The parts of a segment, 0 to 1 from p to q, between which it is near the unit square; where that
-/// is not the whole segment, what is left out is at least about a pixel away from the square.
+/// The parts of a segment, 0 to 1 from p to q, between which it is near the unit square; if that is
+/// not the whole segment, the rest is at least about a pixel away from the square.
 struct Part {
   double first = 0, last = 1;
 };
@@ -98,7 +98,7 @@ SquarePoint point_between(const ExactPoint& p, const ExactPoint& q, const Dyadic
 
 }  // namespace
 
-// Only what is near the pixel, so that coordinates are small.
+// Only the part near the pixel, so that coordinates are small.
 std::pair<SquarePoint, SquarePoint> TileCoverage::exact_ends(const OutlineEdge& edge,
                                                              const SquarePoint& local,
                                                              const SquarePoint& corner) const {
@@ -119,8 +119,8 @@ std::pair<SquarePoint, SquarePoint> TileCoverage::exact_ends(const OutlineEdge& 
           point_between(from, to, Dyadic(last), corner)};
 }
 
-// Edges that certainly miss the pixel are left out, so that where it is only beside one, the area
-// is known without any error.
+// Edges that certainly miss the pixel are left out, so that the area of a pixel next to an edge has
+// no error.
 Interval TileCoverage::area_between_edges(std::uint32_t pixel, Corners corners) {
   const std::uint32_t column = pixel % size, row = pixel / size;
   const double x = column, y = row;

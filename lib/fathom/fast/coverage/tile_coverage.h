@@ -21,14 +21,15 @@ namespace fathom::fast {
 /// Channel A (specification, section 6), one tile after another, with the same values as
 /// rounded_pixel_coverage().
 ///
-/// How many triangles cover a point of the image changes only across edges that do not lie between
-/// two adjacent triangles (TileOutlines). A pixel that no such edge meets is covered wholly or not
-/// at all, as its sample is, and one that a single triangle covers is covered wholly. That holds
-/// for front faces alone, too: where they are seen to cover a pixel, back faces need not be looked
-/// at, and in most tiles they do so everywhere. What is left is mostly silhouettes. There, the area
-/// between such edges counts (PixelWinding) or, where triangles are cut by the range of depths, the
-/// area of the union of what meets the pixel (PixelUnion). Where a bound does not settle the
-/// rounding, first the ends of the edges are computed from exact numbers, and in the end the area.
+/// The number of triangles that cover a point of the image changes only across edges that do not
+/// lie between two adjacent triangles (TileOutlines). A pixel that no such edge meets is covered
+/// wholly or not at all, like its sample; a pixel inside a single triangle is covered wholly. Both
+/// also hold for front faces alone: if front faces cover a pixel, its back faces are not examined,
+/// and in most tiles front faces cover every pixel. The remaining pixels are mostly silhouettes.
+/// Their area is the area between such edges (PixelWinding) or, where the range of depths cuts
+/// triangles, the area of the union of the triangles that meet the pixel (PixelUnion). If a bound
+/// does not settle the rounding, the ends of the edges are computed from exact numbers first, and
+/// then the area.
 class TileCoverage {
  public:
   struct Scene {
@@ -39,14 +40,15 @@ class TileCoverage {
   };
   explicit TileCoverage(const Scene& scene) : scene_(scene) {}
 
-  /// `tile` has been drawn; its triangles are those of the bins, which must be sorted by area, not
-  /// by samples. Writes the values of its pixels.
+  /// Writes the values of the pixels of `tile`, which has been drawn. The bins contain its
+  /// triangles and must be sorted by area, not by samples.
   void write(const Tile& tile, std::uint32_t tile_number, const DrawContext& context, float* values,
              const MapLayout& layout);
 
  private:
   static constexpr std::uint32_t size = Tile::size;
-  /// A triangle by affine functions over the tile, (0, 0) its top left corner, positive inside.
+  /// A triangle as affine functions that are positive inside it; (0, 0) is the tile's top left
+  /// corner.
   struct Shape {
     std::uint32_t triangle;  // index into numbers_
     bool is_open;
@@ -58,26 +60,30 @@ class TileCoverage {
   };
 
   // tile_coverage_full.cpp: the triangles of the tile, and which pixels are covered wholly.
-  /// Finds the open pixels and those that are covered wholly; returns whether any is only open.
+  /// Finds the open pixels and the wholly covered pixels; returns whether any pixel is open but not
+  /// wholly covered.
   bool find_open_pixels(std::uint32_t tile_number, const DrawContext& context);
-  /// Adds the triangles of a side to those that are there, and their edges to the outlines; returns
-  /// the index of the first of them.
+  /// Adds the triangles of a side, and adds their edges to the outlines; returns the index of the
+  /// first added triangle.
   std::size_t add_triangles(Side side, std::uint32_t tile_number, const DrawContext& context);
-  /// visit(object, first, end): indices of the numbers of an object that come after each other.
+  /// Calls visit(object, first, end) for each run of consecutive indices whose numbers belong to
+  /// one object.
   template <class Visit>
   void for_each_object(std::span<const std::uint32_t> numbers, const Visit& visit) const;
-  /// Calls take(the class of a triangle, the class that is found) for some, by indices of numbers_.
+  /// Calls take(the class of a triangle, the class that is found) for some triangles, given as
+  /// indices of numbers_.
   template <class Take>
   void classify(std::span<const std::size_t> which, const DrawContext& context, const Take& take);
-  /// The boxes of all that are positive or negative, and whether they are large.
+  /// Finds the boxes of all positive and negative triangles, and whether each is large.
   void find_boxes(const DrawContext& context);
   void look_at_open(std::size_t begin, const DrawContext& context);
   void add_edges(std::size_t begin);
-  /// Finds pixels that front faces cover, whatever is behind them; returns whether all are covered.
+  /// Finds pixels that front faces cover, whatever is behind them; returns whether they cover all
+  /// pixels.
   bool look_at_front();
   void mark_open();
-  /// Looks for pixels that large triangles cover, from `begin` on, as far as open pixels need it,
-  /// and takes the triangles for small from then on; returns whether none is left.
+  /// Looks for open pixels that the large triangles from index `begin` on cover, and treats these
+  /// triangles as small afterwards; returns whether no open pixel is left.
   bool fill_large(std::size_t begin);
   /// Whether any pixel of the box is open, and not covered wholly.
   [[nodiscard]] bool is_open(const TileBox& box) const;
@@ -85,7 +91,7 @@ class TileCoverage {
   [[nodiscard]] const ImageObject& object_at(std::size_t i);
   [[nodiscard]] Shape shape_of(const ImageObject& object, std::size_t i) const;
   [[nodiscard]] Shape exact_shape(std::size_t i, const DrawContext& context);
-  /// Of numbers_[i], which is what bins call it.
+  /// The number in the scene of numbers_[i], which is a number in the bins.
   [[nodiscard]] std::uint32_t number_in_scene(std::size_t i);
 
   // tile_coverage_counts.cpp: how many triangles cover a point of an open pixel.
@@ -124,10 +130,10 @@ class TileCoverage {
 
   Scene scene_;
   PixelBox area_;
-  /// The triangles of the tile, those of one object next to each other, and their classes.
+  /// The triangles of the tile, grouped by object, and their classes.
   std::vector<std::uint32_t> numbers_;
   std::vector<CoverageTriangle> classes_;
-  /// Indices into numbers_ of those of which bins do not say enough, and of the others.
+  /// Indices into numbers_ of the triangles that the bins leave in doubt, and of the others.
   std::vector<std::size_t> doubtful_, without_box_;
   // For classify():
   std::vector<std::uint32_t> numbers_to_classify_;
@@ -135,12 +141,13 @@ class TileCoverage {
   /// For open triangles that may meet the tile, in the order of numbers_.
   std::vector<Shape> open_shapes_;
   TileOutlines outlines_;
-  /// The object that was asked for last.
+  /// The object that was looked up last.
   const ImageObject* object_ = nullptr;
   /// The sample shows a surface, a front face; covered wholly by one triangle, or by front faces;
   /// open; open at first, then found to be covered by one triangle.
   TileRows shown_{}, front_{}, full_{}, open_{}, met_{};
-  /// For each row, a column whose pixel nothing covers and no edge meets; none where negative.
+  /// For each row, a column whose pixel no triangle covers and no edge meets; negative if there is
+  /// none.
   std::array<int, size> reference_{};
   /// For open pixels of rows without such a column.
   std::vector<Shape> shapes_;
@@ -148,7 +155,7 @@ class TileCoverage {
   std::vector<std::uint32_t> triangles_at_;
   PixelUnion union_;
   PixelWinding winding_;
-  /// What was found at open pixels, row by row.
+  /// The results at open pixels, row by row.
   struct PixelValue {
     std::uint32_t pixel;
     float value;

@@ -4,8 +4,8 @@
 #include "fathom/fast/coverage/tile_functions.h"
 #include "fathom/fast/lanes/each_bit.h"
 
-// How many triangles cover a point of an open pixel: from the outlines, along its row, where a
-// pixel of the row is covered by none; otherwise by looking at the triangles.
+// The number of triangles that cover a point of an open pixel: from the outlines, along its row, if
+// no triangle covers some pixel of the row; otherwise from the triangles.
 namespace fathom::fast {
 
 void TileCoverage::prepare_counts() {
@@ -13,9 +13,9 @@ void TileCoverage::prepare_counts() {
   meet_triangles();
 }
 
-// A pixel that is not open, and whose sample shows no surface, is covered by no triangle. Where
-// open triangles meet the tile, those of pixels are needed in any case. To look at many edges for
-// every pixel takes more time than to look at its triangles.
+// No triangle covers a pixel that is not open and whose sample shows no surface. If open triangles
+// meet the tile, the triangles of pixels are needed in any case. Many edges take more time for
+// every pixel than its triangles.
 void TileCoverage::find_references() {
   constexpr std::size_t most_edges_in_row = 32;
   reference_.fill(-1);

@@ -50,8 +50,8 @@ bool TileCoverage::find_open_pixels(std::uint32_t tile_number, const DrawContext
   return true;
 }
 
-// Those of one object come next to each other. Bins say of most that their corners are usable, that
-// their orientation is certain, and how near they can be.
+// Triangles are grouped by object. For most triangles the bins show that their corners are usable
+// and their orientation is certain, and how near they can be.
 std::size_t TileCoverage::add_triangles(Side side, std::uint32_t tile_number,
                                         const DrawContext& context) {
   const std::size_t begin = numbers_.size();
@@ -74,7 +74,7 @@ std::size_t TileCoverage::add_triangles(Side side, std::uint32_t tile_number,
   return begin;
 }
 
-// Most tiles do not need them. Those of the doubtful are known.
+// Most tiles do not need these boxes. The boxes of doubtful triangles are known.
 void TileCoverage::find_boxes(const DrawContext& context) {
   std::vector<std::size_t>& others = without_box_;
   others.clear();
@@ -115,8 +115,8 @@ void TileCoverage::add_edges(std::size_t begin) {
   });
 }
 
-// The number of front faces is the same, too, throughout a pixel that they do not open, and not 0
-// where one is seen. With many edges, hardly any pixel is left that none of them meets.
+// The number of front faces is also the same throughout a pixel that they do not open, and not 0 if
+// its sample shows a front face. With many edges, hardly any pixel meets none of them.
 bool TileCoverage::look_at_front() {
   constexpr std::size_t many = 256;
   if (outlines_.size() > many) return false;

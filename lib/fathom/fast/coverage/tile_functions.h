@@ -9,7 +9,7 @@
 #include "fathom/fast/setup/setup.h"
 
 // Affine functions that are positive inside a triangle, in pixels from a tile's top left corner.
-// Their bounds cover what their users compute from them at pixels of the tile.
+// Their bounds cover all values that users compute from them at pixels of the tile.
 namespace fathom::fast {
 
 /// Points (x, y) with left ≤ x ≤ right, top ≤ y ≤ bottom, where a function is looked at.
@@ -19,7 +19,7 @@ struct Rectangle {
 
 /// Whether c + a·x + b·y is certainly negative all over a rectangle: at the corner where it is
 /// greatest it is below −error. bins/boxes.cpp does the same for several functions at once.
-/// Needs    an error that bounds that of the value as it is computed here.
+/// Needs    an error that bounds the error of the value as it is computed here.
 inline bool is_certainly_negative(double a, double b, double c, double error,
                                   const Rectangle& over) {
   const double x = a > 0 ? over.right : over.left, y = b > 0 ? over.bottom : over.top;
@@ -48,8 +48,8 @@ inline ValuesInPixel values_in_pixel(const UncertainHalfPlane& f, double column,
 }
 
 /// Whether the functions are certainly not all positive anywhere in a pixel because of two of them:
-/// a sum of these that depends on the row alone, or on the column, is negative. That finds
-/// triangles beyond a side of the pixel that none of their own sides separates from it.
+/// a sum of these that depends on the row alone, or on the column, is negative. This finds
+/// triangles beyond a side of the pixel that no side of their own separates from it.
 bool certainly_misses_pixel(std::span<const UncertainHalfPlane> functions, double column,
                             double row);
 

@@ -12,9 +12,9 @@ namespace {
 
 using area_bounds::far, area_bounds::rounding_room, area_bounds::least_rise;
 
-/// Maps each vertex of an object to the first one asked for at the same place. Vertices at one
-/// place are in one place of the image, as far as they are taken there by the same instructions;
-/// otherwise they remain two.
+/// Maps each vertex of an object to the first requested vertex at the same place. Vertices at the
+/// same place have the same image point if the same instructions transformed them; otherwise they
+/// remain distinct.
 class VertexAtPlace {
  public:
   VertexAtPlace(const ImageObject& object, std::size_t most, std::vector<std::uint32_t>& slots)
@@ -88,8 +88,8 @@ std::vector<EdgeBalance::Edge>& TileOutlines::left_of(const ImageObject& object)
   return place->edges;
 }
 
-// Most of what the sieve leaves are edges of triangles that reach beyond the tile, and do not meet
-// it themselves; nor do their opposites, then.
+// Most edges that remain in the sieve belong to triangles that reach beyond the tile, and do not
+// meet the tile themselves; then their opposites do not meet it either.
 void TileOutlines::add(const ImageObject& object, std::span<const std::uint32_t> numbers,
                        std::span<const CoverageTriangle> classes) {
   sieve_edges(object, numbers, classes);
@@ -144,10 +144,10 @@ TileBox TileOutlines::box_of(const OutlineEdge& edge, double margin) const {
 }
 
 // Every point of the exact edge lies within e, the error of its ends, of its counterpart on the
-// computed one in both coordinates. Within the heights of a row of pixels, widened by e on both
-// sides, the computed edge lies between the x of its two ends there; these err by at most
-// 5.1u·|Δx| for the product (see square_edges.h) and 4u of a coordinate for sums: less than
-// rounding_room up to `far` (validation/proofs/areas/row_of_edge.gappa.in). So do the heights.
+// computed edge in both coordinates. Within the heights of a row of pixels, widened by e on both
+// sides, the computed edge lies between the x of its two ends there; these err by at most 5.1u·|Δx|
+// for the product (see square_edges.h) and 4u of a coordinate for sums: less than rounding_room up
+// to `far` (validation/proofs/areas/row_of_edge.gappa.in). So do the heights.
 template <class Visit>
 void TileOutlines::for_each_row(const OutlineEdge& edge, const Visit& visit) const {
   const SquarePoint &p = edge.from, &q = edge.to;
@@ -181,7 +181,7 @@ void TileOutlines::for_each_row(const OutlineEdge& edge, const Visit& visit) con
 void TileOutlines::find_edges(const ImageObject& object,
                               const std::vector<EdgeBalance::Edge>& left) {
   if (left.empty()) return;
-  // Vertices that are in the file more than once, at the same place, are taken as one.
+  // Vertices that the file repeats at the same place count as one vertex.
   VertexAtPlace vertex_at(object, 2 * left.size(), vertex_at_);
   balance_.start(left.size());
   for (const auto& [from, to, times] : left) balance_.add(vertex_at(from), vertex_at(to), times);

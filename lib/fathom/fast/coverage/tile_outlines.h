@@ -15,7 +15,7 @@
 
 namespace fathom::fast {
 
-/// What meets which pixel of a tile; pixels are numbered by rows.
+/// For each pixel of a tile, the edges or triangles that meet it; pixels are numbered by rows.
 class PixelMeetings {
  public:
   void clear() { unsorted_.clear(); }
@@ -45,8 +45,8 @@ class PixelMeetings {
   std::array<std::uint32_t, TileShape::samples + std::size_t{1}> starts_{};
 };
 
-/// An edge of triangles turned so that their area is positive, which is there so many times more
-/// than its opposite; in pixels of the tile.
+/// An edge of triangles turned so that their area is positive, with the number of times that it
+/// occurs more often than its opposite; in pixels of the tile.
 struct OutlineEdge {
   SquarePoint from, to;
   /// Of the ends' coordinates, the roundings of these included.
@@ -56,8 +56,8 @@ struct OutlineEdge {
   std::uint32_t from_vertex, to_vertex;
 };
 
-/// Where the number of triangles that cover a point of a tile changes: along the edges of triangles
-/// that are certainly positive or negative, but for those that lie between two adjacent triangles
+/// The lines along which the number of triangles that cover a point of a tile changes: the edges of
+/// triangles that are certainly positive or negative, except edges between two adjacent triangles
 /// (EdgeBalance).
 class TileOutlines {
  public:
@@ -65,16 +65,16 @@ class TileOutlines {
   /// Adds triangles of an object, given by their numbers.
   void add(const ImageObject& object, std::span<const std::uint32_t> numbers,
            std::span<const CoverageTriangle> classes);
-  /// How many edges that may meet the tile have no opposite; those with ends at the same place of
-  /// the mesh, but of other vertices, count.
+  /// The number of edges without an opposite that may meet the tile. Opposite edges count if their
+  /// ends are at the same place of the mesh but are different vertices.
   [[nodiscard]] std::size_t size() const;
 
-  /// Takes what has been added; sets the bits of all pixels that an edge may meet.
+  /// Processes all added edges; sets the bits of all pixels that an edge may meet.
   void find_pixels(TileRows& pixels);
   /// Lists the edges that may meet the pixels.
   /// Needs    find_pixels() after the last add().
   void list_edges(const TileRows& pixels);
-  /// For a pixel of those that list_edges() was called for.
+  /// For a pixel for which list_edges() was called.
   [[nodiscard]] std::span<const std::uint32_t> edges_at(std::uint32_t pixel) const {
     return edges_at_.at(pixel);
   }
@@ -105,7 +105,7 @@ class TileOutlines {
   TileBox whole_{};
   EdgeSieve sieve_;
   EdgeBalance balance_;
-  /// What opposite edges leave of each object's, in the order of the objects.
+  /// The edges of each object that remain after opposite edges cancel, in the order of the objects.
   struct EdgesLeft {
     const ImageObject* object;
     std::vector<EdgeBalance::Edge> edges;

@@ -76,8 +76,8 @@ HWY_INLINE hn::Vec<DU> columns_in_lanes(V first, V last, M some) {
   return hn::IfThenElseZero(hn::RebindMask(du, some), bits);
 }
 
-/// Calls take(row, its bits) for each row of the box, bits_of_rows(middles of rows) being those of
-/// as many rows as there are lanes.
+/// Calls take(row, its bits) for each row of the box; bits_of_rows(middles of rows) returns the
+/// bits of as many rows as there are lanes.
 template <class BitsOfRows, class Take>
 HWY_INLINE void for_rows(const TileBox& box, const BitsOfRows& bits_of_rows, const Take& take) {
   const DU du;
@@ -95,8 +95,8 @@ HWY_INLINE V half_change(const UncertainHalfPlane& side) {
 }
 
 // A division finds where, in a row of pixels, a function is greater than its error at all four
-// corners of a pixel; the two ends that come out are then tested. Products and sums are rounded
-// monotonically, so what holds at two pixels holds between them.
+// corners of a pixel; the two resulting ends are then tested. Products and sums are rounded
+// monotonically, so a condition that holds at two pixels holds between them.
 void add_pixels_inside_in_lanes(std::span<const UncertainHalfPlane> sides, const TileBox& box,
                                 TileRows& rows) {
   const auto inside = [&](V middle) HWY_ATTR {

@@ -38,7 +38,7 @@ void to_coverage(std::uint64_t row, MapRow<float>& values);
 
 // Of functions over a tile (tile_functions.h), and for pixels of a box that is not empty:
 /// Sets the bits of some pixels throughout which all functions are certainly positive: in each row,
-/// of all but one or two at the ends of those.
+/// of all such pixels except one or two at the ends.
 void add_pixels_inside(std::span<const UncertainHalfPlane> sides, const TileBox& box,
                        TileRows& rows);
 /// The bits of the pixels in which all functions may have points that are not negative, and of one

@@ -2,7 +2,7 @@
 // instructions, by the files that foreach_target.h compiles for each.
 //
 // The operations of numeric/double_word.h, step by step, and so with its bounds, epsilon<Real>; the
-// bounds on errors are those of numeric/certified_value.h, and roundings those of
+// bounds on errors are as in numeric/certified_value.h, and roundings as in
 // numeric/certified_rounding.h.
 #if defined(FATHOM_FAST_DOUBLE_WORD_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FATHOM_FAST_DOUBLE_WORD_LANES_INL_H
@@ -104,7 +104,7 @@ struct CertifiedWideLanes {
   V error;
 };
 
-/// An error of +∞ where nothing is known. Where both errors are 0 the quotient has to be exact.
+/// An error of +∞ means "unknown". If both errors are 0, the quotient must be exact.
 HWY_INLINE CertifiedWideLanes quotient(const CertifiedWideLanes& x, const CertifiedWideLanes& y) {
   const V size = hn::Abs(y.value.hi), zero = constant(0);
   const M known =

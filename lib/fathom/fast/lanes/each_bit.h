@@ -26,7 +26,7 @@ class EachBit {
 
   explicit EachBit(std::uint64_t bits) : bits_(bits) {}
   [[nodiscard]] Iterator begin() const { return Iterator(bits_); }
-  // Iterators tell their ends by what they have left, not by what they belong to.
+  // Iterators recognise their ends by the remaining bits, not by their container.
   [[nodiscard]] static Iterator end() { return Iterator(0); }
 
  private:

@@ -1,5 +1,5 @@
-// Vectors of binary64 numbers, and what all vector code needs. Included once for every kind of
-// vector instructions, by the files that foreach_target.h compiles for each.
+// Vectors of binary64 numbers, and functions that all vector code needs. Included once for each
+// kind of vector instructions, by files that foreach_target.h compiles.
 #if defined(FATHOM_FAST_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FATHOM_FAST_LANES_INL_H
 #undef FATHOM_FAST_LANES_INL_H
@@ -17,7 +17,7 @@ namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-/// A vector has at most so many numbers of binary64.
+/// The greatest number of binary64 numbers in a vector.
 constexpr std::size_t most_lanes = 8;
 using D = hn::CappedTag<double, most_lanes>;
 using DU = hn::Rebind<std::uint64_t, D>;
@@ -39,7 +39,7 @@ HWY_INLINE V greatest_magnitude(V a, V b, V c) {
   return greatest_of(hn::Abs(a), hn::Abs(b), hn::Abs(c));
 }
 
-/// One bit per lane, of which there are at most 16.
+/// One bit per lane; there are at most 16 lanes.
 template <class Tag, class Mask>
 HWY_INLINE unsigned lane_bits(Tag d, Mask mask) {
   std::uint8_t bytes[8] = {};
@@ -52,8 +52,8 @@ HWY_INLINE unsigned bits_of(M mask) {
   return lane_bits(D(), mask);
 }
 
-/// Rounded to binary32; what is beyond its greatest number becomes ±∞. Emulated vectors would give
-/// the greatest number instead.
+/// Rounds to binary32; numbers beyond the greatest become ±∞. Emulated vectors would give the
+/// greatest number instead.
 HWY_INLINE hn::Vec<D32> to_binary32(V v) {
 #if HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SCALAR
   alignas(16) double from[8];
@@ -67,8 +67,8 @@ HWY_INLINE hn::Vec<D32> to_binary32(V v) {
 }
 
 /// 0, 1, … in the lanes. hn::Iota of Highway 1.0 writes them to memory one by one and reads them
-/// back at once, for which the processor waits, unless the compiler packs the writes; which it is
-/// told not to do (cmake/FathomOptions.cmake).
+/// back at once, which stalls the processor unless the compiler packs the writes; our compiler
+/// flags forbid that (cmake/FathomOptions.cmake).
 template <class Tag>
 HWY_INLINE hn::Vec<Tag> counting_lanes(Tag d) {
 #if HWY_HAVE_SCALABLE

@@ -223,7 +223,7 @@ void TileSearch::store(const BlockSamples& samples, std::uint32_t column, std::u
       {samples.left, samples.right, samples.top, samples.bottom}, samples.greatest_residual};
 }
 
-// Let λ be the growth of S in a box (lens/stage_bounds.h) that holds a ball of radius ρ around m̂,
+// Let λ be the growth of S in a box (lens/stage.h) that holds a ball of radius ρ around m̂,
 // and r̄ a bound on |S(m̂) − y|. Where λρ > r̄, (S(m) − y)·(m − m̂) > 0 for every m on the sphere,
 // so that S takes the value y in the ball (Brouwer): at an m with λ|m − m̂| ≤ |S(m̂) − y|. If the
 // ball lies in the disc, m is the preimage, since S is one to one there.

@@ -29,7 +29,7 @@ bool store(const EncodedValues& values, std::size_t pixel, const Certified<WordP
   using Real = DoubleWord<false>;
   const Real scaled = Real(x.value) * factor.value;
   const bool is_exact = x.error == 0 && x.value.lo == 0 && factor.error == 0;
-  // What the factor's error does to x.error is within the slack.
+  // The effect of the factor's error on x.error is within the slack.
   const double error =
       is_exact ? 0 : (x.error * factor.value + scaled.hi * (epsilon<Real> + factor.error)) * slack;
   return take(to_code(scaled, error), values.codes[pixel]);

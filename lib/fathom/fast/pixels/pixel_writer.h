@@ -15,7 +15,7 @@ struct VisibleSurface {
   ImagePoint sample;
 };
 
-/// What is written to, and what computes exactly where no bound settles a value.
+/// The destination of values, and the exact writer for values that no bound settles.
 struct WriterTarget {
   const rendering::ChannelValues& values;
   triangle::ChannelWriter& exact;
@@ -24,8 +24,8 @@ struct WriterTarget {
   RenderStatistics& statistics;
 };
 
-/// Writes the channels of one pixel: what the rows of channel_rows.h, surface_lanes.h and
-/// wide_rows.h leave.
+/// Writes the values of one pixel that the rows of channel_rows.h, surface_lanes.h and wide_rows.h
+/// leave open.
 class PixelWriter {
  public:
   PixelWriter(const VisibleSurface& surface, SurfaceFacts& facts, const ValueFrame& frame,

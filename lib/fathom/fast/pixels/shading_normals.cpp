@@ -6,10 +6,10 @@
 #include "fathom/numeric/divisors.h"
 #include "fathom/numeric/rounding.h"
 
-// Bounds are those of numeric/certified_value.h: sums and products carry them along, for operands
-// of any magnitude; what overflows has a bound of +∞ or NaN, which settles nothing. A component
-// that has lost more than half of its bits on the way, or may be 0, is computed from exact numbers
-// and rounded once: at the samples, components are small only where those at the corners are, or
+// Bounds are as in numeric/certified_value.h: sums and products propagate them, for operands of any
+// magnitude; a value that overflows has a bound of +∞ or NaN, which settles nothing. A component
+// that has lost more than half of its bits, or may be 0, is computed from exact numbers and rounded
+// once: at the samples, components are small only if the components at the corners are small, or
 // cancel. docs/error-analysis.md, "Channels".
 namespace fathom::fast {
 using namespace triangle;
@@ -60,7 +60,7 @@ bool is_accurate(const Certified<double>& x) {
   return is_exact_zero(x) || x.error < std::abs(x.value) * component_condition;
 }
 
-/// Not known where it over- or underflows.
+/// Unknown if it overflows or underflows.
 Certified<double> certified_rounding(const Dyadic& x) {
   if (x.is_zero()) return {0, 0};
   const std::optional<double> value = round_to_normal(Ratio(x));
@@ -138,8 +138,8 @@ Normal interpolated(const SurfaceNormals& normals,
 }
 
 // |n̂| and |n| differ by at most the sum of the components' errors, as in length_of(). Squares stay
-// in range: the greatest component is between 2⁻⁴⁰⁰ and 2⁴⁰⁰, and what those of others lose below
-// 2⁻¹⁰⁷⁴ is less than 2⁻²⁰⁰ of its square.
+// in range: the greatest component is between 2⁻⁴⁰⁰ and 2⁴⁰⁰, and the squares of others lose less
+// than 2⁻²⁰⁰ of its square below 2⁻¹⁰⁷⁴.
 Normal unit(const Normal& normal) {
   if (std::ranges::all_of(normal, is_exact_zero<double>)) return normal;
   Vector<double> values, errors;

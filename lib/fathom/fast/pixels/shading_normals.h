@@ -10,10 +10,10 @@
 /// Channel Ns in binary64, with bounds.
 namespace fathom::fast {
 
-/// What the greatest component of a normal may be, so that its square stays in range.
+/// Limits on the greatest component of a normal, so that its square stays in range.
 inline constexpr double least_shading_normal = 0x1p-400, greatest_shading_normal = 0x1p400;
 
-/// Finds them; one for each thread: it remembers the sums that it was asked about last.
+/// Computes shading normals. One for each thread, because it caches the sums that it used last.
 class ShadingNormals {
  public:
   explicit ShadingNormals(std::shared_ptr<const triangle::CornerNormals> normals)

@@ -10,7 +10,7 @@
 
 namespace fathom::fast {
 
-/// What the values of all surfaces are computed from.
+/// The data from which the values of all surfaces are computed.
 struct ValueFrame {
   explicit ValueFrame(const triangle::SceneRays& its_rays);
 
@@ -20,14 +20,13 @@ struct ValueFrame {
   triangle::RaySizes world_sizes;
 };
 
-/// The normals of a triangle's corners in the world, as they are interpolated: that of A, and what
-/// those of B and C have beyond it.
+/// The normals of a triangle's corners in the world, prepared for interpolation: the normal of A,
+/// and the normals of B and C minus it.
 struct SurfaceNormals {
   Vector<Certified<double>> at_A, to_B, to_C;
 };
 
-/// A visible triangle, with what has been found out about it so far. Functions that find out more
-/// keep it here.
+/// A visible triangle, with all results about it so far. Functions store further results here.
 struct SurfaceFacts {
   /// False if a number has a magnitude for which no bound was derived: only exact numbers will do.
   bool usable = false;
@@ -43,12 +42,12 @@ struct SurfaceFacts {
   /// Exponents of powers of two of which the components of these are multiples.
   std::optional<std::array<long, 3>> normal_bits;
   /// World x, y, z and depth, if they are found to be the same at all three corners; bit k of
-  /// constants_known: constants[k] was looked for.
+  /// constants_known is set once constants[k] has been checked.
   std::array<std::optional<WordPair>, 4> constants;
   std::uint8_t constants_known = 0;
 };
 
-/// A triangle of the scene about which nothing more is known yet.
+/// A triangle of the scene, without further results.
 SurfaceFacts surface_facts(std::uint32_t number, const ValueFrame& frame);
 
 const triangle::WeightForms<double>& weights_of(SurfaceFacts& t, const ValueFrame& frame);
@@ -92,8 +91,8 @@ class ZeroProof {
   std::optional<std::array<long, 3>> corner_bits_;
 };
 
-/// The values of a visible surface at a sample in double-words, with bounds; what several channels
-/// need is computed when it is first asked for.
+/// The values of a visible surface at a sample in double-words, with bounds; values that several
+/// channels need are computed on first use.
 /// Needs    a usable surface.
 class SurfaceValues {
  public:
@@ -105,7 +104,7 @@ class SurfaceValues {
   const Certified<WordPair>& position(std::size_t k);
   const Certified<WordPair>& weight(std::size_t k);
 
-  /// The depth if it is known exactly: that of all three corners, or the binary32 or binary64
+  /// The depth if it is known exactly: the depth of all three corners, or the binary32 or binary64
   /// number nearest to it.
   const std::optional<WordPair>& exact_depth();
 
@@ -113,8 +112,8 @@ class SurfaceValues {
   bool position_is_zero(std::size_t k);
   bool weight_is_zero(const Certified<double>& narrow);
   bool weight_is_zero(std::size_t k);
-  /// Whether what is interpolated between numbers at the corners that are multiples of 2^(bits) is
-  /// exactly 0.
+  /// Whether an interpolated value is exactly 0, if the numbers at the corners are multiples of
+  /// 2^(bits).
   bool interpolated_is_zero(const Certified<double>& narrow, long bits);
 
  private:

@@ -8,7 +8,8 @@
 namespace fathom::fast {
 namespace {
 
-/// As many bins as a scene in memory has; as a round has, so that their tables of tiles stay small.
+/// The number of bins as for a scene in memory, and as for a round, so that their tables of tiles
+/// stay small.
 constexpr std::uint32_t parts_of_all = 64, parts_of_some = 8;
 
 /// A bucket is for a row of tiles: few triangles meet more than one, and there are few buckets that
@@ -132,7 +133,7 @@ void CoverageInRounds::sort_kept() {
   all_->sort(parts_of_all, scene_.triangles, scene_.frame, sorting_again_);
 }
 
-// A bucket that is too large is read once more than others, whatever its size.
+// A bucket that is too large is read one more time than others, whatever its size.
 void CoverageInRounds::write_bucket(const SpilledTriangles& spilled, std::size_t bucket,
                                     Tiles tiles, const WriteTile& write) {
   const KeptSize size = spilled.size_of_bucket(bucket);

@@ -17,7 +17,7 @@ PointBits bits_of(const MeshPoint& point) {
           std::bit_cast<std::uint64_t>(point.z)};
 }
 
-/// Short numbers differ in their upper bits alone: these reach the lower ones, too.
+/// Short numbers differ only in their upper bits, which are mixed into the lower bits too.
 std::uint64_t hash_of(const MeshPoint& point) {
   std::uint64_t hash = 0;
   for (const std::uint64_t bits : bits_of(point)) {
@@ -72,7 +72,8 @@ KeptSize size_of(const KeptTriangles& kept) {
 
 namespace {
 
-/// What bins call the triangles, in ascending order: one after another, bins have greater numbers.
+/// The numbers of the triangles in the bins, in ascending order: consecutive bins have ascending
+/// numbers.
 std::vector<std::uint32_t> numbers_in_tiles(std::span<const Bins> all_bins,
                                             std::span<const std::uint32_t> tiles) {
   std::vector<std::uint32_t> numbers;

@@ -14,16 +14,16 @@
 
 namespace fathom::fast {
 
-/// Vertices of a mesh that is put together, of which no two are the same point, bit for bit. Files
-/// that have three vertices for each triangle become meshes of a sixth as many, and edges between
-/// triangles are seen to be that by the numbers of their ends.
+/// Vertices of a mesh that is assembled; no two are the same point, bit for bit. Files with three
+/// vertices for each triangle become meshes with a sixth of the vertices, and the numbers of their
+/// ends show which edges lie between triangles.
 class DistinctVertices {
  public:
   void reserve(std::size_t count);
   [[nodiscard]] std::size_t size() const { return vertices_.size(); }
   /// Adds a point unless it is there; its number.
   std::uint32_t number_of(const MeshPoint& point);
-  /// All of them, by their numbers; none is left here.
+  /// Returns all vertices, by their numbers, and removes them from here.
   std::vector<MeshPoint> take();
 
  private:
@@ -32,7 +32,7 @@ class DistinctVertices {
   [[nodiscard]] std::size_t slot_of(const MeshPoint& point) const;
 
   std::vector<MeshPoint> vertices_;
-  /// Numbers, at least half of them none; a power of two.
+  /// Numbers; at least half of the slots are empty. The size is a power of two.
   std::vector<std::uint32_t> slots_;
 };
 
@@ -42,7 +42,7 @@ struct KeptTriangles {
   std::uint32_t object = 0;
   /// No two vertices are the same point.
   Mesh mesh;
-  /// What the scene calls them.
+  /// Their numbers in the scene.
   std::vector<std::uint32_t> numbers;
 };
 
@@ -51,8 +51,9 @@ struct KeptSize {
   std::uint64_t vertices = 0, triangles = 0;
 
   [[nodiscard]] bool is_nothing() const { return triangles == 0; }
-  /// About what they take in bytes while they are put together and sorted into tiles again: their
-  /// corners, where these are found, these in the image, and the places of triangles in tiles.
+  /// Their approximate size in bytes while they are reassembled and sorted into tiles again: their
+  /// corners, the table that finds corners, the corners in the image, and the places of triangles
+  /// in tiles.
   [[nodiscard]] std::uint64_t bytes_in_use() const {
     constexpr std::uint64_t to_find = 16, per_place = 24;
     return vertices * (sizeof(MeshPoint) + to_find + sizeof(ImageVertex)) +
@@ -66,25 +67,25 @@ struct KeptSize {
 };
 KeptSize size_of(const KeptTriangles& kept);
 
-/// The triangles that bins have in any of the tiles, each once, object by object; `objects` are
-/// those that were sorted into these bins.
+/// The triangles that bins have in any of the tiles, each once, object by object; `objects` are the
+/// objects that were sorted into these bins.
 std::vector<KeptTriangles> triangles_in_tiles(const ImageObjects& objects,
                                               std::span<const Bins> bins,
                                               std::span<const std::uint32_t> tiles,
                                               const TriangleSource& triangles);
 
-/// Triangles that were kept, put together again and sorted into tiles. Those of an object of the
-/// scene are one object here, too, with vertices that they share, so that edges between triangles
-/// that were kept apart are known to be between them.
+/// Kept triangles, reassembled and sorted into tiles. The triangles of an object of the scene form
+/// a single object here too, with shared vertices, so that common edges of separately kept
+/// triangles are recognised.
 class GatheredTriangles {
  public:
-  /// Room for so many more triangles of an object.
+  /// Makes room for so many more triangles of an object.
   void reserve(std::uint32_t object, const KeptSize& more);
   void add(const KeptTriangles& kept);
-  /// All of them, none of which is left there.
+  /// Adds all of them and empties the list.
   void take(std::vector<KeptTriangles>& kept);
-  /// What has been added, no triangle twice, into bins for at most `parts` parts. Once, after the
-  /// last add().
+  /// Sorts all added triangles into bins for at most `parts` parts. Call it once, after the last
+  /// add(); no triangle may have been added twice.
   void sort(std::uint32_t parts, const TriangleSource& triangles, const FastFrame& frame,
             FastWorkers& workers);
 
@@ -100,16 +101,16 @@ class GatheredTriangles {
   };
   Part& part_for(std::uint32_t object, std::size_t vertices);
 
-  /// Several for an object only where one would have more vertices than can be numbered.
+  /// An object has several parts only if one part would have more vertices than can be numbered.
   std::deque<Part> parts_;
-  /// For each object of the scene the part that triangles are added to.
+  /// For each object of the scene, the part to which triangles are added.
   std::map<std::uint32_t, Part*> part_of_;
   ImageObjects objects_;
   std::vector<Bins> bins_;
 };
 
-/// Triangles that wait on a disk, in buckets of which each is read by itself. In memory remains a
-/// place for each time that some are added to a bucket.
+/// Triangles that are stored on disk, in buckets that are read separately. A record remains in
+/// memory for each addition to a bucket.
 /// Fails    as SpillFile.
 class SpilledTriangles {
  public:

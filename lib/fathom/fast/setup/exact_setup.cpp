@@ -23,9 +23,9 @@ double below(double x) {
 
 }  // namespace
 
-// Orthographic: q = −D, so q ≤ −near, q ≥ −far, and q < 0: −0 counts as "not known".
-// Perspective: a covered sample has D > 0 always; 1/far and 1/near are rounded, so the numbers next
-// to them enclose them (far = ∞ gives 0 and near = 0 gives ∞, exact: no limit).
+// Orthographic: q = −D, so q ≤ −near, q ≥ −far, and q < 0: −0 counts as "unknown". Perspective: a
+// covered sample has D > 0 always; 1/far and 1/near are rounded, so the numbers next to them
+// enclose them (far = ∞ gives 0 and near = 0 gives ∞, exact: no limit).
 DepthRange depth_range(const Camera& camera) {
   if (is_orthographic(camera.projection)) {
     const double nearest = camera.near > 0 ? -camera.near : below(0.0);
@@ -73,9 +73,10 @@ struct WideFunction {
   double error;
 };
 
-// The bound of a form is of what is computed at any sample: at the first one of the box, that is c.
-// It would be no less if the form had no terms but one, at a sample where u (or v) is the bound of
-// the image's: a or b times that, which is not less than X or Y. So it bounds each of the three.
+// The bound of a form holds for the value computed at any sample; at the first sample of the box
+// this value is c. The bound would be no smaller if the form had only one term, a or b times the
+// bound of the image's u or v, which is not less than X or Y. So it bounds the error of each of the
+// three.
 WideFunction from_first_sample(const Form<WordPair>& form, double u, double v) {
   const Word a = form.a, b = form.b, c = form.c;
   return {a, b, (c + b * v) + a * u, form.error};
@@ -85,8 +86,8 @@ WideFunction negated(const WideFunction& f) {
   return {-f.a, -f.b, -f.c, f.error};
 }
 
-// f − g − h. The bounds are 12ε of the sums of the terms' magnitudes; each of the coefficients is
-// rounded twice, by ε of parts of those sums: by less than a quarter of the bounds.
+// f − g − h. The bounds are 12ε of the sums of the terms' magnitudes; each coefficient is rounded
+// twice, by ε times parts of those sums: by less than a quarter of the bounds.
 WideFunction difference(const WideFunction& f, const WideFunction& g, const WideFunction& h) {
   return {f.a - g.a - h.a, f.b - g.b - h.b, f.c - g.c - h.c,
           setup_bounds::wide_difference * (f.error + g.error + h.error)};
@@ -152,9 +153,9 @@ TriangleSetup exact_setup(const ProjectedTriangle& t, bool perspective, const Pi
 // where the forms of the weights, turned by the sign of n·t, are positive; these are the edge
 // functions times one positive number. q = (n·d)/(n·t).
 //
-// Rounding errs as that of exact coefficients does; besides, the three coefficients of an edge
-// function, times what they are multiplied by, err by `error` each (wide_edges.gappa.in). Those of
-// q are quotients, whose bounds are added up (wide_q.gappa.in).
+// Rounding errs as for exact coefficients. In addition, the three coefficients of an edge function,
+// each times its factor, err by `error` each (wide_edges.gappa.in). The coefficients of q are
+// quotients, whose bounds are added up (wide_q.gappa.in).
 std::optional<TriangleSetup> wide_setup(const WideForms& forms, std::uint32_t number,
                                         const PixelBox& box) {
   const Certified<Word> nt{forms.constant.value, forms.constant.error};

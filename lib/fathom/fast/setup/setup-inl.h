@@ -135,7 +135,8 @@ HWY_INLINE V box_margin(V coordinate, V error) {
   return hn::MulAdd(hn::Add(hn::Abs(coordinate), constant(1)), constant(setup_bounds::box_margin),
                     error);
 }
-/// No exact coordinate is less, or greater, if none is of the computed ones, which err by `error`.
+/// A bound below all exact coordinates, or above, from a bound on the computed coordinates, which
+/// err by `error`.
 HWY_INLINE V moved_down(V low, V error) {
   return hn::Sub(low, box_margin(low, error));
 }
@@ -154,7 +155,8 @@ HWY_INLINE V first_sample(V low, V error, double least) {
   return hn::Ceil(hn::Max(least_place(low, error), constant(least)));
 }
 // The top-left rule moves samples to the right and down, by no step at all: out of a triangle where
-// it ends. On the grid that is known, and half a step less leaves out no other sample.
+// it ends. For corners on the grid that is certain, and half a step less leaves out no other
+// sample.
 HWY_INLINE V last_sample(V high, V error, M snapped, double greatest) {
   const V place = hn::IfThenElse(snapped, hn::Sub(high, constant(0.5 + snap_step / 2)),
                                  greatest_place(high, error));
@@ -255,7 +257,7 @@ HWY_INLINE Edges certified_edges(const LocalTriangles& t) {
   return e;
 }
 
-/// Whether use_top_left_rule() may be asked for.
+/// Whether use_top_left_rule() may be called.
 HWY_INLINE M have_exact_edges(const Corners& t, const LocalTriangles& l) {
   return hn::And(are_snapped(t), hn::Le(l.L, constant(0x1p16)));
 }
@@ -312,7 +314,7 @@ HWY_INLINE Depths certified_depths(const Corners& t, const LocalTriangles& l, co
 }
 
 /// Whether depths at samples of the triangles may leave the range that counts: q of a covered
-/// sample lies between those of the corners.
+/// sample lies between the q of the corners.
 HWY_INLINE M may_leave(const DepthRange& range, const Corners& t) {
   const V error = hn::Add(t.q_error, t.q_error);
   const V least = hn::Sub(least_of(t.A.q, t.B.q, t.C.q), error);

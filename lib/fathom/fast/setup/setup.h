@@ -40,19 +40,19 @@ namespace fathom::fast {
 ///
 /// The value of a function at the sample of pixel (i, j) is c + a·x + b·y, summed in any order,
 /// with x = i − column, y = j − row. The bounds hold for the samples of the box for which the setup
-/// was made and up to 8 beyond it on each side, with any of the products and sums fused or not.
+/// was made and for up to 8 samples beyond it on each side, whether products and sums are fused or
+/// not.
 struct TriangleSetup {
   std::uint32_t number = 0;
   std::uint32_t column = 0, row = 0;
   /// Edge functions, scaled, positive inside. Their computed and exact values (with the same
   /// scaling) differ by at most edge_error. If all corners lie exactly on the grid of snap_step,
   /// the functions are moved by less than the least positive value that they have at a sample, so
-  /// that they are never 0 and their signs say what the top-left rule says, without error.
+  /// that they are never 0 and their signs follow the top-left rule, without error.
   std::array<double, 3> edge_a, edge_b, edge_c;
   double edge_error = 0;
   /// q (see ImageVertex). Where the triangle covers the sample, its computed and exact values
-  /// differ by at most q_error, less 2⁻²⁰ of it as room for the user's roundings; +∞: nothing is
-  /// known.
+  /// differ by at most q_error, less 2⁻²⁰ of it as room for the user's roundings; +∞ if unknown.
   double q_a = 0, q_b = 0, q_c = 0;
   double q_error = 0;
 };
@@ -86,7 +86,7 @@ struct SetupBatch {
   void set(std::size_t lane, const TriangleSetup& setup, const PixelBox& box);
 };
 
-/// The sign of a triangle's doubled area in the image, which is sign(Δ); nullopt: not certain.
+/// The sign of a triangle's doubled area in the image, which is sign(Δ); nullopt if uncertain.
 /// Needs    usable corners.
 std::optional<Sign> certified_orientation(const ImageVertex* vertices,
                                           const CornerIndices& triangle);
@@ -97,21 +97,22 @@ void certified_setups(const ImageVertex* vertices, const CornerIndices* triangle
                       std::size_t count, const PixelBox& area, const DepthRange& range,
                       SetupBatch& batch);
 
-/// The kind of vector instructions that the vector code of this room uses here, as Highway calls
-/// it.
+/// The kind of vector instructions that the vector code of this module uses on this machine, by
+/// Highway's name.
 const char* vector_target();
 
-/// From exact forms; works for every triangle with Δ ≠ 0, even if it reaches behind the camera.
+/// Sets up a triangle from exact forms; works for every triangle with Δ ≠ 0, even if it reaches
+/// behind the camera.
 TriangleSetup exact_setup(const triangle::ProjectedTriangle& triangle, bool perspective,
                           const PixelBox& box);
-/// The same from double-words, under a perspective camera; nullopt where their bounds do not tell
-/// on which side of its plane the camera is, or are far from those of exact numbers.
+/// The same from double-words, under a perspective camera; nullopt if their bounds do not decide on
+/// which side of its plane the camera is, or are far from the bounds of exact numbers.
 std::optional<TriangleSetup> wide_setup(const triangle::WideForms& forms, std::uint32_t number,
                                         const PixelBox& box);
-/// The same of a triangle, where there are such forms of it.
+/// The same for a numbered triangle, if it has such forms.
 std::optional<TriangleSetup> wide_setup(triangle::Referee& referee, std::uint32_t number,
                                         const PixelBox& box);
-/// Such functions for the samples of a part of the box that they were made for.
+/// The setup for the samples of a part of the box for which `exact_setup` was made.
 TriangleSetup moved_to(const TriangleSetup& exact_setup, const PixelBox& part);
 
 }  // namespace fathom::fast

@@ -13,7 +13,7 @@ namespace fathom::fast::setup_bounds {
 inline constexpr double area_by_corners = 4 + 0x1p-40;
 inline constexpr double area_rounding = 5 * unit_roundoff<double>;
 
-/// box_margin(): of |coordinate| + 1 (box).
+/// box_margin(), relative to |coordinate| + 1 (box).
 inline constexpr double box_margin = 0x1p-50;
 
 /// certified_edges(): 8.25δL + 24uL² (edges).
@@ -46,8 +46,8 @@ inline constexpr double exact_lane_limit = 0x1p7;
 /// q as a function over the whole tile: of the sum of the magnitudes of its terms (tile_q).
 inline constexpr double tile_q_error = 12 * unit_roundoff<double>;
 
-/// exact_setup() (exact_edges, exact_q). Where the terms of q add up to greatest_q or more, nothing
-/// is known of q.
+/// exact_setup() (exact_edges, exact_q). If the terms of q add up to greatest_q or more, q is
+/// unknown.
 inline constexpr double greatest_q = 0x1p100;
 inline constexpr double exact_edge_error = 12 * unit_roundoff<double>;
 inline constexpr double exact_q_error = 5 * unit_roundoff<double>;

@@ -19,8 +19,8 @@ HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
 namespace {
 
-/// A function at the samples of the blocks of a tile where it is greatest and least: of a column of
-/// blocks what it is without b·y, and y from the top of a row of blocks.
+/// A function at the samples of the blocks of a tile where it is greatest and least: for a column
+/// of blocks its value without b·y, and y from the top of a row of blocks.
 struct BlockFunction {
   using Numbers = std::array<float, TileShape::blocks_of_row>;
   alignas(32) Numbers greatest;

@@ -100,7 +100,7 @@ HWY_INLINE RangeEnds range_ends(const DepthRange& range) {
           constant32(round_up(range.outside_greatest))};
 }
 
-/// What draws a triangle's cells, the same in every lane.
+/// The data for drawing a triangle's cells, the same in every lane.
 template <bool test_edges, bool test_range>
 struct Pen {
   Tile& tile;
@@ -238,7 +238,7 @@ HWY_INLINE bool draw_cells(Tile& tile, const Drawn& t, const Cells& cells,
                       : draw_cells<test_edges, false>(tile, t, cells, context);
 }
 
-// One loop over all of them: where rows end the processor could not tell.
+// A single loop over all cells, because the processor could not predict the ends of rows.
 template <bool test_range>
 HWY_INLINE void draw_list(Tile& tile, const Drawn& t, const CellList& cells,
                           const DrawContext& context) {

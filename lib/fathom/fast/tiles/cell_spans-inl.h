@@ -1,5 +1,5 @@
-// The cells of a tile that thin triangles may meet. Included once for every kind of vector
-// instructions, by the files that foreach_target.h compiles for each.
+// The cells of a tile that thin triangles may meet. Included once for each kind of vector
+// instructions, by files that foreach_target.h compiles.
 #if defined(FATHOM_FAST_CELL_SPANS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FATHOM_FAST_CELL_SPANS_INL_H
 #undef FATHOM_FAST_CELL_SPANS_INL_H
@@ -32,51 +32,52 @@ struct CellPlace {
 struct CellList {
   static constexpr std::size_t most = 48;
   std::size_t count = 0;
-  /// With room for the last vector that is written.
+  /// With room for the overhang of the last vector that is written.
   alignas(64) std::array<std::uint32_t, most + 16> numbers;
 };
 
 /// For each row of cells of a tile.
 using OfRows = std::array<std::uint32_t, CellPlace::in_row>;
 
-/// Cells of a tile, row by row: the columns of the first and the last one, none if the first is
+/// Cells of a tile, row by row: the columns of the first and the last cell; no cell if the first is
 /// greater.
 struct CellSpans {
   alignas(64) OfRows first;
   alignas(64) OfRows last;
-  /// How many there are, in all and in a row at most.
+  /// The number of cells, in total and in the longest row.
   int count, longest;
 };
 
-/// Columns of cells of the tile as far as no edge function has excluded them, in rows of cells, one
-/// in each lane: the first ones, and the last ones with the other sign.
+/// Columns of cells that no edge function has excluded so far; each lane is a row of cells. The
+/// first columns, and the negated last columns.
 struct SpanLanes {
   VF first, minus_last;
 };
 
-/// For each edge function of the triangles of a batch: where rows of cells probably end, and how
-/// that is looked at.
+/// For each edge function of the triangles of a batch: where rows of cells probably end, and the
+/// numbers with which that is checked.
 struct SpanGuesses {
   using PerEdge = std::array<LaneBatch::Numbers, 3>;
-  /// The first cell that may not be left out, a function of the number of the row of cells, and the
-  /// greatest such number.
+  /// The first cell that must be kept, as a function of the number of the row of cells, and the
+  /// greatest number of such a cell.
   alignas(32) PerEdge at_first, by_row, end;
-  /// The place of the last sample that is left out, in the box: a function of the cell's number.
+  /// The position in the box of the last sample that is left out, as a function of the cell's
+  /// number.
   alignas(32) PerEdge by_cell, before;
-  /// In the first row of cells, the place of the row in which the function is greatest.
+  /// In the first row of cells, the position of the row in which the function is greatest.
   alignas(32) PerEdge lowest;
 };
 
 // Products and sums are rounded monotonically: where an edge function that grows to the right is
 // certainly negative in the last column of a cell and in that row of the cell in which it is
-// greatest, it is so at all samples of the cell and of those to the left of it. Which cell that may
-// be, a quotient says, whose roundings do not matter: that the function is negative there is looked
-// at. Where a function grows to the left, the same is said of columns 3 − column, among which the
-// cells have their numbers with the other sign. It is done without branches: signs of coefficients
-// are hard to foretell.
+// greatest, it is negative at all samples of the cell and of all cells to the left of it. A
+// quotient guesses this cell; its roundings do not matter, because the sign of the function there
+// is checked. If a function grows to the left, the same holds in mirrored columns, 3 − column,
+// where cells have negated numbers. There are no branches, because signs of coefficients are hard
+// to predict.
 HWY_INLINE void make_span_guesses(const LaneBatch& batch, SpanGuesses& guesses) {
   // Scaled functions are below 2: nothing overflows, and a function of rows alone, with a slope of
-  // 0, leaves out all cells of a row or none.
+  // 0, leaves out all cells of a row or no cell.
   constexpr float least_slope = 0x1p-60F;
   const D32 d;
   using V32 = hn::Vec<D32>;
@@ -164,8 +165,8 @@ HWY_INLINE void make_cell_spans(const LaneBatch& f, const SpanGuesses& guesses, 
   cells.longest = static_cast<int>(hn::GetLane(hn::MaxOfLanes(d, longest)));
 }
 
-/// Those of them that lie in open blocks, of which rows have a bit each. First the first ones of
-/// all rows, then the second ones, …: there are hardly ever more than three in a row.
+/// Lists the cells that lie in open blocks; each row has a bit for each block. The first cells of
+/// all rows come first, then the second cells, and so on: a row hardly ever has more than three.
 /// Needs    at most CellList::most of them.
 HWY_INLINE void list_cells(const CellSpans& spans, const OfRows& open_blocks, CellList& list) {
   static_assert(TileShape::block == 2 * TileShape::cell);

@@ -35,7 +35,7 @@ struct DoubtfulPixel {
   std::uint32_t column, row;
 };
 
-/// What a thread draws tiles with.
+/// The data with which a thread draws tiles.
 struct DrawContext {
   triangle::Referee& referee;
   RenderStatistics& statistics;
@@ -44,7 +44,7 @@ struct DrawContext {
   const FastSwitches& switches;
   /// If not null, gets the pixels at which a bound does not settle a decision in binary32.
   std::vector<DoubtfulPixel>* doubtful = nullptr;
-  /// Setups from exact numbers for the whole image: those that were asked for last.
+  /// Setups from exact numbers for the whole image: a cache of the last used setups.
   ExactSetups& exact_setups;
   /// For draw_tile().
   VisibleTriangles& visible;

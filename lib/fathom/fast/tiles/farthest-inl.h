@@ -25,7 +25,7 @@ namespace {
 constexpr std::uint32_t blocks_of_row = Tile::blocks_of_row;
 
 // The least q, moved by twice its error: not greater than any exact q (moved_q.gappa.in). If a
-// surface has no bound (NaN), nothing is known.
+// surface has no bound (NaN), the result is unknown.
 HWY_INLINE void update_farthest(Tile& tile, std::size_t block_number) {
   const DF d;
   const DT dt;

@@ -53,7 +53,7 @@ bool covers_samples(const TileEntry& entry) {
   return (entry.nearness & nearness_without_samples) == 0;
 }
 
-/// Samples settled by the bounds are those that were not settled exactly.
+/// The bounds settled all samples that were not settled exactly.
 void count_intervals(RenderStatistics& statistics) {
   statistics.edges.interval = statistics.samples_tested - statistics.edges.exact;
   statistics.visibility.interval = statistics.samples_tested - statistics.visibility.exact;

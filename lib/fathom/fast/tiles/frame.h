@@ -12,10 +12,10 @@
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
 
-/// What the fast engine works with, whether its scene is in memory or in files.
+/// The working data of the fast engine, whether its scene is in memory or in files.
 namespace fathom::fast {
 
-/// What a thread works with.
+/// The working data of a thread.
 struct FastWorker {
   FastWorker(const TriangleSource& triangles, const Camera& camera, const triangle::SceneRays& rays)
       : referee(triangles, camera, &rays),
@@ -34,7 +34,7 @@ RenderStatistics sum_of(const FastWorkers& workers, std::uint64_t triangles);
 /// The doubtful pixels of all threads: Rendered::doubtful.
 std::vector<std::uint64_t> doubtful_pixels(const FastWorkers& workers, const Camera& camera);
 
-/// What all threads share.
+/// The data that all threads share.
 struct FastFrame {
   /// `keeps_memory`: whether bins are filled again for another frame.
   FastFrame(const Camera& camera, const RenderOptions& options, bool keeps_memory = false);
@@ -69,15 +69,13 @@ ImageObjects image_objects(const TriangleSource& triangles, const Camera& camera
 inline constexpr std::uint32_t parts_of_scene = 64;
 
 /// Sorts triangles [first, end) of the scene, all of which belong to these objects, into tiles:
-/// `parts` bins of equal length, or fewer, so that each thread has several and their tables of
-/// tiles stay small.
-/// `bins` lend their memory, and keep it if the frame says so.
+/// into at most `parts` bins of equal length, so that each thread has several and their tables of
+/// tiles stay small. `bins` lend their memory, and keep it if the frame requests so.
 std::vector<Bins> sort_into_tiles(const ImageObjects& objects, std::uint32_t first,
                                   std::uint32_t end, std::uint32_t parts, const FastFrame& frame,
                                   FastWorkers& workers, std::vector<Bins> bins = {});
 
-/// Calls visit(object, numbers) for triangles of several objects, those of one object next to each
-/// other.
+/// Calls visit(object, numbers) for triangles of several objects, which are grouped by object.
 template <class Visit>
 void for_each_object(std::span<const std::uint32_t> numbers, const ImageObjects& objects,
                      const Visit& visit) {

@@ -94,14 +94,15 @@ HWY_INLINE V scale_of(V x) {
 
 // A function with terms a·x, b·y, c of magnitudes that add up to S: in binary32 the coefficients
 // err by 2⁻²⁴ of themselves, and products and sums as in exact_setup.cpp: by less than 5·2⁻²⁴·S in
-// all, beside the bound of binary64 (lane_value.gappa.in). What underflows is below lane_floor.
+// all, in addition to the bound of binary64 (lane_value.gappa.in). Values that underflow are below
+// lane_floor.
 HWY_INLINE V lane_error(V terms, V error) {
   const V in_lanes = hn::MulAdd(terms, constant(setup_bounds::lane_error), error);
   return hn::Mul(hn::Add(in_lanes, constant(setup_bounds::lane_floor)),
                  constant(setup_bounds::lane_room));
 }
 
-/// Bounds in binary32, moved up where that is asked for; exact ones stay.
+/// Bounds in binary32, widened if requested; bounds of 0 remain 0.
 HWY_INLINE V widened(V error, double widening) {
   return widening == 1 ? error : hn::Mul(error, constant(widening));
 }
@@ -147,7 +148,7 @@ HWY_INLINE BoxSizes box_sizes(const SetupBatch& setups) {
           hn::Sub(load(setups.last_row), load(setups.first_row))};
 }
 
-/// The greatest distance of a sample's column or row from those of the functions.
+/// The greatest distance of a sample's column or row from the origin of the functions.
 HWY_INLINE V extent_of(const SetupBatch& setups) {
   const auto [columns, rows] = box_sizes(setups);
   // The block of a sample may reach 7 beyond the box.
@@ -197,8 +198,8 @@ HWY_INLINE void make_lane_places(const SetupBatch& setups, const PixelBox& area,
 }
 
 // q as a function over the tile: moved to its first sample, which errs by 4u of the sum of the
-// magnitudes, S, and evaluated with the moved constant, which may be 2S: by 6u more, beside the
-// bound for the triangle's box (tile_q.gappa.in).
+// magnitudes, S, and evaluated with the moved constant, which may be 2S: by 6u more, in addition to
+// the bound for the triangle's box (tile_q.gappa.in).
 HWY_INLINE void make_surfaces(const SetupBatch& setups, const PixelBox& area,
                               TileSurface* surfaces) {
   const D d;

@@ -23,7 +23,7 @@ struct TriangleAtSample {
 /// Settles the sample by binary64, and where that does not, by the judge's covers(), is_in_range()
 /// and hides(number of another triangle), which are exact.
 //
-// The decisions of the vector code (cell_drawing-inl.h) once more, each by its own tier. The
+// The same decisions as in the vector code (cell_drawing-inl.h), each by its own tier. The
 // functions may be summed in another order, within the same bounds.
 template <class Judge>
 void settle_by(const Judge& judge, const TriangleAtSample& at, Tile& tile,

@@ -47,9 +47,9 @@ inline constexpr LaneTag no_surface_lane_tag = 0x00800000;
 
 struct ImageObject;
 
-/// The nearest surface so far at the samples of a small part of the image, whatever the order in
-/// which triangles are drawn. Samples hold q in binary32, which settles nearly every decision; the
-/// surfaces have it in binary64.
+/// The nearest surface so far at each sample of a small part of the image, whatever the order in
+/// which triangles are drawn. Samples hold q in binary32, which settles nearly every decision;
+/// surfaces hold q in binary64.
 class Tile : public TileShape {
  public:
   static const std::size_t most_packed_bytes;
@@ -68,7 +68,7 @@ class Tile : public TileShape {
   /// area.
   void draw(const ImageObject& object, std::span<const std::uint32_t> numbers,
             const DrawContext& context);
-  /// Says that what is drawn from now on are back faces.
+  /// Marks all triangles drawn from now on as back faces.
   void begin_back_faces() {
     end_of_front_ = draws_back_faces_ ? 0 : places_;
     draws_back_faces_ = true;
@@ -79,15 +79,14 @@ class Tile : public TileShape {
     return surfaces_[place_of(tags_[i])];
   }
   [[nodiscard]] bool shows_surface(std::size_t i) const { return place_of(tags_[i]) != 0; }
-  /// Samples whose surface has a place below this certainly show one that was drawn before the
-  /// first back face. None is known where front faces have been drawn since.
+  /// Samples whose surface has a place below this number certainly show a surface that was drawn
+  /// before the first back face. If front faces have been drawn since, no sample is certain to.
   [[nodiscard]] std::uint32_t end_of_front() const { return end_of_front_; }
   [[nodiscard]] bool draws_back_faces() const { return draws_back_faces_; }
 
-  /// Gives back the memory that is not needed to keep the tile: what remains is most_packed_bytes
-  /// at most.
+  /// Releases all memory except what the finished tile needs, at most most_packed_bytes.
   void pack();
-  /// The memory that it takes.
+  /// The size of its memory.
   [[nodiscard]] std::size_t bytes() const;
   /// Makes a tile of samples, whose q() and tags() have been written, and of their surfaces by
   /// place.
@@ -104,26 +103,27 @@ class Tile : public TileShape {
   [[nodiscard]] const TileSurface* surfaces() const { return surfaces_.data(); }
   /// Surfaces have places from 1 up to this number, less one.
   [[nodiscard]] std::uint32_t end_of_places() const { return places_; }
-  /// Room for as many surfaces as a batch has, from this place on; those that are kept are the
-  /// first `count` of them.
+  /// Makes room for the surfaces of a batch and returns the first place; the first `count` of them
+  /// are kept.
   std::uint32_t next_place();
   TileSurface* surfaces_at(std::uint32_t place) { return surfaces_.data() + place; }
   void keep_surfaces(std::uint32_t count) { places_ += count; }
   /// For each block a number that is not greater than the exact q at any of its samples.
   std::array<float, blocks>& farthest() { return farthest_; }
-  /// How often a block was drawn into since its number above was computed.
+  /// How often each block was drawn into since its farthest() was computed.
   std::uint8_t* draws() { return draws_.data(); }
-  /// Settles one sample by binary64, and exactly where that does not. Column and row are those of
-  /// the image; the tag is that of the triangle.
+  /// Settles one sample in binary64 or, if its bounds leave it open, exactly. Column and row are
+  /// counted in the image; `tag` is the triangle's tag.
   void settle(const TriangleSetup& setup, LaneTag tag, bool test_range, std::uint32_t column,
               std::uint32_t row, const DrawContext& context);
 
  private:
-  /// Forgets the surfaces that are at no sample any more; the others keep their order.
+  /// Forgets the surfaces that are visible at no sample; the others keep their order.
   void forget_hidden();
 
-  /// Place 0 is no surface; others are numbered by 16 bits. At most a quarter of them are visible:
-  /// with more places than this, surfaces would be forgotten less often, but leave the caches.
+  /// Place 0 is no surface; the other places are 16-bit numbers. At most a quarter of the places
+  /// are visible: with more places, surfaces would be forgotten less often, but would not stay in
+  /// the caches.
   static constexpr std::uint32_t most_places = 4 * samples;
   static_assert(most_places <= 0x10000);
   PixelBox area_;

@@ -18,10 +18,10 @@
 #include "fathom/fast/tiles/lane_batch-inl.h"
 #include "fathom/fast/tiles/tile.h"
 
-// How to read this file: draw_triangles() draws triangles, less those that VisibleTriangles left
-// out as hidden. They are set up in binary64 (setup-inl.h) and turned into
-// functions in binary32 (lane_batch-inl.h). Here it is decided which cells and blocks a triangle is
-// drawn into; cell_drawing-inl.h draws it.
+// How to read this file: draw_triangles() draws the triangles that VisibleTriangles did not leave
+// out as hidden. They are set up in binary64 (setup-inl.h) and turned into functions in binary32
+// (lane_batch-inl.h). This file decides into which cells and blocks a triangle is drawn;
+// cell_drawing-inl.h draws it.
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
 namespace {
@@ -39,12 +39,12 @@ HWY_INLINE void draw_box(Tile& tile, const Drawn& t, const DrawContext& context)
       (t.last_column - t.first_column + 1) * (t.last_row - t.first_row + 1));
 }
 
-/// What is certain about a row of blocks of a tile, a bit for each block.
+/// The certain facts about a row of blocks of a tile, a bit for each block.
 struct BlockRow {
   unsigned drawn, inside;
 };
 
-/// Those of a triangle; −∞ is the first one in columns that the box does not meet.
+/// The functions of a triangle; the first is −∞ in columns that the box does not meet.
 struct BlockFunctions {
   BlockFunction edges[3];
   BlockFunction q;
@@ -81,14 +81,14 @@ HWY_INLINE void make_block_functions(const Drawn& t, BlockFunctions& f) {
 }
 
 // Products and sums are rounded monotonically, so no sample of a block has a computed value above
-// that of the corner where the function is greatest, or below that of the opposite corner; only
-// blocks that the box meets count, and the bounds hold up to 8 samples beyond it.
-// Hidden: no surface of the block has a q below the block's farthest, and the triangle's greatest q
-// moved by twice its error is below that (moved_q.gappa.in, of the sample where q is greatest; the
-// computed value at the corner is not less, and rounding is monotone).
-// A block that lies inside shows surfaces that are not farther than the triangle once it is drawn,
-// at all its samples if it has no range to leave: its least q moved down by twice its error is not
-// greater than any q there.
+// the value at the corner where the function is greatest, or below the value at the opposite
+// corner; only blocks that the box meets count, and the bounds hold up to 8 samples beyond it.
+// Hidden: no surface of the block has a q below the block's farthest q, and the triangle's greatest
+// q, moved by twice its error, is below the farthest q (moved_q.gappa.in, at the sample where q is
+// greatest; the computed value at the corner is not less, and rounding is monotone). A block that
+// lies inside shows surfaces that are not farther than the triangle once it is drawn, at all its
+// samples if it has no range to leave: its least q moved down by twice its error is not greater
+// than any q there.
 HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, const BlockFunctions& f,
                                    int block_row, bool reject) {
   const DF8 d;
@@ -127,8 +127,9 @@ HWY_INLINE BlockRow look_at_blocks(Tile& tile, const Drawn& t, const BlockFuncti
   return row;
 }
 
-/// Draws by rows of blocks: blocks without a covered sample and those behind everything that is
-/// already drawn are left out; in those that lie inside the triangle, edges are not tested.
+/// Draws row by row of blocks. Leaves out blocks without a covered sample and blocks in which the
+/// triangle lies behind everything drawn so far; does not test edges in blocks that lie inside the
+/// triangle.
 HWY_INLINE void draw_blocks(Tile& tile, const Drawn& t, const DrawContext& context) {
   constexpr std::uint8_t draws_until_update = 4;
   const bool reject = context.switches.early_rejection;
@@ -159,8 +160,8 @@ HWY_INLINE void draw_blocks(Tile& tile, const Drawn& t, const DrawContext& conte
   }
 }
 
-/// The blocks in which a triangle is not hidden, as above, a bit for each, by rows of cells; others
-/// than those that its box meets do not count.
+/// The blocks in which a triangle is not hidden, as above, a bit for each, by rows of cells; blocks
+/// that its box does not meet are irrelevant.
 HWY_INLINE void find_open_blocks(Tile& tile, const LaneBatch& batch, std::size_t k,
                                  OfRows& open_blocks) {
   const DF8 d;
@@ -184,14 +185,14 @@ HWY_INLINE void find_open_blocks(Tile& tile, const LaneBatch& batch, std::size_t
   }
 }
 
-/// The cells that thin triangles of a batch may meet, for those lanes of which they are few.
+/// The cells that thin triangles of a batch may meet, for the lanes with few such cells.
 struct ThinLanes {
   unsigned lanes = 0;
   std::array<CellList, SetupBatch::most> cells;
 };
 
-// For all triangles before the first is drawn: a triangle ends with jumps that the processor does
-// not foresee, after which it would have to wait for the cells of the next one.
+// Computed for all triangles before the first is drawn: each triangle ends with mispredicted jumps,
+// after which the processor would have to wait for the cells of the next triangle.
 HWY_NOINLINE void make_thin_lanes(Tile& tile, const LaneBatch& batch, unsigned lanes,
                                   const DrawContext& context, ThinLanes& thin) {
   SpanGuesses guesses;
@@ -208,7 +209,8 @@ HWY_NOINLINE void make_thin_lanes(Tile& tile, const LaneBatch& batch, unsigned l
   }
 }
 
-/// Not part of what draws the other triangles, most of which are small: that would be slower.
+/// A function of its own, because inlining it would slow down the drawing of small triangles, which
+/// are the majority.
 HWY_NOINLINE void draw_large(Tile& tile, const Drawn& t, const ThinLanes& thin,
                              const DrawContext& context) {
   if (thin.lanes >> t.lane & 1) {
@@ -306,7 +308,7 @@ HWY_INLINE void draw_batch(Tile& tile, const SetupBatch& setups, unsigned lanes,
   if (lanes != small) make_lane_functions(setups, extent, widening, batch);
   const unsigned large =
       lanes != small && context.switches.hierarchy ? lanes & large_lanes(setups) : 0;
-  // Of scaled functions it is not known.
+  // For scaled functions this is unknown.
   const unsigned maybe_thin = are_scaled || large == 0 ? large : large & thin_lanes(setups);
   ThinLanes thin;
   if (maybe_thin != 0) make_thin_lanes(tile, batch, maybe_thin, context, thin);

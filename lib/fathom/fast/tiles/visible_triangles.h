@@ -18,9 +18,10 @@ class VisibleTriangles {
  public:
   /// Room for the triangles of a tile, kept from one tile to the next.
   std::vector<TileEntry>& entries() { return entries_; }
-  /// Calls draw(numbers) for the entries in parts, without those that are certainly hidden by what
-  /// was drawn before the part. Looking for them, if `reject`, pays where there are some: it is
-  /// tried with the first part and now and then, and goes on where one in eight was hidden.
+  /// Calls draw(numbers) for the entries, in parts, without triangles that earlier parts certainly
+  /// hide. Searching for hidden triangles, if `reject`, pays only if there are some: the first part
+  /// and occasional later parts are searched, and the search continues while one in eight is
+  /// hidden.
   template <class Draw>
   void for_each_part(Tile& tile, bool reject, const Draw& draw) {
     constexpr std::size_t least = 16, pause = 8;
@@ -38,7 +39,7 @@ class VisibleTriangles {
 
  private:
   static constexpr std::size_t most_at_once = 256;
-  /// Their numbers; those of the triangles that may be visible.
+  /// The numbers of the entries; the numbers of the triangles that may be visible.
   std::span<const std::uint32_t> numbers_of(std::span<const TileEntry> some);
   std::span<const std::uint32_t> visible_of(std::span<const TileEntry> some, Tile& tile);
 

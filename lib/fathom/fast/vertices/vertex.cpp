@@ -22,7 +22,7 @@
 // rounding of its entry, one of the product and three of sums, so the error is at most γ₅·S, where
 // S = |m₀x| + |m₁y| + |m₂z| + |m₃| and γ₅ = 5u/(1 − 5u). S is computed with a relative error of at
 // most γ₅ as well. 6u·S, computed, is therefore a bound; the excess of 6 over 5 covers the second
-// order. A product that underflows adds at most 2⁻¹⁰⁷⁵ absolutely: each user says what covers it.
+// order. A product that underflows adds at most 2⁻¹⁰⁷⁵ absolutely, which each user covers.
 namespace fathom::fast {
 namespace {
 
@@ -82,7 +82,7 @@ RoundedRows rounded_rows(const Object& object, const Camera& camera) {
   return rounded;
 }
 
-/// m·x without rounding; false: not known.
+/// m·x without rounding; false if unknown.
 bool multiply_exactly(double m, double x, double& product) {
   product = m * x;
   if (m == 0 || x == 0) return true;
@@ -90,14 +90,14 @@ bool multiply_exactly(double m, double x, double& product) {
   return no_underflow && std::fma(m, x, -product) == 0;
 }
 
-/// a + b without rounding; false: not known. TwoSum ([Knu97] 4.2.2) gives the rounding error.
+/// a + b without rounding; false if unknown. TwoSum ([Knu97] 4.2.2) gives the rounding error.
 bool add_exactly(double a, double b, double& sum) {
   sum = a + b;
   const double b_part = sum - a;
   return (a - (sum - b_part)) + (b - b_part) == 0;
 }
 
-/// The affine value without any rounding; false: not known.
+/// The affine value without any rounding; false if unknown.
 bool apply_exactly(const Row& m, const MeshPoint& X, double& value) {
   double mx, my, mz, xy, xyz;
   return multiply_exactly(m[0], X.x, mx) && multiply_exactly(m[1], X.y, my) &&

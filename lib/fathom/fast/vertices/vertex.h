@@ -15,19 +15,20 @@
 
 namespace fathom::fast {
 
-/// It is known which vertices lie exactly on the grid of this step (pixels) within this distance of
-/// the image's origin: there, edge functions are computed without any error (setup-inl.h).
+/// Vertices within this distance of the image's origin (in pixels) that lie exactly on the grid of
+/// this step are recognised: edge functions of such vertices are computed without any error
+/// (setup-inl.h).
 inline constexpr double snap_step = 0x1p-8, snap_limit = 0x1p15;
 
-/// A mesh vertex in the image, with what is proved about it.
+/// A mesh vertex in the image, with proved bounds.
 ///
 /// q is affine in the image over every triangle, and of two surfaces at a sample the nearer has the
 /// greater q: 1/D for a perspective camera, −D for an orthographic one.
 struct alignas(32) ImageVertex {
   double u, v;  // pixels
   double q;
-  /// Two bounds as the upper halves of their binary64 representations, rounded up: in the upper
-  /// half that on the errors of u and v, in the lower half that on the error of q.
+  /// Two bounds, as the upper halves of their binary64 representations, rounded up: the upper half
+  /// bounds the errors of u and v, the lower half the error of q.
   std::uint64_t errors;
 
   /// |u − exact u| and |v − exact v| are at most this; 0: u and v are exact multiples of snap_step;
@@ -38,8 +39,9 @@ struct alignas(32) ImageVertex {
   /// |q − exact q| is at most this.
   [[nodiscard]] double q_error() const { return std::bit_cast<double>(errors << 32); }
 
-  /// Certainly in front of the camera, and of magnitudes for which the bounds were derived.
-  /// Otherwise u and v mean nothing, and q < 0 says that the vertex is certainly not in front.
+  /// Whether the vertex is certainly in front of the camera, with magnitudes for which the bounds
+  /// were derived. Otherwise u and v are meaningless, and q < 0 means that the vertex is certainly
+  /// not in front.
   [[nodiscard]] bool is_usable() const { return position_error() < 1; }
   [[nodiscard]] bool is_behind() const { return !is_usable() && q < 0; }
 };
@@ -62,7 +64,7 @@ struct VertexForm {
   double value, error;
 };
 
-/// Takes the vertices of one object to the image.
+/// Transforms the vertices of one object to the image.
 class VertexTransform {
  public:
   VertexTransform(const Object& object, const Camera& camera);
@@ -71,19 +73,19 @@ class VertexTransform {
   void operator()(std::span<const MeshPoint> points, ImageVertex* image) const;
   ImageVertex operator()(const MeshPoint& X) const;
 
-  /// True only if a triangle with these corners covers no point of the image because of where they
-  /// are: all of them behind the camera, or all beyond one side of the image.
-  /// Meant for corners that are not usable; false means "not known".
+  /// Returns true only if all corners are behind the camera, or all are beyond one side of the
+  /// image, so that the triangle covers no point of the image. Meant for unusable corners; false
+  /// means "unknown".
   [[nodiscard]] bool misses_image(const std::array<MeshPoint, 3>& corners) const;
-  /// Forms that are negative at no point of the image, w and h being its width and height:
-  /// W, U, wW − U, V, hW − V. Mean nothing if the matrix is such that no vertex is usable.
+  /// Forms that are negative at no point of the image, w and h being its width and height: W, U, wW
+  /// − U, V, hW − V. Meaningless if the matrix makes every vertex unusable.
   [[nodiscard]] std::array<VertexForm, 5> forms_of_image(const MeshPoint& X) const;
 
   // For the vector code:
   [[nodiscard]] const ImageRows& rows() const { return rows_; }
   [[nodiscard]] bool is_perspective() const { return perspective_; }
-  /// Whether X, which is within its bounds of the multiples (u, v) of snap_step, is exactly there.
-  /// False means "not known".
+  /// Whether X, whose bounds contain the multiples (u, v) of snap_step, lies exactly there. False
+  /// means "unknown".
   [[nodiscard]] bool lies_exactly_at(const MeshPoint& X, double u, double v) const;
 
  private:
@@ -136,11 +138,11 @@ namespace fathom::fast {
 class VertexMemory {
  public:
   using Vertices = std::unique_ptr<ImageVertex[]>;
-  /// Room for `count` vertices, whatever it holds.
+  /// Room for `count` vertices, with unspecified content.
   Vertices take(std::size_t count);
-  /// Where there is no memory for the list, they go back to the system.
+  /// Releases them to the system if there is no memory for the list.
   void give_back(Vertices vertices, std::size_t count) noexcept;
-  /// Gives what nobody has taken back to the system.
+  /// Releases all memory that is not taken to the system.
   void forget() { blocks_.clear(); }
 
  private:
@@ -154,8 +156,8 @@ class VertexMemory {
 /// One object with its vertices in the image.
 struct ImageObject {
   /// For an object or a part of one; its first triangle is number `first_triangle` of the objects
-  /// that are drawn together. That is its number in the scene, too, or else `scene_numbers` has
-  /// those of all its triangles, and outlives it.
+  /// that are drawn together. Its number in the scene is the same, or `scene_numbers` has the
+  /// numbers of all its triangles in the scene, and outlives the object.
   ImageObject(const Object& object, const Mesh& its_mesh, const Camera& camera,
               std::uint32_t first_triangle, VertexMemory* kept = nullptr,
               std::span<const std::uint32_t> scene_numbers = {});
@@ -171,13 +173,13 @@ struct ImageObject {
   std::unique_ptr<ImageVertex[]> vertices;
   /// Where the vertices are given back to; may be null.
   VertexMemory* kept;
-  /// The numbers of its triangles in the scene; null where they have the same ones here.
+  /// The numbers of its triangles in the scene; null if they are the same here.
   const std::uint32_t* scene_numbers;
 
   [[nodiscard]] std::uint32_t end_number() const {
     return first_number + static_cast<std::uint32_t>(mesh.triangles.size());
   }
-  /// What the scene calls one of its triangles, and so tiles and the referee do.
+  /// The number of a triangle in the scene, which tiles and the referee use.
   [[nodiscard]] std::uint32_t number_in_scene(std::uint32_t number) const {
     return scene_numbers ? scene_numbers[number - first_number] : number;
   }

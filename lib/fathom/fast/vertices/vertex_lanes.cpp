@@ -1,5 +1,5 @@
-// Vertices to the image, several at once: compiled for every kind of vector instructions, of which
-// the best that the machine has is chosen at run time.
+// Transforms vertices to the image, several at once. Compiled for every kind of vector
+// instructions; the best kind of the machine is selected at run time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fathom/fast/vertices/vertex_lanes.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
@@ -24,7 +24,7 @@ HWY_INLINE V apply(const ImageRows::Row& m, V x, V y, V z) {
                     hn::MulAdd(constant(m[1]), y, hn::MulAdd(constant(m[2]), z, constant(m[3]))));
 }
 
-/// What ImageVertex has, and whether it is usable and certainly behind.
+/// The content of an ImageVertex, and whether the vertex is usable and certainly behind.
 struct Result {
   V u, v, q, position_error, q_error;
   M usable, behind;
@@ -102,7 +102,8 @@ HWY_INLINE M may_snap(const Result& r) {
                  hn::And(hn::Le(distance, r.position_error), hn::Le(size, constant(snap_limit))));
 }
 
-/// Moves the vertices that lie exactly on the grid to their places; few do, in most scenes none.
+/// Moves the vertices that lie exactly on the grid to their places; few vertices do, in most scenes
+/// none.
 HWY_NOINLINE void snap(const VertexTransform& transform, const MeshPoint* points,
                        ImageVertex* image, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {

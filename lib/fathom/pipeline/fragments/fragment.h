@@ -3,7 +3,7 @@
 #include "fathom/depth_format/encode.h"
 #include "fathom/pipeline/geometry/window_triangle.h"
 
-/// Interpolation stage: what a fragment gets from the corners of its triangle.
+/// Interpolation stage: computes the values of a fragment from the corners of its triangle.
 namespace fathom::pipeline {
 
 /// A sample of a triangle with all that shading and the output merger need.
@@ -17,9 +17,9 @@ struct Fragment {
 
 /// A triangle on the subpixel grid, and the values at its corners.
 ///
-/// Window depth is affine in the window and interpolated with the weights λ = e/Σe as they are;
-/// depth along the view always, and other attributes if asked for, with (λ/w)/Σ(λ/w). Interpolating
-/// the window depth that way would divide by w twice.
+/// Window depth is affine in the window and interpolated with the weights λ = e/Σe; depth along the
+/// view always, and other attributes if requested, with (λ/w)/Σ(λ/w). Interpolating the window
+/// depth that way would divide by w twice.
 template <class Real>
 class Interpolator {
  public:
@@ -30,7 +30,7 @@ class Interpolator {
   [[nodiscard]] const GridTriangle& grid() const { return grid_; }
   [[nodiscard]] const WindowTriangle<Real>& triangle() const { return *triangle_; }
 
-  /// Only what the depth test needs: window depth, and depth along the view.
+  /// Only the values that the depth test needs: window depth, and depth along the view.
   [[nodiscard]] Fragment depths_at(const GridPoint& sample) const;
   /// Adds the rest.
   void complete(Fragment& fragment, const GridPoint& sample) const;
@@ -49,7 +49,7 @@ class Interpolator {
   bool perspective_;
 };
 
-/// The depth test: what a fragment's depth is stored as, and which of two is nearer.
+/// The depth test: the stored form of a fragment's depth, and which of two depths is nearer.
 
 /// A window depth in [0, 1], rounded once to a storage: to nearest, ties to even.
 StoredDepth store(Storage storage, double window_z);
@@ -58,11 +58,11 @@ class DepthTest {
  public:
   explicit DepthTest(const PipelineOptions& options);
 
-  /// What the depth buffer keeps for a fragment. Mappings that are not projections are computed
-  /// here, from the depth along the view, in the options' precision.
+  /// The depth that the depth buffer stores for a fragment. Mappings that are not projections are
+  /// computed here, from the depth along the view, in the options' precision.
   [[nodiscard]] StoredDepth stored(const Fragment& fragment) const;
 
-  /// Strictly nearer wins, so the first of equal ones stays.
+  /// The strictly nearer depth wins, so the first of equal depths remains.
   [[nodiscard]] bool is_nearer(StoredDepth a, StoredDepth b) const {
     return greater_is_nearer_ ? a > b : a < b;
   }

@@ -38,8 +38,8 @@ std::optional<Texture> texture_of(const Scene& scene, const PipelineOptions& opt
 
 Lighting lighting_of(const Camera& camera, const PipelineOptions& options) {
   const auto camera_from_world = geometry::as_matrix(camera.world_to_camera);
-  // The camera's axes in the world are the rows of a rotation; of another matrix, what its inverse
-  // makes of them.
+  // The camera's axes in the world are the rows of a rotation; for another matrix, the images of
+  // the axes under its inverse.
   const Eigen::PartialPivLU<Eigen::Matrix3d> rotation(camera_from_world.leftCols<3>());
   const auto to_world = [&](const Vector& c) -> Vector { return rotation.solve(c); };
   Lighting lighting;
@@ -59,7 +59,7 @@ Lighting lighting_of(const Camera& camera, const PipelineOptions& options) {
 
 Light light_at(const Lighting& lighting, const Vector3& point, const Vector3& normal) {
   const Material& m = lighting.material;
-  const Vector N = as_vector(normal).normalized();  // zero stays zero
+  const Vector N = as_vector(normal).normalized();  // zero remains zero
   const Vector L = as_vector(lighting.towards_light);
   const double lambert = N.dot(L);
   if (!(lambert > 0)) return {m.ambient, 0};

@@ -141,14 +141,14 @@ png_const_bytep bytes_of(std::span<const std::byte> bytes) {
   return reinterpret_cast<png_const_bytep>(bytes.data());
 }
 
-/// Width and height as the header says, which follows the signature; 1×1 where it is cut short.
+/// Width and height from the header, which follows the signature; 1×1 if it is truncated.
 std::array<std::uint32_t, 2> stated_size(std::span<const std::byte> bytes) {
   if (bytes.size() < 24) return {1, 1};
   return {png_get_uint_32(bytes_of(bytes) + 16), png_get_uint_32(bytes_of(bytes) + 20)};
 }
 
-/// What is wrong with the texels of a picture whose palette has so many colours: libpng would draw
-/// an index beyond them black.
+/// The fault of the texels of a picture whose palette has so many colours, if any: libpng would
+/// draw an index beyond them black.
 std::optional<std::string> fault_of_palette(std::span<const std::byte> bytes,
                                             std::uint32_t colours) {
   png_image png{};
@@ -197,7 +197,8 @@ RgbImage decode_rgb_png(std::span<const std::byte> bytes, const std::string& nam
                              : std::nullopt)
     fail("broken PNG file: " + *fault);
   png.format = PNG_FORMAT_RGB;
-  // Without a gamma in the file, 16 bits mean what 8 bits do; libpng would take them as linear.
+  // Without a gamma in the file, 16 bits mean the same as 8 bits; libpng would treat them as
+  // linear.
   png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
   RgbImage image(png.width, png.height);
   const png_color black{0, 0, 0};

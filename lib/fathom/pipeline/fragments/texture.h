@@ -18,8 +18,8 @@ struct TextureFootprint {
   std::array<double, 2> uv{}, duv_dx{}, duv_dy{};
 };
 
-/// A picture with its mip maps: each level halves the one before by the mean of 2 × 2 texels (odd
-/// sizes drop the last row or column), down to one texel.
+/// A picture with its mip maps: each level halves the previous level by the mean of 2 × 2 texels
+/// (odd sizes drop the last row or column), down to one texel.
 /// Fails    InputError if there is no texel, or not a colour for each.
 class Texture {
  public:
@@ -27,9 +27,9 @@ class Texture {
   /// 8 × 8 squares, black and white.
   static Texture checker();
 
-  /// Nearest and bilinear use only the finest level. Trilinear goes by the longer of the two
-  /// changes, which blurs what is seen obliquely; anisotropic goes by the shorter one and takes the
-  /// mean of up to 16 samples along the longer.
+  /// Nearest and bilinear use only the finest level. Trilinear uses the longer of the two changes,
+  /// which blurs surfaces seen obliquely; anisotropic uses the shorter change and the mean of up to
+  /// 16 samples along the longer.
   [[nodiscard]] Colour sample(const TextureFootprint& footprint, TextureFilter filter) const;
 
   [[nodiscard]] std::size_t level_count() const { return levels_.size(); }
@@ -49,8 +49,8 @@ class Texture {
   std::vector<Level> levels_;
 };
 
-/// Reads a PNG of any kind as 8-bit colours: 1 to 16 bits, grey, palette or RGB; what is
-/// transparent lies over black, mixed in linear light (gamma 2.2).
+/// Reads a PNG of any kind as 8-bit colours: 1 to 16 bits, grey, palette or RGB; transparent pixels
+/// are mixed with black in linear light (gamma 2.2).
 ///
 /// Rounded  16 bits to the nearest of 8.
 /// Fails    InputError: missing, not a PNG, without texels, larger than 8192 × 8192, or with an

@@ -44,7 +44,7 @@ Facing facing_in_world(const std::array<WorldVertex<Real>, 3>& p,
   return facing_of<Real>(mirrored ? -dot : dot, front_face);
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs no parentheses
 #define FATHOM_INSTANTIATE(Real)                                                         \
   template Facing facing_in_window(const std::array<WindowVertex<Real>, 3>&, FrontFace); \
   template Facing facing_in_ndc(const std::array<NdcVertex<Real>, 3>&, FrontFace);       \

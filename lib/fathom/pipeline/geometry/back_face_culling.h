@@ -6,14 +6,14 @@
 
 /// Culling stage, and the three tests of the textbooks for which side of a triangle is seen.
 ///
-/// In exact arithmetic they agree for triangles in front of the eye; rounded, each has errors of
-/// its own, and the one in the window is about the triangle as it will be drawn.
+/// In exact arithmetic they agree for triangles in front of the eye. Rounded, each test has errors
+/// of its own; the test in the window tests the triangle as it will be drawn.
 namespace fathom::pipeline {
 
 enum class Facing { front, back, edge_on };
 
 /// The sign of the determinant in the window, which is twice the signed area: front if the corners
-/// run as `front_face` says, as seen.
+/// run, as seen, in the direction of `front_face`.
 /// Source   [GL46] 14.6.1
 template <class Real>
 Facing facing_in_window(const std::array<WindowVertex<Real>, 3>& triangle, FrontFace front_face);

@@ -6,7 +6,7 @@
 namespace fathom::pipeline {
 
 /// The stages up to the window: transform, clip, divide, cull, viewport, in that order. Parts of a
-/// clipped triangle come one after another. `rules` are those of each object.
+/// clipped triangle come one after another. `rules` are the rules of each object.
 template <class Real>
 WindowPrimitives<Real> to_window(const Scene& scene, const Camera& camera,
                                  const PipelineOptions& options,

@@ -70,19 +70,19 @@ constexpr std::uint64_t most_splits = 1000000;
 /// A convex polygon in the window; farness grows away from the eye.
 template <class Real>
 struct Polygon {
-  WindowTriangle<Real> source;  ///< its corners are those of the triangle of which this is a part
-  std::size_t plane = 0;        ///< the number of that triangle here
+  WindowTriangle<Real> source;  ///< the triangle that this is a part of
+  std::size_t plane = 0;        ///< the number of its plane in planes_
   std::vector<WindowVertex<Real>> corners;
   std::vector<Point3d> points;  ///< x, y, farness of `corners`
   Point3d low{}, high{};        ///< its box
-  bool moved = false;           ///< since the last one was painted
-  /// What the splits that made it have decided: on which side of a plane it lies.
+  bool moved = false;           ///< since the last polygon was painted
+  /// Sides of planes on which it lies, as decided by the splits that made it.
   std::vector<std::pair<std::size_t, Sign>> known_sides;
-  /// Edges, 3·plane + i, seen end on, that have already cut it: rounded cuts lie beside their line,
-  /// and would be made again.
+  /// Edges, 3·plane + i, seen end on, that have already cut it: rounded cuts lie next to their line
+  /// and would be repeated.
   std::vector<std::size_t> known_edges;
   std::size_t serial = 0;
-  /// Serial numbers of polygons before which it is painted, whatever the tests say.
+  /// Serial numbers of polygons before which it is painted, whatever the tests find.
   std::vector<std::size_t> forced_before;
   std::size_t traced = 0;  ///< its index in the trace
 };
@@ -143,7 +143,7 @@ class Painter {
     note({kind, P.traced, Q.traced, test});
   }
 
-  /// A trace is read by people. The steps of a mesh of thousands of triangles would fill the
+  /// Traces are for human readers, and the steps of a mesh of thousands of triangles would fill the
   /// memory.
   void note(const PainterStep& step) {
     constexpr std::size_t most_steps = 100'000;
@@ -199,7 +199,7 @@ class Painter {
     return projections_overlap(P.points, Q.points) ? 5 : 4;
   }
 
-  /// True if the first polygon may be painted; otherwise the list has been changed.
+  /// Returns true if the first polygon may be painted; otherwise changes the list.
   bool settle_first() {
     const Place P = todo_.begin();
     for (Place Q = std::next(P); Q != todo_.end(); ++Q) {
@@ -244,9 +244,10 @@ class Painter {
     for (Polygon<Real>& q : todo_) q.moved = false;
   }
 
-  /// Splits by the plane of the other or, if that cuts nothing, by an edge of the other seen end
-  /// on. A cycle in which neither cuts exists only because of rounding: if P covers Q within one
-  /// outline, whatever must come between them in the order passes through one of their planes.
+  /// Splits a polygon by the plane of the other or, if that cuts nothing, by an edge of the other
+  /// seen end on. A cycle in which neither cuts exists only because of rounding: if P covers Q
+  /// within one outline, every polygon that must come between them in the order passes through one
+  /// of their planes.
   void split(Place P, Place Q) {
     const auto plane_of = [&](const Polygon<Real>& q) {
       const std::vector<Point3d>& corners = planes_[q.plane];
@@ -290,8 +291,8 @@ class Painter {
     return geometry::dot_from_left((b - a).cross(c - a), as_vector(p) - a);
   }
 
-  /// Replaces a polygon by its parts on the two sides of `value_at` = 0; false if all of it lies on
-  /// one side, or a part would have no area.
+  /// Replaces a polygon by its parts on the two sides of `value_at` = 0; returns false if it lies
+  /// on one side, or if a part would have no area.
   template <class Value>
   bool cut(Place place, const Value& value_at, std::size_t plane) {
     Polygon<Real> behind = *place, before = *place;
@@ -363,7 +364,7 @@ std::vector<WindowTriangle<Real>> painters_order(std::vector<WindowTriangle<Real
   return Painter<Real>(greater_is_nearer, statistics, trace).run(std::move(triangles));
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs no parentheses
 #define FATHOM_INSTANTIATE(Real)                             \
   template std::vector<WindowTriangle<Real>> painters_order( \
       std::vector<WindowTriangle<Real>>, bool, PainterStatistics&, PainterTrace*);

@@ -22,8 +22,8 @@ bool projections_overlap(const std::vector<Point3d>& p, const std::vector<Point3
 /// The sign of the turn a → b → c in x and y.
 Sign turn_in_window(const Point3d& a, const Point3d& b, const Point3d& c);
 
-/// How the painter's order came about: how often each of Newell's tests settled that a polygon may
-/// be painted before another, and what had to be done if none did.
+/// Statistics of the painter's order: how often each of Newell's tests settled that a polygon may
+/// be painted before another, and what was done if no test did.
 struct PainterStatistics {
   std::array<std::uint64_t, 5> settled{};
   std::uint64_t z_disjoint = 0;   ///< polygons whose successors are entirely nearer
@@ -35,7 +35,7 @@ struct PainterStatistics {
 /// A polygon that the painter's algorithm orders: a triangle or, after splits, a part of one.
 struct PaintedPolygon {
   std::uint32_t triangle = 0;                  ///< its number in the scene
-  std::optional<std::size_t> part_of;          ///< index of the polygon that was split to make it
+  std::optional<std::size_t> part_of;          ///< index of the polygon that it was split from
   std::vector<std::array<double, 3>> corners;  ///< x, y, z in the window
 };
 

@@ -38,7 +38,7 @@ std::vector<std::array<double, 3>> smooth_normals(const Mesh& mesh, FrontFace fr
   return normals;
 }
 
-/// The index of a corner into a list that has triangles of its own, else that of the vertex.
+/// The index of a corner into a list with triangles of its own, otherwise the index of the vertex.
 std::uint32_t index_of(const MeshArray<CornerIndices>& own, const Mesh& mesh, std::size_t t,
                        std::size_t corner) {
   return own.empty() ? mesh.triangles[t][corner] : own[t][corner];

@@ -7,7 +7,7 @@
 #include "fathom/pipeline/options.h"
 #include "fathom/scene/scene.h"
 
-/// First stage: vertices as they come from the mesh, joined to primitives.
+/// First stage: joins the vertices of the mesh to primitives.
 namespace fathom::pipeline {
 
 /// A corner of a triangle in the frame of its mesh.
@@ -42,9 +42,8 @@ std::vector<std::array<std::uint32_t, corners>> assemble(
   return primitives;
 }
 
-/// The triangles of an object. Normals that are not those of the mesh are the sums of the area
-/// vectors of the triangles at a vertex or a place, scaled to unit length: on the side of the
-/// front.
+/// The triangles of an object. Normals that do not come from the mesh are the sums of the area
+/// vectors of the triangles at a vertex or a place, scaled to unit length, on the front side.
 std::vector<InputTriangle> assemble_triangles(const Scene& scene, std::uint32_t object,
                                               std::uint32_t first_number, FrontFace front_face,
                                               NormalSource normals = NormalSource::file);

@@ -82,17 +82,18 @@ Eigen::Matrix<Real, rows, 1> transformed(const Matrix<Real>& matrix, Real x, Rea
   return M.col(0) * x + M.col(1) * y + M.col(2) * z + M.col(3);
 }
 
-/// Scaled to unit length; zero stays zero. First by its greatest component: squares would overflow.
+/// Scaled to unit length; zero remains zero. First by its greatest component: squares would
+/// overflow.
 Eigen::Vector3d unit(const Eigen::Vector3d& n) {
   const double greatest = n.cwiseAbs().maxCoeff();
   if (!(greatest > 0)) return n;
   return (n / greatest).normalized();
 }
 
-/// Takes a normal of the mesh to the world: by the cofactors of the model matrix, which are its
-/// inverse transpose times its determinant. They do to a normal what the matrix does to the cross
-/// product of two edges, so that it stays on its side of the triangle, the side from which the
-/// corners run as before, also where the matrix mirrors.
+/// Transforms a normal of the mesh to the world by the cofactors of the model matrix, which are its
+/// inverse transpose times its determinant. They transform a normal as the matrix transforms the
+/// cross product of two edges, so that it stays on its side of the triangle, the side from which
+/// the corners run as before, even if the matrix mirrors.
 Eigen::Vector3d to_world_normal(const Eigen::Matrix3d& world_from_mesh,
                                 const Eigen::Vector3d& normal) {
   const double greatest = world_from_mesh.cwiseAbs().maxCoeff();

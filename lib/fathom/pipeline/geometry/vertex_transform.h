@@ -10,7 +10,7 @@
 
 namespace fathom::pipeline {
 
-/// What vertices carry to fragments, by the index of its first component.
+/// The attributes that vertices pass to fragments, by the index of the first component.
 namespace attribute {
 inline constexpr std::size_t depth = 0;  ///< along the view, scene units
 inline constexpr std::size_t world = 1;  ///< position, three
@@ -69,9 +69,9 @@ clipping::Volume volume_of(Mapping mapping);
 /// from their depth along the view.
 bool is_per_fragment(Mapping mapping);
 
-/// Fills in the camera's near and far or, if it has none, ones that contain the scene: near half
-/// the least vertex depth if every depth is positive, else 10⁻⁴ of the greatest; far twice the
-/// greatest.
+/// Fills in the camera's near and far or, if it has none, values that contain the scene: near is
+/// half the least vertex depth if every depth is positive, otherwise 10⁻⁴ of the greatest; far is
+/// twice the greatest.
 /// Fails    UsageError if the camera is orthographic and the mapping needs a perspective one.
 void fill_in_range(const Scene& scene, const Camera& camera, DepthFormat& format);
 

@@ -111,7 +111,7 @@ bool is_stretched(const Camera& camera, const PipelineOptions& options) {
                                  options.viewport->height * std::int64_t{camera.width};
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs no parentheses
 #define FATHOM_INSTANTIATE(Real)                                                             \
   template std::vector<ClipVertex<Real>> clip_triangle(const std::vector<ClipVertex<Real>>&, \
                                                        clipping::Volume);                    \

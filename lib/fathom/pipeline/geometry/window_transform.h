@@ -27,7 +27,7 @@ struct WindowVertex {
 };
 
 /// Clipping stage: the part of a triangle in the view volume, as a convex polygon with w > 0; empty
-/// if nothing of it is inside. A triangle that is entirely inside comes out unchanged.
+/// if nothing of it is inside. A triangle that is entirely inside remains unchanged.
 template <class Real>
 std::vector<ClipVertex<Real>> clip_triangle(const std::vector<ClipVertex<Real>>& triangle,
                                             clipping::Volume volume);
@@ -61,7 +61,7 @@ struct Viewport {
 
 Viewport viewport_of(const Camera& camera, const PipelineOptions& options);
 
-/// The pixels that can be drawn to: those of the image, the viewport and the scissor box.
+/// The pixels that can be drawn to: the pixels in the image, the viewport and the scissor box.
 PixelWindow drawable_window(const Camera& camera, const PipelineOptions& options);
 
 /// Whether the viewport's aspect ratio is not the camera's, so that the picture is stretched.

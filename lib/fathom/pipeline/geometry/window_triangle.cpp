@@ -30,7 +30,7 @@ Real depth_offset(const WindowTriangle<Real>& t, Storage storage, const DepthBia
   return static_cast<Real>(round_to_binary64(depth_offset(storage, bias, slopes)));
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs no parentheses
 #define FATHOM_INSTANTIATE(Real)                                               \
   template std::array<GridPoint, 3> snapped(const WindowTriangle<Real>&, int); \
   template Real depth_offset(const WindowTriangle<Real>&, Storage, const DepthBias&);

@@ -12,10 +12,11 @@ namespace fathom::pipeline {
 /// A triangle as it reaches scan conversion.
 template <class Real>
 struct WindowTriangle {
-  std::uint32_t number = 0;  ///< of the triangle of the scene that it is, or of which it is a part
+  std::uint32_t number = 0;  ///< of the triangle of the scene that it is a part of
   std::array<WindowVertex<Real>, 3> corners;
   bool front = true;  ///< as displayed, by the options' front face
-  /// The corners in the world of the triangle of the scene, whole: a part is as flat as the rest.
+  /// The world corners of the scene's whole triangle, also for a part of it: flat shading uses the
+  /// plane of the whole.
   std::array<std::array<Real, 3>, 3> face{};
   Real depth_offset = 0;  ///< polygon offset, added to the window depth of its fragments
   std::uint32_t object = 0;
@@ -37,9 +38,9 @@ struct WindowPoint {
   std::uint32_t object = 0;
 };
 
-/// What reaches scan conversion. Lines and points are those of the files, which are drawn whatever
-/// the shading is, and, if it draws them, those of the triangles that are not culled; they are
-/// clipped as lines and points.
+/// The input of scan conversion. Lines and points come from the files, which are drawn whatever the
+/// shading is, and from the edges and corners of unculled triangles, if the shading draws these;
+/// they are clipped as lines and points.
 template <class Real>
 struct WindowPrimitives {
   std::vector<WindowTriangle<Real>> triangles;
@@ -55,9 +56,10 @@ std::array<GridPoint, 3> snapped(const WindowTriangle<Real>& triangle, int bits)
 template <class Real>
 Real depth_offset(const WindowTriangle<Real>& triangle, Storage storage, const DepthBias& bias);
 
-/// Puts triangles into the order that the options ask for. By depth means by that of the mean of a
-/// triangle's three corners along the view, equal ones as in the file: right for small triangles
-/// that do not penetrate each other, and only for these (painters_algorithm.h is right for more).
+/// Puts triangles into the order that the options request. The order by depth uses the depth of the
+/// mean of a triangle's three corners along the view; equal depths keep the order of the file. It
+/// is correct only for small triangles that do not penetrate each other (painters_algorithm.h is
+/// correct for more).
 template <class Real>
 void put_into_draw_order(std::vector<WindowTriangle<Real>>& triangles,
                          const PipelineOptions& options);

@@ -45,8 +45,8 @@ PixelPartition::Piece& PixelPartition::spare_piece(std::size_t& count) {
   return pieces_[count++];
 }
 
-/// Leaves of `inside_` what lies on the positive side; the rest becomes a piece in which what is
-/// seen in piece `seen_in` is seen as before.
+/// Reduces `inside_` to its part on the positive side; the rest becomes a piece that still shows
+/// the surface of piece `seen_in`.
 void PixelPartition::cut(const PixelForm& line, std::size_t seen_in, std::size_t& spare) {
   const Polygon& polygon = inside_.polygon;
   values_.clear();
@@ -134,7 +134,7 @@ template <class Real>
 struct AreaTriangle {
   Interpolator<Real> interpolator;
   std::array<double, 3> nearness;
-  std::array<double, 3> dx, dy;  ///< what a pixel changes in the edge functions
+  std::array<double, 3> dx, dy;  ///< the change of the edge functions per pixel
 
   [[nodiscard]] PixelSurface in_pixel(std::uint32_t number, const Pixel& pixel) const {
     const GridTriangle& grid = interpolator.grid();
@@ -209,7 +209,7 @@ class AreaSampler {
     return t;
   }
 
-  /// At a corner: what is stored is a growing function of it, and it is affine in the window.
+  /// At a corner. The stored depth is a growing function of it, and it is affine in the window.
   [[nodiscard]] double affine_depth(const WindowTriangle<Real>& t, std::size_t k) const {
     const WindowVertex<Real>& corner = t.corners[k];
     if (!is_per_fragment(options_.depth_format.mapping))
@@ -252,7 +252,7 @@ class AreaSampler {
     std::sort(touching.begin(), touching.end());
     surfaces_.clear();
     for (const std::uint32_t i : touching) surfaces_.push_back(triangles_[i].in_pixel(i, pixel));
-    // Near ones first: others then mostly change nothing.
+    // Near triangles first: then farther triangles usually change nothing.
     if (!painter) {
       std::stable_sort(surfaces_.begin(), surfaces_.end(), [](const auto& a, const auto& b) {
         return a.nearness.at({0.5, 0.5}) > b.nearness.at({0.5, 0.5});
@@ -310,7 +310,7 @@ ColourImage area_sampled(const std::vector<WindowTriangle<Real>>& triangles, con
   return image;
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs no parentheses
 #define FATHOM_INSTANTIATE(Real)                                                               \
   template ColourImage area_sampled(const std::vector<WindowTriangle<Real>>&, const Camera&,   \
                                     const PipelineOptions&, const PixelWindow&, Shader<Real>&, \

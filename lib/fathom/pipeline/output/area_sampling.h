@@ -9,7 +9,7 @@
 #include "fathom/pipeline/fragments/shading.h"
 #include "fathom/pipeline/output/output_merger.h"
 
-/// A pixel's square, divided among the surfaces that are seen in it.
+/// A pixel's square, divided among its visible surfaces.
 namespace fathom::pipeline {
 
 /// A place in a pixel: x right, y down, from its upper left corner, in pixels.
@@ -26,39 +26,39 @@ struct PixelForm {
   }
 };
 
-/// A triangle as a pixel sees it.
+/// A triangle in the coordinates of a pixel.
 struct PixelSurface {
   std::uint32_t number = 0;
   std::array<PixelForm, 3> edges;  ///< none is negative where the triangle is
   PixelForm nearness;              ///< greater is nearer; affine, as window depth and 1/w are
 };
 
-/// What is seen of a surface in a pixel.
+/// The visible part of a surface in a pixel.
 struct SeenPart {
   std::uint32_t number;
   double area;          ///< of the pixel's 1
-  PixelPoint centroid;  ///< of the area that is seen
+  PixelPoint centroid;  ///< of the visible area
 };
 
-/// The square as convex pieces, each with the surface that is seen there. A surface that is added
-/// takes from each piece what lies within its edges and on the side where it is nearer of the line
-/// in which the two planes intersect, so surfaces that penetrate each other or overlap in a cycle
-/// are as right as others, and the order in which they come does not matter.
+/// The square as convex pieces, each with its visible surface. An added surface takes from each
+/// piece the part within its edges and on its nearer side of the line in which the two planes
+/// intersect. So surfaces that penetrate each other or overlap in a cycle are handled as well as
+/// others, and the order of addition does not matter.
 ///
-/// Rounded  places, to binary64. A line cuts a piece in two that share the places where it does, so
-///          the areas of all pieces always add up to 1 up to the rounding of their sum; an edge is
-///          off by at most some 2⁻⁵² of a pixel, and the line of two planes by the rounding of
-///          their nearness over the slope of its difference.
+/// Rounded  places, to binary64. A line divides a piece into two that share its end points, so the
+///          areas of all pieces always add up to 1 up to the rounding of their sum. The error of an
+///          edge is at most some 2⁻⁵² of a pixel; the error of the line of two planes is the
+///          rounding of their nearness over the slope of its difference.
 class PixelPartition {
  public:
   static constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
 
-  /// The whole square, in which nothing is seen.
+  /// Resets to the whole square without any surface.
   void clear();
-  /// `always`: what is added is seen, whatever is nearer (the painter's algorithm). Where two are
-  /// equally near, the lower number is seen.
+  /// `always`: the added surface is visible, whatever is nearer (the painter's algorithm). If two
+  /// surfaces are equally near, the lower number is visible.
   void add(const PixelSurface& surface, bool always = false);
-  /// What is seen, `nothing` included, by number.
+  /// The visible parts, `nothing` included, by number.
   [[nodiscard]] const std::vector<SeenPart>& seen();
 
  private:
@@ -82,12 +82,12 @@ class PixelPartition {
 };
 
 /// Area sampling: each pixel's colour is the mean of the surfaces that are seen in its square, each
-/// weighted by its visible area and shaded at the centroid of that area (area_sampling.h).
+/// weighted by its visible area and shaded at the centroid of that area (PixelPartition).
 ///
-/// Rounded  like any sample of the pipeline: corners to the subpixel grid, and their depths. What
-///          is nearer is decided by the window depth, with the polygon offset, before it is stored;
-///          for mappings that are not projections by the depth along the view. Areas follow in
-///          binary64. How far the picture is from exact areas of the scene itself:
+/// Rounded  like any sample of the pipeline: corners to the subpixel grid, and their depths. The
+///          window depth, with the polygon offset, decides which surface is nearer, before it is
+///          stored; for mappings that are not projections, the depth along the view decides. Areas
+///          follow in binary64. How far the picture is from exact areas of the scene itself:
 ///          `fathom study antialiasing`.
 /// Source   [WA77], [Cat78]
 template <class Real>

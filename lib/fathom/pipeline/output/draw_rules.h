@@ -7,8 +7,8 @@
 
 namespace fathom::pipeline {
 
-/// How the fragments of one object meet the frame buffer: the options, and what the scene says of
-/// the object.
+/// How the fragments of one object are written to the frame buffer, by the options and by the
+/// scene's state of the object.
 struct DrawRules {
   std::optional<Comparison> depth_test;  ///< as in DrawState
   bool depth_write = true;
@@ -16,15 +16,16 @@ struct DrawRules {
   std::optional<StencilState> stencil;
   std::optional<double> alpha;
   /// Fragments that fail the depth test are blended too, and count as passing for the stencil
-  /// value, as where OpenGL's depth test is off; what they leave of their depth is nothing.
+  /// value, as if OpenGL's depth test were off; they do not write depth.
   bool blends_failed = false;
   DepthBias offset;
 };
 
 /// For each object of the scene.
-/// Fails    InputError where an object asks for what these options cannot do: a polygon offset of
-///          depths that fragments compute themselves, a state under area sampling, which has no
-///          depth buffer, or one with more than an opacity under the painter's algorithm.
+/// Fails    InputError if an object requests a state that these options do not allow: a polygon
+///          offset of depths that fragments compute themselves, any state under area sampling,
+///          which has no depth buffer, or a state with more than an opacity under the painter's
+///          algorithm.
 std::vector<DrawRules> draw_rules_of(const Scene& scene, const PipelineOptions& options);
 
 /// Whether `value` compares so with `stored`.
@@ -51,7 +52,7 @@ constexpr bool compares(Comparison comparison, T value, T stored) {
   return true;
 }
 
-/// What becomes of a stencil value: the action, in the bits of the write mask alone.
+/// A stencil value after an action, which changes only the bits of the write mask.
 std::uint8_t after(StencilAction action, const StencilState& state, std::uint8_t value);
 
 }  // namespace fathom::pipeline

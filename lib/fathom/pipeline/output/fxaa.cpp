@@ -91,7 +91,7 @@ double share_of_neighbour(const ColourImage& image, double x, double y, const Si
                           double here) {
   const End back = find_end(image, x, y, side, -1), ahead = find_end(image, x, y, side, 1);
   const End& nearer = back.distance < ahead.distance ? back : ahead;
-  // The pixel's own side gives way at this end, or it goes on and the other side gives way.
+  // The pixel's own side yields at this end, or it continues and the other side yields.
   const bool gives_way = (nearer.change < 0) != (here < side.middle);
   return gives_way ? 0.5 - nearer.distance / (back.distance + ahead.distance) : 0;
 }

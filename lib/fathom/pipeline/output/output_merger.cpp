@@ -102,7 +102,8 @@ void OutputMerger::write(const Pixel& p, std::size_t sample, const MergedFragmen
     target_.replace(p, sample, colour);
   }
   if (!passed) return;
-  // What shows through a blended surface that leaves no depth stays what the pixel shows.
+  // The surface that shows through a blended surface without depth remains the surface of the
+  // pixel.
   if (rules_->colour_write && (!rules_->alpha || rules_->depth_write)) {
     there.id = fragment.number;
     there.depth = fragment.depth;

@@ -8,7 +8,7 @@
 #include "fathom/pipeline/fragments/fragment.h"
 #include "fathom/pipeline/output/draw_rules.h"
 
-/// Output merger: what becomes of a shaded fragment, and of the samples at the end.
+/// Output merger: writes shaded fragments to samples and resolves the samples at the end.
 namespace fathom::pipeline {
 
 /// A picture of floating-point colours, row by row from the top left.
@@ -28,13 +28,13 @@ Colour between(const ColourImage& image, double x, double y);
 /// Rounded to 8 bits, to nearest.
 RgbImage to_rgb(const ColourImage& image);
 
-/// What is kept for a sample.
+/// The stored values of a sample.
 struct StoredSample {
   std::uint32_t id = no_surface;
   std::array<float, 3> colour{};
   StoredDepth stored;
   double depth = 0;            ///< along the view, of the triangle that `id` names
-  bool depth_written = false;  ///< else `stored` is what the buffer was cleared to
+  bool depth_written = false;  ///< otherwise `stored` is the cleared value
   std::uint8_t stencil = 0;
 };
 
@@ -54,10 +54,10 @@ class FrameBuffer {
     return buffer_[index(p) + sample];
   }
 
-  /// Selects: the colour replaces what is stored.
+  /// Replaces the stored colour.
   void replace(const Pixel& p, std::size_t sample, const Colour& colour);
-  /// Blends: colour over what is stored, by its opacity. What is drawn first lies below, however
-  /// near it is.
+  /// Blends the colour over the stored colour, by its opacity. Fragments that are drawn first lie
+  /// below, however near they are.
   void blend(const Pixel& p, std::size_t sample, const Colour& colour, double alpha);
 
   /// The mean of each pixel's samples.
@@ -74,7 +74,7 @@ class FrameBuffer {
   std::vector<StoredSample> buffer_;
 };
 
-/// A shaded fragment on its way into a sample.
+/// A shaded fragment to be merged into a sample.
 struct MergedFragment {
   std::uint32_t number = 0;  ///< of its primitive
   StoredDepth stored;
@@ -85,7 +85,7 @@ struct MergedFragment {
 /// Which test a fragment failed, if any.
 enum class Outcome { stencil_failed, depth_failed, passed };
 
-/// One fragment at the output merger: the sample before it, the tests, the sample after it.
+/// A fragment at the output merger: the sample before, the tests, the sample after.
 struct MergeStep {
   Pixel pixel;
   std::size_t sample = 0;
@@ -96,13 +96,13 @@ struct MergeStep {
   bool depth_tested = true;  ///< false for the painter's algorithm
   DrawRules rules;
 };
-/// Called for each fragment that is merged. With early depth tests, fragments that fail are not.
+/// Called for each merged fragment. With early depth tests, fragments that fail are not merged.
 using ObserveMerge = std::function<void(const MergeStep&)>;
 
-/// The tests of the samples, and what fragments leave in them.
+/// Tests fragments against samples and writes the results to the samples.
 class OutputMerger {
  public:
-  /// Without `depth_tested` all fragments pass: what is drawn later is on top.
+  /// Without `depth_tested` all fragments pass: later fragments are on top.
   OutputMerger(const PipelineOptions& options, bool depth_tested, FrameBuffer& target,
                PipelineStatistics& statistics, const ObserveMerge* observe = nullptr)
       : test_(options),
@@ -111,13 +111,13 @@ class OutputMerger {
         count_(statistics),
         observe_(observe) {}
 
-  /// What holds for the fragments from now on; it must outlive them.
+  /// Sets the rules for all further fragments; they must outlive these.
   void begin(const DrawRules& rules) { rules_ = &rules; }
 
   [[nodiscard]] StoredDepth stored(const Fragment& fragment) const {
     return test_.stored(fragment);
   }
-  /// Stencil test, then depth test; changes the stencil value as the rules say.
+  /// Performs the stencil test, then the depth test; changes the stencil value by the rules.
   Outcome test(const Pixel& p, std::size_t sample, StoredDepth stored);
   /// Whether a fragment can change the picture.
   [[nodiscard]] bool is_wanted(Outcome outcome) const {
@@ -140,7 +140,7 @@ class OutputMerger {
   PipelineStatistics& count_;
   const DrawRules* rules_ = nullptr;
   const ObserveMerge* observe_;
-  StoredSample before_;  ///< the sample before its stencil test, if somebody observes
+  StoredSample before_;  ///< the sample before its stencil test, if observed
 };
 
 }  // namespace fathom::pipeline

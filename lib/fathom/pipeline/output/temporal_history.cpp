@@ -89,8 +89,8 @@ bool is_inside(const ColourImage& image, double x, double y) {
   return x >= -0.5 && y >= -0.5 && x <= image.width - 0.5 && y <= image.height - 0.5;
 }
 
-/// Catmull and Rom's cubic [CR74]: weights of the four samples around a place, of which it is `t`
-/// behind the second. It keeps edges where linear interpolation, picture after picture, would blur
+/// Catmull and Rom's cubic [CR74]: weights of the four samples around a place, which is `t` beyond
+/// the second sample. It keeps edges where linear interpolation, picture after picture, would blur
 /// them.
 std::array<double, 4> cubic_weights(double t) {
   return {t * (-0.5 + t * (1 - 0.5 * t)), 1 + t * t * (-2.5 + 1.5 * t),
@@ -115,7 +115,7 @@ Colour smooth_between(const ColourImage& image, double x, double y) {
   return sum;
 }
 
-/// Limits a colour to those of the 3 × 3 pixels around.
+/// Limits a colour to the range of the 3 × 3 pixels around.
 Colour limited(Colour colour, const ColourImage& image, std::uint32_t x, std::uint32_t y) {
   Colour least = image.at(x, y), greatest = least;
   for (std::uint32_t j = y == 0 ? 0 : y - 1; j <= std::min(y + 1, image.height - 1); ++j) {

@@ -37,21 +37,23 @@ std::optional<std::array<double, 3>> weights_at(const ImageTriangle& triangle, d
 std::optional<std::array<double, 2>> place_of(const ImageTriangle& triangle,
                                               const std::array<double, 3>& weights);
 
-/// Temporal antialiasing: what earlier pictures of a moving scene add to the present one.
+/// Temporal antialiasing: earlier pictures of a moving scene contribute to the present picture.
 
-/// What history is taken with; the parts can be left out to see what each is for.
+/// How history is used; each part can be switched off to show its effect.
 struct HistorySettings {
-  /// History is looked up where the surface of a pixel was in the picture before, not at the pixel.
+  /// Whether history is looked up where the surface of a pixel was in the previous picture, not at
+  /// the pixel.
   bool reprojected = true;
-  /// History is limited, in each component, to the range of the 3 × 3 pixels around in the present
-  /// picture: what was uncovered or has changed does not leave a ghost.
+  /// Whether each component of history is limited to the range of the 3 × 3 pixels around the pixel
+  /// in the present picture, so that uncovered or changed surfaces leave no ghosts.
   bool clamped = true;
-  /// The least share of the present picture in the new history; the first pictures have equal ones.
+  /// The least share of the present picture in the new history; the first pictures have equal
+  /// shares.
   double weight = 0.1;
 };
 
-/// For each pixel, row by row, where what is seen there was one picture before, minus where it is,
-/// in pixels; nothing where it was not in front of the eye.
+/// For each pixel, row by row, the previous position of the surface seen there minus its present
+/// position, in pixels; nullopt if it was not in front of the eye.
 struct PixelMove {
   double x = 0, y = 0;
 };
@@ -63,7 +65,7 @@ class TemporalHistory {
  public:
   explicit TemporalHistory(const HistorySettings& settings) : settings_(settings) {}
 
-  /// Takes in the next picture. The moves may be empty for the first one, and where history is not
+  /// Adds the next picture. The moves may be empty for the first picture, or if history is not
   /// reprojected.
   void add(const ColourImage& present, const PixelMoves& moves);
   [[nodiscard]] const ColourImage& picture() const { return history_; }

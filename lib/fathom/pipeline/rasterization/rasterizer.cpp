@@ -64,7 +64,7 @@ class Rasterizer {
     }
   }
 
-  /// `full`: every sample is known to be covered.
+  /// `full`: every sample is covered.
   void draw_part(const Interpolator<Real>& t, const PixelWindow& part, bool full) {
     for (std::int64_t y = part.y_begin; y < part.y_end; ++y) {
       check_interruption();
@@ -198,7 +198,7 @@ void rasterize(const std::vector<WindowTriangle<Real>>& triangles,
   for (const WindowTriangle<Real>& triangle : triangles) rasterizer.draw(triangle);
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs no parentheses
 #define FATHOM_INSTANTIATE(Real)                                                               \
   template void rasterize(const std::vector<WindowTriangle<Real>>&, const RasterizerSettings&, \
                           Shader<Real>*, FrameBuffer&, PipelineStatistics&);

@@ -4,7 +4,7 @@
 #include "fathom/pipeline/geometry/subpixel_grid.h"
 #include "fathom/pipeline/output/output_merger.h"
 
-/// Scan conversion stage and what follows it, for triangles in the window: fragments, depth test,
+/// Scan conversion and the following stages, for triangles in the window: fragments, depth test,
 /// shading, output merger.
 namespace fathom::pipeline {
 
@@ -21,18 +21,18 @@ struct RasterizerSettings {
   const std::vector<DrawRules>& rules;
   const GridSamples& pattern;
   ShadingRate rate = ShadingRate::per_sample;
-  /// Without a depth test, what comes later is on top (the painter's algorithm).
+  /// Without a depth test, later triangles are on top (the painter's algorithm).
   bool depth_tested = true;
   /// The part of the window that is drawn to.
   PixelWindow window;
   /// Called for each fragment that is merged; null for nobody.
   const ObserveMerge* observe = nullptr;
-  /// Lines are rectangles one pixel wide and points squares one pixel large, of which samples are
-  /// taken; else each fills whole pixels.
+  /// Whether lines are rectangles one pixel wide, and points squares of one pixel, that are
+  /// sampled; otherwise each fills whole pixels.
   bool outlines_have_area = false;
 };
 
-/// Draws triangles in their order. `shader` may be null if colours are not asked for.
+/// Draws triangles in their order. `shader` may be null if no colours are requested.
 template <class Real>
 void rasterize(const std::vector<WindowTriangle<Real>>& triangles,
                const RasterizerSettings& settings, Shader<Real>* shader, FrameBuffer& target,

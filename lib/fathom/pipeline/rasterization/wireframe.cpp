@@ -192,7 +192,7 @@ void rasterize_points(const std::vector<WindowPoint<Real>>& points,
   for (const WindowPoint<Real>& point : points) drawer.draw(point);
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs no parentheses
 #define FATHOM_INSTANTIATE(Real)                                                                   \
   template void rasterize_lines(const std::vector<WindowLine<Real>>&, const RasterizerSettings&,   \
                                 FrameBuffer&, PipelineStatistics&);                                \

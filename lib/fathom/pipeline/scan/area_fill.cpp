@@ -136,7 +136,7 @@ std::vector<std::vector<Number>> values_along(const FilledSpan<Number>& span) {
   return values;
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs no parentheses
 #define FATHOM_INSTANTIATE(Number)                                                     \
   template void fill_polygon(const FillPolygon<Number>&, FillRule, const PixelWindow&, \
                              const std::function<void(const ScanLine<Number>&)>&);     \

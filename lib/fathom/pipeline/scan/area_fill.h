@@ -17,7 +17,7 @@
 /// Source   [FvDFH90] 3.6
 namespace fathom::pipeline {
 
-/// A corner with what it carries along: attributes are linear along edges and spans.
+/// A corner with its attributes, which are linear along edges and spans.
 template <class Number>
 struct FillCorner {
   Number x, y;
@@ -79,8 +79,8 @@ using CharacterGrid = std::vector<std::string>;
 enum class Connectivity { four = 4, eight = 8 };
 
 /// The pixels that are connected with the seed through pixels of its own character, in row order;
-/// none if the seed is outside. Works on spans with a stack of its own: its memory grows with the
-/// outline, and no picture is too large for the machine's stack.
+/// empty if the seed is outside. Works on spans with an explicit stack: its memory grows with the
+/// outline, and no picture is too large for the call stack.
 /// Source   [Smi79]
 std::vector<Pixel> flood_fill(const CharacterGrid& grid, const Pixel& seed,
                               Connectivity connectivity);

@@ -29,8 +29,8 @@ struct CubicBezier {
 double chord_error(const CubicBezier& curve);
 
 /// The curve as points from its first to its last, chords of which are at most `tolerance` away
-/// from it: parts are divided in the middle until the bound above says so. Each division makes the
-/// bound at least almost four times as small.
+/// from it: parts are divided in the middle until the bound above proves it. Each division makes
+/// the bound at least almost four times as small.
 /// Fails    UsageError unless the control points are finite and the tolerance is at least 2⁻⁴⁰ of
 ///          their greatest distance from each other: nothing finer is told apart.
 std::vector<PlanePoint> flattened(const CubicBezier& curve, double tolerance);

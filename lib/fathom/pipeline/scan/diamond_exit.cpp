@@ -112,7 +112,8 @@ void diamond_exit_passages(const WindowSegment<Number>& ends, const PixelWindow&
   for (std::int64_t k = 0; k <= last - first; ++k) {
     check_interruption();
     const std::int64_t major = backwards ? last - k : first + k;
-    // The diamonds of a column are inside it: their order along the segment is that of the columns.
+    // The diamonds of a column are inside it: their order along the segment is the order of the
+    // columns.
     std::vector<Passage<Number>> column;
     const auto [low, high] =
         segment.minor_range(number_of<Number>(major), number_of<Number>(major + 1));
@@ -134,7 +135,7 @@ void diamond_exit_line(const WindowSegment<Number>& ends, const PixelWindow& win
       ends, window, [&](const DiamondPassage<Number>& passage) { visit(passage.pixel); });
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs no parentheses
 #define FATHOM_INSTANTIATE(Number)                                                      \
   template void diamond_exit_line(const WindowSegment<Number>&, const PixelWindow&,     \
                                   const std::function<void(const Pixel&)>&);            \

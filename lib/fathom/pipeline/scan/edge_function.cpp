@@ -68,7 +68,7 @@ void rasterize_triangle(const std::array<Point<Number>, 3>& corners, const Pixel
   }
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs no parentheses
 #define FATHOM_INSTANTIATE(Number)                                                                 \
   template std::optional<EdgeTriangle<Number>> edge_functions(const std::array<Point<Number>, 3>&, \
                                                               EdgeRule);                           \

@@ -20,7 +20,8 @@ enum class EdgeRule {
   closed,    ///< every edge's, as by the textbooks' `>= 0`: both triangles have them
 };
 
-/// One edge function, a·x + b·y + c: inside if positive, and if zero on an edge that takes zero.
+/// An edge function, a·x + b·y + c: a point is inside if it is positive, or if it is zero on an
+/// edge that includes zero.
 template <class Number>
 struct EdgeFunction {
   Number a, b, c;
@@ -45,7 +46,7 @@ template <class Number>
 std::optional<EdgeTriangle<Number>> edge_functions(const std::array<Point<Number>, 3>& corners,
                                                    EdgeRule rule = EdgeRule::top_left);
 
-/// The bounding box as pixels: those of the window that it touches.
+/// The bounding box as pixels: the pixels of the window that it touches.
 template <class Number>
 PixelWindow bounding_box(const std::array<Point<Number>, 3>& corners, const PixelWindow& window);
 

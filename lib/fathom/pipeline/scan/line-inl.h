@@ -5,7 +5,8 @@
 #include "fathom/pipeline/scan/line.h"
 #include "fathom/threads/interruption.h"
 
-/// The lines that compute with Number, for line.cpp and for tests that count what a step costs.
+/// The algorithms that compute with Number, for line.cpp and for tests that count the cost of a
+/// step.
 namespace fathom::pipeline {
 
 /// The signed slope: the change of the minor coordinate in one step.
@@ -19,7 +20,7 @@ Number slope_of(const LineAxes& a) {
 template <class Number>
 std::int64_t nearest_minor(const LineAxes& a, const Number& y) {
   const std::int64_t below = floor_of(y);
-  // Of the two differences the one towards 0 is not rounded.
+  // The difference towards 0 is not rounded.
   const bool tie = Number(y - Number(below)) * Number(2) == Number(1) &&
                    Number(Number(below + 1) - y) * Number(2) == Number(1);
   if (a.ties == TieRule::greater || !tie) return nearest_integer(y);

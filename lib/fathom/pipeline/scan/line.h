@@ -62,7 +62,7 @@ class LineForms {
 /// is decided by a rule; all exact algorithms draw the same pixels by the same rule.
 ///
 /// Lines are not clipped: `window` limits which pixels are visited, never which line is drawn;
-/// algorithms that can begin anywhere skip what is outside, however long the line.
+/// algorithms that can begin anywhere skip the outside, however long the line.
 
 /// Which of two pixels a line takes that passes half way between their centres.
 enum class TieRule {
@@ -105,7 +105,7 @@ struct LineAxes {
   [[nodiscard]] Steps steps_in(const PixelWindow& window) const;
 };
 
-/// A pixel of a line, in drawing order, and what decided it. `state` is
+/// A pixel of a line, in drawing order, and the number that decided it. `state` is
 ///   explicit, dda   the minor coordinate before it was rounded;
 ///   bresenham       the error before this step;
 ///   midpoint        the decision variable d from which the next pixel follows.
@@ -127,8 +127,8 @@ void dda_line(const LineEnds& ends, const PixelWindow& window, const VisitLine<N
 void bresenham_line(const LineEnds& ends, const PixelWindow& window,
                     const VisitLine<std::int64_t>& visit);
 
-/// The midpoint algorithm: the sign of d = 2·d_minor − d_major + … tells on which side of the
-/// midpoint between the two next pixels the line passes. d > 0: north-east, d += 2(d_minor −
+/// The midpoint algorithm: the sign of d = 2·d_minor − d_major + … is the side of the midpoint
+/// between the two next pixels on which the line passes. d > 0: north-east, d += 2(d_minor −
 /// d_major); d < 0: east, d += 2·d_minor; d = 0 is a tie.
 /// Source   [Van84]
 void midpoint_line(const LineEnds& ends, const PixelWindow& window,

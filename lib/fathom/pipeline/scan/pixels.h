@@ -19,8 +19,8 @@ struct Span {
   friend bool operator==(const Span&, const Span&) = default;
 };
 
-/// The pixels that are asked for: x_begin ≤ x < x_end, y_begin ≤ y < y_end. By default all pixels
-/// that an algorithm can reach.
+/// The requested pixels: x_begin ≤ x < x_end, y_begin ≤ y < y_end. By default all pixels that an
+/// algorithm can reach.
 struct PixelWindow {
   static constexpr std::int64_t far_away = std::int64_t{1} << 40;
   std::int64_t x_begin = -far_away, y_begin = -far_away;
@@ -34,7 +34,7 @@ struct PixelWindow {
   friend bool operator==(const PixelWindow&, const PixelWindow&) = default;
 };
 
-/// The part of a span that is asked for; x_begin ≥ x_end if there is none.
+/// The requested part of a span; x_begin ≥ x_end if it is empty.
 inline Span clipped(const Span& span, const PixelWindow& window) {
   if (span.y < window.y_begin || span.y >= window.y_end) return {span.y, 0, 0};
   return {span.y, std::max(span.x_begin, window.x_begin), std::min(span.x_end, window.x_end)};

@@ -101,7 +101,7 @@ RayCrossings ray_crossings(const Rings<Number>& rings, const Point<Number>& p) {
       const int side = sign_of(down ? left_of(b, a, p) : left_of(a, b, p));
       if (side <= 0) continue;
       ++result.count;
-      // What runs down on the right of the point goes round it clockwise, as seen.
+      // An edge that runs down on the right of the point turns clockwise around it, as seen.
       result.winding += down ? -1 : 1;
     }
   }
@@ -169,7 +169,7 @@ Point<Number> combination(const std::vector<Point<Number>>& points,
   return {Number(x / sum), Number(y / sum)};
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a type needs none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type needs no parentheses
 #define FATHOM_INSTANTIATE(Number)                                                           \
   template Number left_of(const Point<Number>&, const Point<Number>&, const Point<Number>&); \
   template bool is_on_one_side_of_every_edge(const Ring<Number>&, const Point<Number>&);     \

@@ -5,11 +5,11 @@
 
 #include "fathom/clipping/points.h"
 
-/// Questions about polygons in window coordinates, where y grows down. Every sign is told as the
-/// screen shows it: counter-clockwise turns and windings are positive, and "left" means left as
-/// seen, when walking along the edge. (As numbers, such a ring has a negative cross product at its
-/// convex corners.)
-/// Exact    over Exact; in floating point every sign is that of a rounded number.
+/// Predicates of polygons in window coordinates, where y grows down. Every sign refers to the
+/// picture on the screen: counter-clockwise turns and windings are positive, and "left" means left
+/// as seen, when walking along the edge. (As numbers, such a ring has a negative cross product at
+/// its convex corners.)
+/// Exact    over Exact; in floating point every sign is the sign of a rounded number.
 namespace fathom::pipeline {
 
 template <class Number>
@@ -24,8 +24,8 @@ using Point = clipping::Point2<Number>;
 template <class Number>
 Number left_of(const Point<Number>& a, const Point<Number>& b, const Point<Number>& p);
 
-/// Whether the point is left of every edge or right of every edge, or on one of them: the inside of
-/// a convex ring. For other rings it is a part of the inside, or nothing.
+/// Whether the point is left of every edge or right of every edge, or on an edge: the inside of a
+/// convex ring. For other rings this is a part of the inside, or empty.
 template <class Number>
 bool is_on_one_side_of_every_edge(const Ring<Number>& ring, const Point<Number>& p);
 
@@ -43,15 +43,15 @@ template <class Number>
 RayCrossings ray_crossings(const Rings<Number>& rings, const Point<Number>& p);
 
 struct Convexity {
-  /// Turns only one way, straight corners allowed, and around once.
+  /// Whether the ring turns only one way, straight corners allowed, and around once.
   bool convex = false;
-  /// No corner is left of one edge and none right of another: all corners against all edges. Gives
-  /// the same answer, but needs n² tests.
+  /// Whether all corners are on one side of all edges: either no corner is left of any edge, or no
+  /// corner is right of any edge. Gives the same answer, but needs n² tests.
   bool corners_on_one_side = false;
   /// For each corner: +1 turns left as seen, −1 right, 0 straight on or back.
   std::vector<int> turns;
   /// How often the ring's direction turns around, counter-clockwise as seen; nullopt if an edge has
-  /// no length or turns straight back, in which case the number has no meaning.
+  /// no length or turns straight back, because the number is meaningless then.
   std::optional<int> turning_number;
 };
 template <class Number>
@@ -67,8 +67,8 @@ Ring<Number> convex_hull(std::vector<Point<Number>> points);
 template <class Number>
 bool is_in_hull(const Ring<Number>& hull, const Point<Number>& p);
 
-/// Σ wᵢPᵢ / Σ wᵢ: barycentric coordinates over any number of points. If no weight is negative it
-/// lies in the convex hull of the points.
+/// Σ wᵢPᵢ / Σ wᵢ: barycentric coordinates over any number of points. If no weight is negative, the
+/// result lies in the convex hull of the points.
 /// Shape    a weight for each point; their sum is not 0.
 template <class Number>
 Point<Number> combination(const std::vector<Point<Number>>& points,
