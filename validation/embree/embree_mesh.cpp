@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "fathom/failures/errors.h"
 
@@ -50,6 +51,20 @@ void EmbreeMesh::check(const std::string& what) const {
   throw InputError(
       "Embree: " + what + " failed: " +
       (error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : "error " + std::to_string(error)));
+}
+
+RTCRayHit query_of(const std::array<double, 3>& origin, const std::array<double, 3>& direction) {
+  RTCRayHit query{};
+  query.ray.org_x = static_cast<float>(origin[0]);
+  query.ray.org_y = static_cast<float>(origin[1]);
+  query.ray.org_z = static_cast<float>(origin[2]);
+  query.ray.dir_x = static_cast<float>(direction[0]);
+  query.ray.dir_y = static_cast<float>(direction[1]);
+  query.ray.dir_z = static_cast<float>(direction[2]);
+  query.ray.tfar = std::numeric_limits<float>::infinity();
+  query.ray.mask = 0xFFFFFFFF;
+  query.hit.geomID = query.hit.primID = RTC_INVALID_GEOMETRY_ID;
+  return query;
 }
 
 std::string embree_version() {

@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <array>
 #include <string>
 
 #include "fathom/attribution/model/renderer_input.h"
@@ -32,6 +33,10 @@ class EmbreeMesh {
   RTCGeometry geometry_ = nullptr;
   RTCScene scene_ = nullptr;
 };
+
+/// A ray from t = 0 on, for rtcIntersect1(); its numbers are rounded to binary32. It meets no
+/// triangle yet.
+RTCRayHit query_of(const std::array<double, 3>& origin, const std::array<double, 3>& direction);
 
 /// "Embree 3.13.5".
 std::string embree_version();

@@ -1,31 +1,15 @@
 #include <embree3/rtcore.h>
 
-#include <limits>
-
 #include "validation/embree/embree_mesh.h"
 #include "validation/rays/ray_engines.h"
 
 namespace fathom::validation {
 namespace {
 
-RTCRayHit query_of(const Ray& ray) {
-  RTCRayHit query{};
-  query.ray.org_x = static_cast<float>(ray.origin[0]);
-  query.ray.org_y = static_cast<float>(ray.origin[1]);
-  query.ray.org_z = static_cast<float>(ray.origin[2]);
-  query.ray.dir_x = static_cast<float>(ray.direction[0]);
-  query.ray.dir_y = static_cast<float>(ray.direction[1]);
-  query.ray.dir_z = static_cast<float>(ray.direction[2]);
-  query.ray.tfar = std::numeric_limits<float>::infinity();
-  query.ray.mask = 0xFFFFFFFF;
-  query.hit.geomID = query.hit.primID = RTC_INVALID_GEOMETRY_ID;
-  return query;
-}
-
 RayHit nearest_of(RTCScene scene, const Ray& ray) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  RTCRayHit query = query_of(ray);
+  RTCRayHit query = query_of(ray.origin, ray.direction);
   rtcIntersect1(scene, &context, &query);
   if (query.hit.primID == RTC_INVALID_GEOMETRY_ID) return {};
   return {query.hit.primID, query.ray.tfar};
@@ -46,7 +30,7 @@ std::uint32_t count_of(RTCScene scene, const Ray& ray) {
   Counting counting;
   rtcInitIntersectContext(&counting.context);
   counting.context.filter = count_hit;
-  RTCRayHit query = query_of(ray);
+  RTCRayHit query = query_of(ray.origin, ray.direction);
   rtcIntersect1(scene, &counting.context, &query);
   return counting.count;
 }
