@@ -4,17 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "check.h"
 #include "fathom.h"
-
-static int failures = 0;
-
-#define CHECK(condition)                                                                   \
-  do {                                                                                     \
-    if (!(condition)) {                                                                    \
-      fprintf(stderr, "%s:%d: %s (%s)\n", __FILE__, __LINE__, #condition, fathom_error()); \
-      ++failures;                                                                          \
-    }                                                                                      \
-  } while (0)
 
 /* The cube from 0 to 2, whose front faces look outwards, and a square behind it, at x = 4. */
 static const double corners[] = {0, 0, 0, 0, 0, 2, 0, 2, 0, 0, 2, 2,

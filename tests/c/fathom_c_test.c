@@ -5,17 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "check.h"
 #include "fathom.h"
-
-static int failures = 0;
-
-#define CHECK(condition)                                                                   \
-  do {                                                                                     \
-    if (!(condition)) {                                                                    \
-      fprintf(stderr, "%s:%d: %s (%s)\n", __FILE__, __LINE__, #condition, fathom_error()); \
-      ++failures;                                                                          \
-    }                                                                                      \
-  } while (0)
 
 /* A triangle in the plane z = 4 + x/2, and a camera at the origin. */
 static const double vertices[] = {-2, -2, 3, 2, -2, 5, 0, 2, 4};

@@ -8,27 +8,16 @@
 #include "fathom/reference/probe.h"
 #include "tests/engines/tested_engine.h"
 #include "tests/inputs/scene_building.h"
+#include "tests/inputs/soup.h"
 
 namespace fathom {
 namespace {
 
 using testing::camera_of;
 using testing::scene_of;
+using testing::soup_around_eye;
 
 constexpr std::uint32_t width = 12, height = 10;
-
-/// A soup of triangles with coordinates of few bits, some behind the camera.
-Scene soup(std::mt19937& random, int triangles) {
-  const auto coordinate = [&] { return static_cast<double>(random() % 33) / 4 - 4; };
-  std::vector<MeshPoint> v;
-  std::vector<CornerIndices> t;
-  for (int i = 0; i < triangles; ++i) {
-    const auto first = static_cast<std::uint32_t>(v.size());
-    for (int k = 0; k < 3; ++k) v.push_back({coordinate(), coordinate(), coordinate() + 3});
-    t.push_back({first, first + 1, first + 2});
-  }
-  return scene_of(std::move(v), std::move(t));
-}
 
 RenderOptions with(std::vector<Channel> channels) {
   RenderOptions options;
@@ -48,7 +37,7 @@ TEST(Laws, TheOrderOfCornersChangesOnlyBarycentricWeights) {
   std::mt19937 random(31);
   const auto options = with({Channel::Z, Channel::id, Channel::N, Channel::P, Channel::distance});
   for (int trial = 0; trial < 50; ++trial) {
-    Scene scene = soup(random, 6);
+    Scene scene = soup_around_eye(random, 6);
     const Camera camera = camera_of(width, height, 8);
     const DepthMap before = testing::render_tested(scene, camera, options);
     for (CornerIndices& t : scene.meshes[0].triangles) {
@@ -65,7 +54,7 @@ TEST(Laws, TheOrderOfCornersChangesOnlyBarycentricWeights) {
 TEST(Laws, TheOrderOfTrianglesChangesOnlyTheirNumbers) {
   std::mt19937 random(32);
   for (int trial = 0; trial < 50; ++trial) {
-    Scene scene = soup(random, 8);
+    Scene scene = soup_around_eye(random, 8);
     const Camera camera = camera_of(width, height, 8);
     const DepthMap before = testing::render_tested(scene, camera, with({Channel::Z, Channel::id}));
     std::shuffle(scene.meshes[0].triangles.begin(), scene.meshes[0].triangles.end(), random);
@@ -86,7 +75,7 @@ TEST(Laws, AmongEqualDepthsTheLowestNumberIsVisible) {
 TEST(Laws, SplittingATriangleChangesNothingThatIsSeen) {
   std::mt19937 random(33);
   for (int trial = 0; trial < 100; ++trial) {
-    const Scene whole = soup(random, 3);
+    const Scene whole = soup_around_eye(random, 3);
     Scene split = whole;
     Mesh& mesh = split.meshes[0];
     mesh.triangles.clear();
@@ -114,7 +103,7 @@ TEST(Laws, SplittingATriangleChangesNothingThatIsSeen) {
 TEST(Laws, ShiftingThePrincipalPointByWholePixelsShiftsTheMap) {
   std::mt19937 random(34);
   for (int trial = 0; trial < 30; ++trial) {
-    const Scene scene = soup(random, 6);
+    const Scene scene = soup_around_eye(random, 6);
     const Camera camera = camera_of(width, height, 8);
     Camera shifted = camera;
     shifted.projection.cx += 3;
@@ -134,7 +123,7 @@ TEST(Laws, ShiftingThePrincipalPointByWholePixelsShiftsTheMap) {
 TEST(Laws, MirroringTheWorldAndTheCameraChangesNothing) {
   std::mt19937 random(35);
   for (int trial = 0; trial < 30; ++trial) {
-    Scene scene = soup(random, 6);
+    Scene scene = soup_around_eye(random, 6);
     Camera camera = camera_of(width, height, 8);
     const auto before = bits(testing::render_tested(scene, camera), "Z");
     for (MeshPoint& p : scene.meshes[0].vertices) p.x = -p.x;
@@ -146,7 +135,7 @@ TEST(Laws, MirroringTheWorldAndTheCameraChangesNothing) {
 TEST(Laws, MirroringTheImageReversesItsRows) {
   std::mt19937 random(36);
   for (int trial = 0; trial < 30; ++trial) {
-    const Scene scene = soup(random, 6);
+    const Scene scene = soup_around_eye(random, 6);
     Camera camera = camera_of(width, height, 8);
     camera.projection.cx += 0.2101;  // no sample lies on an edge of these coordinates
     camera.projection.cy += 0.3203;
@@ -167,7 +156,7 @@ TEST(Laws, MirroringTheImageReversesItsRows) {
 TEST(Laws, PowersOfTwoOnlyScaleDepth) {
   std::mt19937 random(37);
   for (const double scale : {0x1p100, 0x1p-100}) {
-    const Scene scene = soup(random, 8);
+    const Scene scene = soup_around_eye(random, 8);
     Scene scaled = scene;
     for (MeshPoint& p : scaled.meshes[0].vertices) p = {p.x * scale, p.y * scale, p.z * scale};
     const Camera camera = camera_of(width, height, 8);
@@ -182,7 +171,7 @@ TEST(Laws, PowersOfTwoOnlyScaleDepth) {
 
 TEST(Laws, AnExactTransformEqualsTransformedVertices) {
   std::mt19937 random(38);
-  Scene scene = soup(random, 8);
+  Scene scene = soup_around_eye(random, 8);
   Scene moved = scene;
   for (MeshPoint& p : moved.meshes[0].vertices) p = {2 * p.y + 1, -p.x, p.z + 0.25};
   Object& object = scene.objects[0];
@@ -196,7 +185,7 @@ TEST(Laws, AnExactTransformEqualsTransformedVertices) {
 
 TEST(Laws, ThreadsAndObjectsDoNotMatter) {
   std::mt19937 random(39);
-  const Scene one = soup(random, 40);
+  const Scene one = soup_around_eye(random, 40);
   Scene several;  // the same triangles as four objects, two of them one mesh
   for (std::uint32_t k = 0; k < 4; ++k) {
     Mesh part;
@@ -227,7 +216,7 @@ TEST(Laws, ThreadsAndObjectsDoNotMatter) {
 TEST(Laws, ProbeTellsWhatTheMapShows) {
   std::mt19937 random(40);
   for (int trial = 0; trial < 20; ++trial) {
-    const Scene scene = soup(random, 8);
+    const Scene scene = soup_around_eye(random, 8);
     Camera camera = camera_of(width, height, 8);
     camera.near = 1;
     camera.far = 6;

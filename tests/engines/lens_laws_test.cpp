@@ -14,6 +14,7 @@ namespace {
 
 using testing::expect_same_map;
 using testing::render_tested;
+using testing::soup_around_eye;
 
 constexpr std::uint32_t width = 24, height = 20;
 
@@ -42,19 +43,6 @@ Camera camera_with(const Lens& lens) {
   return camera;
 }
 
-/// Triangles before the eye and around it, with corners of few bits.
-Scene triangles(std::mt19937_64& random, int count) {
-  const auto coordinate = [&] { return static_cast<double>(random() % 33) / 4 - 4; };
-  std::vector<MeshPoint> corners;
-  std::vector<CornerIndices> indices;
-  for (int i = 0; i < count; ++i) {
-    const auto first = static_cast<std::uint32_t>(corners.size());
-    for (int k = 0; k < 3; ++k) corners.push_back({coordinate(), coordinate(), coordinate() + 3});
-    indices.push_back({first, first + 1, first + 2});
-  }
-  return testing::scene_of(std::move(corners), std::move(indices));
-}
-
 RenderOptions with(std::vector<Channel> channels) {
   RenderOptions options;
   options.channels = std::move(channels);
@@ -79,7 +67,7 @@ void for_each_view(std::uint64_t seed, int scenes, const Check& check) {
   for (const NamedLens& named : lenses()) {
     SCOPED_TRACE(named.name);
     for (int i = 0; i < std::max(1, scenes / testing::effort); ++i)
-      check(camera_with(named.lens), triangles(random, 6), random);
+      check(camera_with(named.lens), soup_around_eye(random, 6), random);
   }
 }
 
@@ -88,7 +76,7 @@ TEST(LensLaws, ALensWithoutDistortionGivesThePinholesMap) {
   for (const LensModelEntry& entry : lens_models()) {
     if (entry.formula != RayFormula::plane) continue;
     SCOPED_TRACE(entry.name);
-    const Scene scene = triangles(random, 8);
+    const Scene scene = soup_around_eye(random, 8);
     const Camera camera = camera_with(Lens{entry.model});
     Camera pinhole = camera;
     pinhole.projection.lens.reset();
@@ -118,7 +106,7 @@ TEST(LensLaws, AModelGivesTheMapOfTheModelThatContainsIt) {
   std::mt19937_64 random(42);
   for (const auto& [special, general] : same) {
     SCOPED_TRACE(name_of(special.model));
-    const Scene scene = triangles(random, 8);
+    const Scene scene = soup_around_eye(random, 8);
     expect_same_map(render_tested(scene, camera_with(special), every_value()),
                     render_tested(scene, camera_with(general), every_value()));
   }

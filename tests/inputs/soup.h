@@ -65,4 +65,18 @@ inline Scene slivers(std::mt19937_64& random, int triangles) {
   return scene_of(std::move(vertices), std::move(indices));
 }
 
+/// Triangles before the eye and around it, some behind it, with corners of few bits.
+template <class Random>
+Scene soup_around_eye(Random& random, int triangles) {
+  const auto coordinate = [&] { return static_cast<double>(random() % 33) / 4 - 4; };
+  std::vector<MeshPoint> corners;
+  std::vector<CornerIndices> indices;
+  for (int t = 0; t < triangles; ++t) {
+    const auto first = static_cast<std::uint32_t>(corners.size());
+    for (int k = 0; k < 3; ++k) corners.push_back({coordinate(), coordinate(), coordinate() + 3});
+    indices.push_back({first, first + 1, first + 2});
+  }
+  return scene_of(std::move(corners), std::move(indices));
+}
+
 }  // namespace fathom::testing
