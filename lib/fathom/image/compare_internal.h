@@ -31,7 +31,9 @@ class Reading {
   }
   /// Bit patterns mean the same in two channels of equal type (and, for codes, of equal scale).
   [[nodiscard]] std::pair<std::size_t, std::optional<double>> type() const {
-    return {values_.index(), is_codes() ? scale_ : std::nullopt};
+    std::pair<std::size_t, std::optional<double>> result(values_.index(), std::nullopt);
+    if (is_codes()) result.second = scale_;
+    return result;
   }
   [[nodiscard]] bool is_binary64() const {
     return std::holds_alternative<Samples<double>>(values_);

@@ -48,7 +48,7 @@ struct ObjectSegments {
 inline std::vector<std::uint32_t> compact_segments(std::vector<std::uint32_t> numbers) {
   for (const std::uint32_t number : numbers)
     if (number != numbers.front()) return numbers;
-  if (!numbers.empty()) numbers = {numbers.front()};
+  if (!numbers.empty()) numbers.resize(1);
   return numbers;
 }
 

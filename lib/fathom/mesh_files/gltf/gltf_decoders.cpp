@@ -32,7 +32,7 @@ MeshoptFilter read_filter(const JsonValue& extension) {
 /// An accessor's component type and how many numbers an element has, for Draco to convert to; what
 /// is no accessor is found when one is made of it.
 DracoAttribute as_described(std::uint32_t number, const JsonValue& accessor) {
-  const std::string& type = accessor.at("type").string();
+  const std::string type = accessor.at("type").string();
   const std::uint32_t width = type == "SCALAR" ? 1
                               : type.size() == 4 && type[0] == 'V'
                                   ? static_cast<std::uint32_t>(type[3] - '0')
