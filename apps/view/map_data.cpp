@@ -131,13 +131,25 @@ void write_samples(const DeepMap& deep, const ImageSize& size, const std::string
   }
 }
 
+bool is_single_direction(const ImageChannel& channel) {
+  return kind_of(channel) == ChannelKind::direction &&
+         std::holds_alternative<Samples<float>>(channel.values);
+}
+
+/// The channel of triangles next to a channel of directions, as a number.
+std::optional<std::size_t> identifiers_beside(const DepthMap& map, const ImageChannel& channel) {
+  const ImageChannel* const found = map.find("id");
+  if (!is_single_direction(channel) || found == nullptr ||
+      !std::holds_alternative<Samples<std::uint32_t>>(found->values)) {
+    return std::nullopt;
+  }
+  return static_cast<std::size_t>(found - map.channels.data());
+}
+
 /// The channels X and Y of the unit vectors whose Z a channel holds, as numbers.
 std::optional<std::array<std::size_t, 2>> parts_beside(const DepthMap& map,
                                                        const ImageChannel& channel) {
-  if (kind_of(channel) != ChannelKind::direction || !channel.name.ends_with(".Z") ||
-      !std::holds_alternative<Samples<float>>(channel.values)) {
-    return std::nullopt;
-  }
+  if (!is_single_direction(channel) || !channel.name.ends_with(".Z")) return std::nullopt;
   const std::string stem = channel.name.substr(0, channel.name.size() - 1);
   std::array<std::size_t, 2> numbers{};
   for (std::size_t part = 0; part < numbers.size(); ++part) {
@@ -228,6 +240,7 @@ Json describe_channel(const DepthMap& map, const ImageChannel& channel, Masks& m
             {"range", range_of(channel, mask)}};
   told["mask"] = masks.number_of(std::move(mask));
   if (const auto parts = parts_beside(map, channel)) told["unit"] = *parts;
+  if (const auto identifiers = identifiers_beside(map, channel)) told["by"] = *identifiers;
   if (shows_segments(channel.name)) told["none"] = no_segment;
   if (const auto* names = image::names_of_channel(map, channel.name)) told["names"] = *names;
   return told;
@@ -246,27 +259,35 @@ Json describe_camera(const Camera& camera) {
           {"worldFromCamera", camera_to_world(camera.world_to_camera)}};
 }
 
-void write_channel(const DepthMap& map, const ImageChannel& channel, const std::string& id,
-                   const Sink& sink, Progress& progress) {
-  const ImageSize size{map.width, map.height};
-  std::function<std::string(const TilePlace&)> packed_tile;
+/// The text of a tile of directions.
+std::string packed_direction(const DepthMap& map, const ImageChannel& channel,
+                             const TilePlace& tile) {
+  DirectionHints hints;
   if (const auto numbers = parts_beside(map, channel)) {
     const auto values = [&](std::size_t number) {
       return std::span<const float>(std::get<Samples<float>>(map.channels[number].values));
     };
-    const UnitParts parts{values((*numbers)[0]), values((*numbers)[1])};
-    packed_tile = [parts, plane = words_of(std::get<Samples<float>>(channel.values)),
-                   width = map.width](const TilePlace& tile) {
-      return packed_third(plane, parts, width, tile);
-    };
-  } else {
-    packed_tile = [&](const TilePlace& tile) {
-      return std::visit(
-          [&](const auto& values) { return packed(words_of(values), map.width, tile); },
-          channel.values);
-    };
+    hints.x = values((*numbers)[0]);
+    hints.y = values((*numbers)[1]);
   }
-  write_tiles(packed_tile, size, id, sink, &progress);
+  Segments segments;
+  if (const auto number = identifiers_beside(map, channel)) {
+    segments = segments_of(std::get<Samples<std::uint32_t>>(map.channels[*number].values),
+                           map.width, tile);
+    hints.segments = &segments;
+  }
+  return packed_direction(words_of(std::get<Samples<float>>(channel.values)), hints, map.width,
+                          tile);
+}
+
+void write_channel(const DepthMap& map, const ImageChannel& channel, const std::string& id,
+                   const Sink& sink, Progress& progress) {
+  const auto packed_tile = [&](const TilePlace& tile) {
+    if (is_single_direction(channel)) return packed_direction(map, channel, tile);
+    return std::visit([&](const auto& values) { return packed(words_of(values), map.width, tile); },
+                      channel.values);
+  };
+  write_tiles(packed_tile, {map.width, map.height}, id, sink, &progress);
 }
 
 }  // namespace

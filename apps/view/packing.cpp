@@ -7,9 +7,10 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <optional>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
-
-#include "apps/page_data.h"
 
 namespace fathom::view {
 namespace {
@@ -34,6 +35,34 @@ Bytes deflated(const Bytes& bytes) {
   result.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(),
                                          result.data(), result.size()));
   return result;
+}
+
+/// Seven bits of the bytes in each letter of UTF-8, the lowest bits first. HTML changes or
+/// interprets four letters: these are 128 higher, which takes two bytes.
+std::string letters_of(const Bytes& bytes) {
+  constexpr std::string_view avoided("\0\n\r<", 4);
+  std::string text;
+  text.reserve(bytes.size() * 6 / 5);
+  unsigned bits = 0;
+  int count = 0;
+  const auto add_letter = [&] {
+    const auto letter = static_cast<char>(bits & 127U);
+    if (avoided.find(letter) == std::string_view::npos) {
+      text += letter;
+    } else {
+      text += '\xC2';
+      text += static_cast<char>(0x80 | letter);
+    }
+    bits >>= 7;
+    count -= 7;
+  };
+  for (const std::uint8_t byte : bytes) {
+    bits |= unsigned{byte} << count;
+    count += 8;
+    while (count >= 7) add_letter();
+  }
+  if (count > 0) add_letter();
+  return text;
 }
 
 template <class Word>
@@ -87,6 +116,7 @@ template <class Word>
 struct Residuals {
   Prediction prediction;
   std::vector<Word> words;
+  bool is_by_segment = false;
 
   /// Takes another prediction if it leaves fewer bits.
   void improve(Prediction other, std::vector<Word> its_words) {
@@ -107,12 +137,14 @@ Residuals<Word> by_neighbours(const std::vector<Word>& words, const TilePlace& t
 
 template <class Word>
 std::string packed_residuals(const Residuals<Word>& best) {
-  Bytes bytes{static_cast<std::uint8_t>(best.prediction)};
+  constexpr int by_segment = 4;
+  Bytes bytes{static_cast<std::uint8_t>(static_cast<int>(best.prediction) |
+                                        (best.is_by_segment ? by_segment : 0))};
   bytes.reserve(1 + sizeof(Word) * best.words.size());
   for (std::size_t byte = 0; byte < sizeof(Word); ++byte) {
     for (const Word word : best.words) bytes.push_back(static_cast<std::uint8_t>(word >> 8 * byte));
   }
-  return app::base64(deflated(bytes));
+  return letters_of(deflated(bytes));
 }
 
 template <class Word>
@@ -142,6 +174,42 @@ std::vector<std::uint32_t> unit_residuals(const std::vector<std::uint32_t>& z,
   return result;
 }
 
+/// A part of directions; x and y are empty unless it is the Z of unit vectors.
+struct Direction {
+  std::vector<std::uint32_t> words;
+  std::vector<float> x, y;
+};
+
+Residuals<std::uint32_t> residuals_of(const Direction& direction, const TilePlace& tile) {
+  Residuals<std::uint32_t> best = by_neighbours(direction.words, tile);
+  if (!direction.x.empty()) {
+    best.improve(Prediction::unit,
+                 unit_residuals(direction.words, direction.x, direction.y, tile.columns));
+  }
+  return best;
+}
+
+/// The values at the first pixel of each segment.
+template <class Value>
+std::vector<Value> at_firsts(const std::vector<Value>& values, const Segments& segments) {
+  std::vector<Value> found;
+  if (values.empty()) return found;
+  found.reserve(segments.firsts.size());
+  for (const std::uint32_t first : segments.firsts) found.push_back(values[first]);
+  return found;
+}
+
+/// One value for each segment; nullopt if a segment has several.
+std::optional<Direction> by_segment(const Direction& direction, const Segments& segments) {
+  for (std::size_t k = 0; k < direction.words.size(); ++k) {
+    if (direction.words[k] != direction.words[segments.firsts[segments.places[k]]]) {
+      return std::nullopt;
+    }
+  }
+  return Direction{at_firsts(direction.words, segments), at_firsts(direction.x, segments),
+                   at_firsts(direction.y, segments)};
+}
+
 }  // namespace
 
 std::string packed(std::span<const std::uint8_t> plane, std::uint32_t width,
@@ -164,12 +232,37 @@ std::string packed(std::span<const std::uint64_t> plane, std::uint32_t width,
   return packed_words(plane, width, tile);
 }
 
-std::string packed_third(std::span<const std::uint32_t> plane, const UnitParts& parts,
-                         std::uint32_t width, const TilePlace& tile) {
-  const std::vector<std::uint32_t> words = words_of(plane, width, tile);
-  Residuals<std::uint32_t> best = by_neighbours(words, tile);
-  best.improve(Prediction::unit, unit_residuals(words, words_of(parts.x, width, tile),
-                                                words_of(parts.y, width, tile), tile.columns));
+Segments segments_of(std::span<const std::uint32_t> identifiers, std::uint32_t width,
+                     const TilePlace& tile) {
+  const std::vector<std::uint32_t> all = words_of(identifiers, width, tile);
+  Segments segments;
+  segments.places.reserve(all.size());
+  std::unordered_map<std::uint32_t, std::uint32_t> places;
+  for (std::uint32_t k = 0; k < all.size(); ++k) {
+    const auto next = static_cast<std::uint32_t>(segments.firsts.size());
+    const auto [found, is_new] = places.try_emplace(all[k], next);
+    if (is_new) segments.firsts.push_back(k);
+    segments.places.push_back(found->second);
+  }
+  return segments;
+}
+
+std::string packed_direction(std::span<const std::uint32_t> plane, const DirectionHints& hints,
+                             std::uint32_t width, const TilePlace& tile) {
+  Direction direction{words_of(plane, width, tile), {}, {}};
+  if (!hints.x.empty()) {
+    direction.x = words_of(hints.x, width, tile);
+    direction.y = words_of(hints.y, width, tile);
+  }
+  Residuals<std::uint32_t> best = residuals_of(direction, tile);
+  if (hints.segments != nullptr) {
+    if (const auto row = by_segment(direction, *hints.segments)) {
+      const auto columns = static_cast<std::uint32_t>(row->words.size());
+      Residuals<std::uint32_t> other = residuals_of(*row, {.columns = columns, .rows = 1});
+      other.is_by_segment = true;
+      if (bits_of(other.words) < bits_of(best.words)) best = std::move(other);
+    }
+  }
   return packed_residuals(best);
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 /// Values of maps as text in a page, without loss. web/planes.js unpacks them.
 namespace fathom::view {
@@ -14,11 +15,14 @@ struct TilePlace {
   std::uint32_t step = 1;
 };
 
-/// The values of a tile: base64 of the zlib format of
+/// The values of a tile: letters that hold seven bits each, the lowest bits first, of the zlib
+/// format of
 ///   a byte     what a value is predicted from: 0, its left neighbour; 1, left + upper − upper
-///              left; 2, the other two parts of the unit vector
+///              left; 2, the other two parts of the unit vector. Plus 4: the tile is a row with
+///              one value for each of its Segments
 ///   the bytes  of value − prediction (modulo 2^bits, zigzag: 0, −1, 1, −2, … become 0, 1, 2, 3,
 ///              …), first the lowest byte of all values, row by row, then the next byte
+/// The letters NUL, LF, CR and < are U+0080 higher, because HTML changes or interprets them.
 /// The first row knows no upper neighbour and the first column no left one: they are predicted from
 /// the neighbour that is there, the first value from 0. `plane` holds the words of an image that is
 /// `width` pixels wide.
@@ -31,16 +35,29 @@ std::string packed(std::span<const std::uint32_t> plane, std::uint32_t width,
 std::string packed(std::span<const std::uint64_t> plane, std::uint32_t width,
                    const TilePlace& tile);
 
-/// The X and Y of an image of unit vectors, as binary32.
-struct UnitParts {
+/// The pixels of a tile by their identifier.
+struct Segments {
+  /// The first pixel of each identifier, in the order of the pixels.
+  std::vector<std::uint32_t> firsts;
+  /// Of each pixel the place of its identifier in `firsts`.
+  std::vector<std::uint32_t> places;
+};
+Segments segments_of(std::span<const std::uint32_t> identifiers, std::uint32_t width,
+                     const TilePlace& tile);
+
+/// What predicts a part of an image of directions, next to its neighbours.
+struct DirectionHints {
+  /// The X and Y, if the part is the Z of unit vectors.
   std::span<const float> x, y;
+  /// A triangle has one direction; nullptr: the map has no identifiers.
+  const Segments* segments = nullptr;
 };
 
-/// The same of binary32 numbers: the Z of unit vectors with these parts, or any other. A prediction
-/// by the other parts is the left neighbour if it has the same X and Y, and else √(1 − X² − Y²),
-/// computed in binary64 and rounded to binary32, with the sign of the left neighbour.
-std::string packed_third(std::span<const std::uint32_t> plane, const UnitParts& parts,
-                         std::uint32_t width, const TilePlace& tile);
+/// The same of a part of directions, as the bits of binary32 numbers. A prediction by the other two
+/// parts is the left neighbour if it has the same X and Y, and else √(1 − X² − Y²), computed in
+/// binary64 and rounded to binary32, with the sign of the left neighbour.
+std::string packed_direction(std::span<const std::uint32_t> plane, const DirectionHints& hints,
+                             std::uint32_t width, const TilePlace& tile);
 
 /// Words one after another, as a tile of one row.
 inline std::string packed(std::span<const std::uint32_t> words) {

@@ -92,5 +92,30 @@ TEST(ViewerPage, TheThirdPartOfDirectionsTakesLittleRoom) {
   EXPECT_LT(size_of_plane(page, "m0-c2-0-0"), size_of_plane(page, "m0-c0-0-0") * 3 / 5);
 }
 
+/// As many directions as there are triangles, each at pixels all over the map.
+ViewedMap some_triangles() {
+  ViewedMap viewed = some_directions();
+  std::mt19937 random(52);
+  Samples<std::uint32_t> triangles(std::get<Samples<float>>(viewed.map.channels[0].values).size());
+  for (std::uint32_t& triangle : triangles) triangle = random() % 1000;
+  for (ImageChannel& channel : viewed.map.channels) {
+    auto& part = std::get<Samples<float>>(channel.values);
+    const Samples<float> of_triangle = part;
+    for (std::size_t k = 0; k < part.size(); ++k) part[k] = of_triangle[triangles[k]];
+  }
+  viewed.map.channels.push_back({"id", std::move(triangles)});
+  return viewed;
+}
+
+TEST(ViewerPage, HoldsTheDirectionOfATriangleOnce) {
+  ViewedMap viewed = some_triangles();
+  const std::string page = page_of({viewed}, most_page_bytes);
+  viewed.map.channels.pop_back();
+  const std::string without_triangles = page_of({viewed}, most_page_bytes);
+  for (const char* part : {"m0-c0-0-0", "m0-c1-0-0", "m0-c2-0-0"}) {
+    EXPECT_LT(size_of_plane(page, part), size_of_plane(without_triangles, part) / 5) << part;
+  }
+}
+
 }  // namespace
 }  // namespace fathom::view

@@ -145,6 +145,19 @@ class ViewPage(PageCase):
         expected = numpy.load(self.folder / "codes.npy")
         numpy.testing.assert_array_equal(found[mask != 0].astype("f4"), expected[mask != 0].astype("f4"))
 
+    def test_every_bit_of_directions_by_triangles_is_there(self):
+        random = numpy.random.default_rng(53)
+        triangles = random.integers(0, 2 ** 32, 3000, dtype="u4")
+        drawn = random.integers(0, 3000, (530, 700))
+        bits = random.integers(0, 2 ** 32, (3000, 3), dtype="u4")[drawn]
+        bits[529, 699] += 1  # one tile has two directions of a triangle
+        arrays = {**self.pair, "id": triangles[drawn], "N": bits.view("f4")}
+        numpy.savez(self.folder / "triangles.npz", **arrays)
+        self.open(page=self.viewed("triangles.npz"))
+        self.expect_bits(0, "id", arrays["id"])
+        for k, part in enumerate("XYZ"):
+            self.expect_bits(0, f"N.{part}", arrays["N"][:, :, k])
+
     def test_large_maps_have_coarser_levels(self):
         y, x = numpy.mgrid[0:2501, 0:3003]
         large = (1 + x * x * 1e-7 + numpy.sin(y / 50)).astype("f4")

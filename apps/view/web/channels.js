@@ -1,5 +1,5 @@
 /// The maps of the page and their channels.
-import { ready, remembered, unpacked } from "./planes.js";
+import { ready, remembered, segmentsOf, unpacked } from "./planes.js";
 
 export const page = JSON.parse(document.getElementById("view").textContent);
 export const background = 0, surface = 1, missing = 2, added = 3; // of a tile's mask
@@ -53,14 +53,22 @@ class Channel extends Source {
     const size = this.sizeOf(level, number), end = `-${level}-${number}`;
     // The Z of unit vectors is packed by their X and Y.
     const parts = await Promise.all((this.unit ?? []).map((part) => this.siblings[part].tile(level, number)));
+    const segments = await this.siblings[this.by]?.segments(level, number);
     const [stored, mask] = await Promise.all([
-      unpacked(this.key + end, this.type, size.columns, parts.map(({ values }) => values)),
+      unpacked(this.key + end, this.type, size.columns, parts.map(({ values }) => values), segments),
       this.mask < 0 ? null : remembered(`${this.prefix}-k${this.mask}${end}`, async () => {
         const values = await unpacked(`${this.prefix}-k${this.mask}${end}`, "u8", size.columns);
         return { values, bytes: values.byteLength };
       })]);
     const values = this.scale ? Float64Array.from(stored, (code) => code / this.scale) : stored;
     return { ...size, values, mask: mask?.values, bytes: values.byteLength };
+  }
+  /// The segments of a tile of identifiers, which predict other channels.
+  segments(level, number) {
+    return remembered(`${this.key}-s-${level}-${number}`, async () => {
+      const { values } = await this.tile(level, number), segments = segmentsOf(values);
+      return { ...segments, bytes: segments.firsts.byteLength + segments.places.byteLength };
+    });
   }
   /// What a number stands for; empty where nothing says it.
   nameOf(value) { return value === this.none ? "none" : this.names?.[value] ?? ""; }

@@ -1,8 +1,12 @@
 /// The values of a map as the page holds them, tile by tile (apps/view/packing.h).
 
 async function inflated(text) {
-  const letters = atob(text), bytes = new Uint8Array(letters.length);
-  for (let k = 0; k < letters.length; ++k) bytes[k] = letters.charCodeAt(k);
+  const bytes = new Uint8Array(text.length * 7 >> 3);
+  for (let k = 0, at = 0, bits = 0, count = 0; k < text.length; ++k) {
+    bits |= (text.charCodeAt(k) & 127) << count;
+    count += 7;
+    if (count >= 8) { bytes[at++] = bits; bits >>>= 8; count -= 8; }
+  }
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
@@ -29,7 +33,7 @@ function unpackedThird(bytes, columns, [x, y]) {
 
 /// Words of 8, 16 or 32 bits.
 function unpackedWords(bytes, size, columns) {
-  const count = (bytes.length - 1) / size, isGradient = bytes[0] === 1, words = new arrays[size](count);
+  const count = (bytes.length - 1) / size, isGradient = (bytes[0] & 3) === 1, words = new arrays[size](count);
   for (let k = 0; k < count; ++k) {
     let zigzag = 0;
     for (let byte = size - 1; byte >= 0; --byte) zigzag = zigzag << 8 | bytes[1 + byte * count + k];
@@ -68,11 +72,29 @@ const types = {
   f32: { bytes: 4, values: (words) => new Float32Array(words.buffer) },
   f64: { bytes: 8, values: (words) => new Float64Array(words.buffer) } };
 
-/// `parts` are the X and Y of the unit vectors whose Z is unpacked.
-export async function unpacked(id, type, columns, parts) {
+/// The first pixel of each identifier, and of each pixel the place of its identifier among these.
+export function segmentsOf(identifiers) {
+  const count = identifiers.length, bits = 33 - Math.clz32(count), table = new Uint32Array(2 ** bits); // places + 1
+  const firsts = new Uint32Array(count), places = new Uint32Array(count);
+  let found = 0;
+  for (let k = 0; k < count; ++k) {
+    const identifier = identifiers[k];
+    let slot = Math.imul(identifier, 2654435769) >>> 32 - bits;
+    while (table[slot] && identifiers[firsts[table[slot] - 1]] !== identifier) slot = slot + 1 & table.length - 1;
+    if (!table[slot]) { firsts[found] = k; table[slot] = ++found; }
+    places[k] = table[slot] - 1;
+  }
+  return { firsts: firsts.slice(0, found), places };
+}
+
+/// `parts` are the X and Y of the unit vectors whose Z is unpacked, `segments` those of the tile; both may be missing.
+export async function unpacked(id, type, columns, parts, segments) {
   const bytes = await inflated(document.getElementById(id).textContent), { bytes: size, values } = types[type];
-  if (bytes[0] === 2) return values(unpackedThird(bytes, columns, parts));
-  return values(size === 8 ? unpackedPairs(bytes, columns) : unpackedWords(bytes, size, columns));
+  const isBySegment = bytes[0] >= 4, width = isBySegment ? segments.firsts.length : columns;
+  const some = (all) => isBySegment ? Float32Array.from(segments.firsts, (first) => all[first]) : all;
+  const words = (bytes[0] & 3) === 2 ? unpackedThird(bytes, width, parts.map(some))
+    : size === 8 ? unpackedPairs(bytes, width) : unpackedWords(bytes, size, width);
+  return values(isBySegment ? Uint32Array.from(segments.places, (place) => words[place]) : words);
 }
 
 /// What was unpacked last, up to so many bytes; a page of 16384 × 16384 pixels holds more than a browser has room for.
