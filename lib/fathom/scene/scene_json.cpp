@@ -133,7 +133,7 @@ std::vector<PlacedFile> read_scene_json(std::string_view text, const std::filesy
   for (const JsonValue& mesh : root.at("meshes").elements()) {
     mesh.expect_only({"file", "transform", "name", "draw", "material", "label"});
     PlacedFile placed;
-    const std::string& file = mesh.at("file").string();
+    const std::string file = mesh.at("file").string();
     if (file.empty() || file == "-") mesh.at("file").fail("expected the path of a mesh file");
     if (file.find('\0') != file.npos) mesh.at("file").fail("holds a NUL, expected a path");
     placed.file = folder / file;
