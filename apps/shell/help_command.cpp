@@ -110,7 +110,8 @@ std::optional<std::string> asked_help(const CLI::App& program, const Command& co
   const auto form = std::ranges::find_if(
       arguments, [](const std::string& text) { return text.starts_with(form_option); });
   if (form == arguments.end()) return std::nullopt;
-  const CLI::App& command = command_of(program, {arguments.begin(), form});
+  const std::vector<std::string> words(arguments.begin(), form);
+  const CLI::App& command = command_of(program, words);
   const std::string name = form->substr(form_option.size());
   if (name == "man") return man_page(text_of(command), version_of_pages);
   if (name == "text") return help_page(text_of(command), help_width());
