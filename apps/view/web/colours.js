@@ -25,7 +25,7 @@ const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
 /// Of pixels that have no value.
 export function specialColours(colourMap) {
   const none = colourMap === "grey" ? rgb(74, 92, 122) : isDark() ? rgb(52, 59, 69) : rgb(206, 210, 216);
-  return { [background]: none, [missing]: rgb(20, 20, 20), [added]: rgb(120, 60, 160), none: rgb(96, 96, 96),
+  return { [background]: none, [missing]: isDark() ? rgb(70, 170, 100) : rgb(20, 20, 20), [added]: rgb(120, 60, 160), none: rgb(96, 96, 96),
     nan: rgb(255, 120, 0), above: rgb(230, 25, 120), below: rgb(120, 40, 200) };
 }
 

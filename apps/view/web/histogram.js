@@ -87,13 +87,18 @@ export class Histogram {
     Object.assign(canvas, { width: Math.round(width * ratio), height: Math.round(height * ratio) });
     if (!counts || !width) return;
     const context = canvas.getContext("2d"), most = Math.sqrt(Math.max(...counts)) || 1, step = width / bins;
+    const outline = new Path2D(), style = (name) => getComputedStyle(canvas).getPropertyValue(name);
     context.scale(ratio, ratio);
     counts.forEach((count, k) => {
-      const tall = count ? Math.max(1, Math.sqrt(count) / most * (height - 2)) : 0, left = Math.floor(k * step);
+      const tall = count ? Math.max(1, Math.sqrt(count) / most * (height - 2)) : 0, left = Math.floor(k * step), right = Math.ceil((k + 1) * step);
       context.fillStyle = css(shading.colour(this.valueAt((k + 0.5) / bins), 1));
-      context.fillRect(left, height - tall, Math.ceil((k + 1) * step) - left, tall);
+      context.fillRect(left, height - tall, right - left, tall);
+      outline.lineTo(left, height - tall);
+      outline.lineTo(right, height - tall);
     });
-    context.fillStyle = getComputedStyle(canvas).getPropertyValue("--shade");
+    context.strokeStyle = style("--line"); // bars may have the colour of the paper
+    context.stroke(outline);
+    context.fillStyle = style("--shade");
     const [from, to] = this.drag ?? [shading.low, shading.high].map((end) => this.placeOf(end) * width);
     context.fillRect(0, 0, Math.max(0, from), height);
     context.fillRect(Math.min(width, to), 0, Math.max(0, width - to), height);
