@@ -76,8 +76,8 @@ void expect_only(const Json& object, std::initializer_list<std::string_view> kno
                                    fmt::join(known, ", ")));
 }
 
-const Json& member(const Json& object, const std::string& key) {
-  const auto found = object.find(key);
+const Json& member(const Json& object, std::string_view key) {
+  const auto found = object.find(std::string(key));
   if (found == object.end()) throw InputError(fmt::format("\"{}\" is missing", key));
   return *found;
 }
@@ -101,7 +101,7 @@ bool flag(const Json& object, const std::string& key) {
   return found->get<bool>();
 }
 
-const Json& list(const Json& value, const std::string& where) {
+const Json& list(const Json& value, std::string_view where) {
   if (!value.is_array())
     throw InputError(fmt::format("{}: expected a list, found {}", where, value.type_name()));
   return value;

@@ -24,7 +24,7 @@ void expect_only(const Json& object, std::initializer_list<std::string_view> kno
                  std::string_view taker = "this algorithm");
 
 /// A member that has to be there.
-const Json& member(const Json& object, const std::string& key);
+const Json& member(const Json& object, std::string_view key);
 
 /// A member that is one of some words; the first where it is missing.
 std::string word(const Json& object, const std::string& key,
@@ -33,7 +33,7 @@ std::string word(const Json& object, const std::string& key,
 bool flag(const Json& object, const std::string& key);
 
 /// A list; `where` names it in messages.
-const Json& list(const Json& value, const std::string& where);
+const Json& list(const Json& value, std::string_view where);
 
 /// A list of `least` to `most` finite numbers.
 std::vector<double> numbers(const Json& value, const std::string& where, std::size_t least,
