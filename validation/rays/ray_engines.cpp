@@ -14,6 +14,7 @@
 #include <iterator>
 #include <limits>
 #include <utility>
+#include <variant>
 
 #include "fathom/failures/unknown_name.h"
 #include "validation/rays/touched_triangles.h"
@@ -42,11 +43,21 @@ struct PointOfHit {
   }
 };
 
+/// CGAL 6 returns a variant of the standard library, earlier versions a variant of Boost.
+template <class Hit>
+double place_of_hit(const Hit& hit, const Kernel::Ray_3& ray) {
+#if CGAL_VERSION_NR >= 1060000000
+  return std::visit(PointOfHit{ray}, hit);
+#else
+  return boost::apply_visitor(PointOfHit{ray}, hit);
+#endif
+}
+
 RayHit nearest_of(const Tree& tree, const Triangles& triangles, const Kernel::Ray_3& ray) {
   const auto hit = tree.first_intersection(ray);
   if (!hit) return {};
   const auto number = std::distance(triangles.begin(), hit->second);
-  return {static_cast<std::uint32_t>(number), boost::apply_visitor(PointOfHit{ray}, hit->first)};
+  return {static_cast<std::uint32_t>(number), place_of_hit(hit->first, ray)};
 }
 
 }  // namespace
