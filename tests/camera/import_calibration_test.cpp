@@ -74,6 +74,14 @@ TEST(ImportCalibration, OpencvHasOtherNames) {
   EXPECT_EQ(of_opencv(other).camera.projection.lens, (Lens{LensModel::opencv_14, {0.1}}));
 }
 
+TEST(ImportCalibration, OpencvHasFisheyes) {
+  const auto lens = [](const std::string& list) {
+    return of_opencv(opencv(list, R"(, "fisheye_model": 1)")).camera.projection.lens;
+  };
+  EXPECT_EQ(lens("[0.1, 0.2, 0.3, 0.4]"), (Lens{LensModel::opencv_fisheye, {0.1, 0.2, 0.3, 0.4}}));
+  EXPECT_EQ(lens("[0, 0, 0, 0]"), Lens{LensModel::opencv_fisheye});
+}
+
 TEST(ImportCalibration, ValuesCanBeGiven) {
   const GivenLens given{.width = 320, .height = 240, .K = {}, .pixel_centre = 0.5};
   const Camera camera = of_opencv(opencv("[0, 0, 0, 0]"), given).camera;
@@ -106,8 +114,8 @@ TEST(ImportCalibration, OpencvFaultsAreNamed) {
   EXPECT_THAT(of_opencv(opencv(R"({"rows": 5, "cols": 1, "data": [1, 2]})")).fault,
               HasSubstr("has 2 numbers, expected rows times cols, 5"));
   EXPECT_THAT(of_opencv(opencv("[0.1, 0, 0, \"x\"]")).fault, HasSubstr("[3]"));
-  EXPECT_THAT(of_opencv(opencv("[0, 0, 0, 0]", R"(, "fisheye_model": 1)")).distortion,
-              HasSubstr("fisheye_model: OpenCV's fisheye model is not available yet"));
+  EXPECT_THAT(of_opencv(opencv("[0, 0, 0, 0, 0]", R"(, "fisheye_model": 1)")).fault,
+              HasSubstr("found 5 numbers, OPENCV_FISHEYE has 4"));
   EXPECT_EQ(of_opencv(opencv("[0, 0, 0, 0]", R"(, "fisheye_model": 0)")).distortion, "");
   EXPECT_THAT(
       of_opencv(R"({"image_width": 4, "image_height": 3, "K": )" + std::string(matrix) + "}")
@@ -126,6 +134,8 @@ TEST(ImportCalibration, RosModels) {
             (Lens{LensModel::opencv_14, {-0.25, 0.06, 0.001, -0.0005, 0.01}}));
   EXPECT_EQ(of_ros(ros("rational_polynomial", "[1, 2, 3, 4, 5, 6, 7, 8]")).camera.projection.lens,
             (Lens{LensModel::opencv_14, {1, 2, 3, 4, 5, 6, 7, 8}}));
+  EXPECT_EQ(of_ros(ros("equidistant", "[1, 2, 3, 4]")).camera.projection.lens,
+            (Lens{LensModel::opencv_fisheye, {1, 2, 3, 4}}));
   EXPECT_EQ(of_ros(ros("plumb_bob", "[]")).camera.projection.lens, std::nullopt);
 }
 
@@ -134,8 +144,10 @@ TEST(ImportCalibration, RosFaultsAreNamed) {
               HasSubstr("found 8 numbers, plumb_bob has 4 or 5"));
   EXPECT_THAT(of_ros(ros("rational_polynomial", "[1, 2, 3, 4]")).fault,
               HasSubstr("found 4 numbers, rational_polynomial has 8, 12 or 14"));
-  EXPECT_THAT(of_ros(ros("equidistant", "[0, 0, 0, 0]")).distortion,
-              HasSubstr("distortion_model: equidistant is not available yet"));
+  EXPECT_THAT(of_ros(ros("equidistant", "[0, 0, 0, 0, 0]")).fault,
+              HasSubstr("found 5 numbers, equidistant has 4"));
+  EXPECT_THAT(of_ros(ros("unknown", "[0, 0, 0, 0]")).distortion,
+              HasSubstr("distortion_model: unknown is not available yet; expected equidistant"));
 }
 
 TEST(ImportCalibration, RosMessages) {

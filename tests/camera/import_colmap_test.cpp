@@ -154,19 +154,42 @@ TEST(ImportColmap, DistortionIsToldUnlessItIsZero) {
         << not_zero;
     EXPECT_EQ(one.camera.projection.cx, 2) << not_zero;
   }
-  for (const char* no_pinhole :
-       {"OPENCV_FISHEYE 4 2 3 3 2 1 0 0 0 0", "SIMPLE_RADIAL_FISHEYE 4 2 3 2 1 0",
-        "RADIAL_FISHEYE 4 2 3 2 1 0 0", "THIN_PRISM_FISHEYE 4 2 3 3 2 1 0 0 0 0 0 0 0 0",
-        "RAD_TAN_THIN_PRISM_FISHEYE 4 2 3 3 2 1 0 0 0 0 0 0 0 0 0 0 0 0",
-        "SIMPLE_FISHEYE 4 2 3 2 1", "FISHEYE 4 2 3 3 2 1", "EQUIRECTANGULAR 4 2 4 2"})
+  for (const char* no_pinhole : {"RAD_TAN_THIN_PRISM_FISHEYE 4 2 3 3 2 1 0 0 0 0 0 0 0 0 0 0 0 0",
+                                 "EQUIRECTANGULAR 4 2 4 2"})
     EXPECT_THAT(colmap_text(std::string("1 ") + no_pinhole, image).at(0).absence,
                 AllOf(HasSubstr("cameras.txt: line 1"), HasSubstr("undistort")))
         << no_pinhole;
 }
 
-TEST(ImportColmap, AFisheyeIsLeftOutOfAModelOfOthers) {
-  std::istringstream cameras(
-      "1 OPENCV_FISHEYE 4 2 3 3 2 1 0 0 0 0\n2 OPENCV 4 2 3 3 2 1 1 0 0 0\n"),
+TEST(ImportColmap, FisheyesKeepTheirLens) {
+  const char* const image = "1 1 0 0 0 0 0 0 1 a.png\n\n";
+  const auto expect = [&](const std::string& camera, const Lens& lens) {
+    const ImportedCamera one = colmap_text("1 " + camera, image).at(0);
+    EXPECT_EQ(one.absence + one.fault + one.distortion, "") << camera;
+    EXPECT_EQ(one.camera.projection.lens, lens) << camera;
+    EXPECT_EQ(one.camera.projection.cy, 1) << camera;
+  };
+  expect("SIMPLE_FISHEYE 4 2 3 2 1", {LensModel::simple_fisheye});
+  expect("FISHEYE 4 2 3 5 2 1", {LensModel::fisheye});
+  expect("SIMPLE_RADIAL_FISHEYE 4 2 3 2 1 0", {LensModel::simple_radial_fisheye});
+  expect("RADIAL_FISHEYE 4 2 3 2 1 0.5 -1", {LensModel::radial_fisheye, {0.5, -1}});
+  expect("OPENCV_FISHEYE 4 2 3 5 2 1 1 2 3 4", {LensModel::opencv_fisheye, {1, 2, 3, 4}});
+  expect("THIN_PRISM_FISHEYE 4 2 3 5 2 1 1 2 3 4 5 6 7 8",
+         {LensModel::thin_prism_fisheye, {1, 2, 3, 4, 5, 6, 7, 8}});
+}
+
+TEST(ImportColmap, AFisheyeHasNoPinholePart) {
+  const auto imported =
+      colmap_text("1 OPENCV_FISHEYE 4 2 3 3 2 1 0 0 0 0", "1 1 0 0 0 0 0 0 1 a.png\n\n");
+  Warnings warnings;
+  EXPECT_EQ(chosen_cameras(imported, "model", {}, warnings).size(), 1U);
+  EXPECT_EQ(message_of<InputError>(
+                [&] { chosen_cameras(imported, "model", {.ignore_distortion = true}, warnings); }),
+            "a.png: the lens OPENCV_FISHEYE has no pinhole part to take");
+}
+
+TEST(ImportColmap, APanoramaIsLeftOutOfAModelOfOthers) {
+  std::istringstream cameras("1 EQUIRECTANGULAR 4 2 4 2\n2 OPENCV 4 2 3 3 2 1 1 0 0 0\n"),
       images("1 1 0 0 0 0 0 0 1 a.png\n\n2 1 0 0 0 0 0 0 2 b.png\n\n");
   const std::vector<ImportedCamera> imported =
       parse_colmap_text({cameras, "cameras.txt"}, {images, "images.txt"});
@@ -179,10 +202,10 @@ TEST(ImportColmap, AFisheyeIsLeftOutOfAModelOfOthers) {
     EXPECT_EQ(chosen[0].projection.lens.has_value(), !ignore);
     EXPECT_THAT(warnings,
                 ElementsAre(HasSubstr("1 of 2 cameras is left out: cameras.txt: line 1: camera 1: "
-                                      "the model OPENCV_FISHEYE is no pinhole camera")));
+                                      "the model EQUIRECTANGULAR is not supported")));
     EXPECT_THAT(message_of<InputError>(
                     [&] { chosen_cameras(imported, "model", {.image = "a.png"}, warnings); }),
-                HasSubstr("OPENCV_FISHEYE"));
+                HasSubstr("EQUIRECTANGULAR"));
   }
 }
 

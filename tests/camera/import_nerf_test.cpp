@@ -146,9 +146,14 @@ TEST(ImportNerf, WarnsOfGeometryTellsDistortionAndNamesFaults) {
   EXPECT_EQ(lens(R"({"k1": 1, "k2": 2, "k3": 3, "k4": 4, "p1": 5, "p2": 6, )" + frames),
             (Lens{LensModel::brown, {1, 2, 3, 4, 5, 6}}));
   EXPECT_THAT(fault(R"({"equirectangular": true, )" + frames), HasSubstr("no pinhole camera"));
-  EXPECT_THAT(fault(R"({"camera_model": "OPENCV_FISHEYE", )" + frames),
-              HasSubstr("OPENCV_FISHEYE"));
-  EXPECT_THAT(fault(R"({"is_fisheye": true, )" + frames), HasSubstr("is_fisheye"));
+  const Lens fisheye{LensModel::opencv_fisheye, {1, 2, 3, 4}};
+  const std::string numbers = R"("k1": 1, "k2": 2, "k3": 3, "k4": 4, )" + frames;
+  EXPECT_EQ(lens(R"({"camera_model": "OPENCV_FISHEYE", )" + numbers), fisheye);
+  EXPECT_EQ(lens(R"({"is_fisheye": true, )" + numbers), fisheye);
+  EXPECT_EQ(lens(R"({"is_fisheye": true, )" + frames), Lens{LensModel::opencv_fisheye});
+  EXPECT_EQ(lens(R"({"is_fisheye": false, )" + frames), std::nullopt);
+  EXPECT_THAT(fault(R"({"camera_model": "EQUIRECTANGULAR", )" + frames),
+              HasSubstr("EQUIRECTANGULAR is not supported"));
   EXPECT_THAT(fault("{}"), HasSubstr("\"frames\" is missing"));
   EXPECT_THAT(fault(R"({"frames": []})"), HasSubstr("no frame"));
   EXPECT_THAT(fault(std::string(R"({"w": 6, "h": 4, "frames": [{)") + nerf_pose + "}]}"),

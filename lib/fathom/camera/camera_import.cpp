@@ -16,8 +16,17 @@ constexpr const char* what_to_do =
     "undistort the images and take the cameras of the result, or take the pinhole part with "
     "--ignore-distortion (ignore_distortion in Python)";
 
-void require_camera(const ImportedCamera& one) {
-  for (const std::string& reason : {one.fault, one.absence})
+/// Why there is no camera to take. A fisheye has no pinhole part.
+std::string absence_of(const ImportedCamera& one, const CameraChoice& choice) {
+  const auto& lens = one.camera.projection.lens;
+  if (!choice.ignore_distortion || !lens || entry_of(lens->model).formula != RayFormula::angle)
+    return one.absence;
+  return fmt::format("{}: the lens {} has no pinhole part to take", one.camera.name,
+                     name_of(lens->model));
+}
+
+void require_camera(const ImportedCamera& one, const CameraChoice& choice) {
+  for (const std::string& reason : {one.fault, absence_of(one, choice)})
     if (!reason.empty()) throw InputError(reason);
 }
 
@@ -44,7 +53,7 @@ Camera the_one_of(const std::vector<ImportedCamera>& imported, const std::string
     throw InputError(fmt::format("{}: no image '{}'; --list shows the {} there are", input,
                                  text::printable(choice.image), imported.size()));
   }
-  require_camera(*found);
+  require_camera(*found, choice);
   if (!found->distortion.empty() && !choice.ignore_distortion) {
     throw InputError(found->distortion + "; " + what_to_do);
   }
@@ -70,12 +79,12 @@ std::vector<Camera> chosen_cameras(const std::vector<ImportedCamera>& imported,
   std::vector<Camera> cameras;
   LeftOut distorted, absent;
   for (const ImportedCamera& one : imported) {
-    if (!one.absence.empty()) {
-      absent.add(one.absence);
+    if (const std::string absence = absence_of(one, choice); !absence.empty()) {
+      absent.add(absence);
     } else if (!one.distortion.empty() && !choice.ignore_distortion) {
       distorted.add(one.distortion);
     } else {
-      require_camera(one);
+      require_camera(one, choice);
       cameras.push_back(chosen(one.camera, choice));
     }
   }

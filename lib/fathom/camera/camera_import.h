@@ -37,7 +37,8 @@ struct ImportedCamera {
 struct CameraChoice {
   /// Only the camera of this image; empty: all cameras.
   std::string image;
-  /// Takes the pinhole part of all lenses with distortion.
+  /// Takes the pinhole part of all lenses with distortion; cameras whose lens has none, such as
+  /// fisheyes, are left out.
   bool ignore_distortion = false;
 };
 
@@ -51,11 +52,10 @@ std::vector<Camera> chosen_cameras(const std::vector<ImportedCamera>& imported,
                                    Warnings& warnings);
 
 /// A COLMAP model: the folder with cameras and images, .bin (preferred where both exist) or .txt.
-/// Sorted by image name. Takes SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV, FULL_OPENCV,
-/// SIMPLE_DIVISION and DIVISION, and the pinhole part of FOV and EUCM; cameras of fisheye and
-/// spherical models have none and are absent. Rigs and frames (COLMAP 3.12) are not needed: images
-/// has the pose of each image. A folder that has models in folders below it (sparse/0) is refused
-/// with their names.
+/// Sorted by image name. Takes the lens models that Camera has, and the pinhole part of FOV and
+/// EUCM; cameras of RAD_TAN_THIN_PRISM_FISHEYE and EQUIRECTANGULAR are absent. Rigs and frames
+/// (COLMAP 3.12) are not needed: images has the pose of each image. A folder that has models in
+/// folders below it (sparse/0) is refused with their names.
 std::vector<ImportedCamera> import_colmap(const std::filesystem::path& folder);
 /// Whether a folder has the files of a COLMAP model.
 bool is_colmap_model(const std::filesystem::path& folder);

@@ -95,12 +95,14 @@ Camera pinhole_part(const JsonValue& root, const CalibrationKeys& keys, const Gi
                  matrix->where());
 }
 
-/// OpenCV's lens with these numbers; none where all are 0.
-void set_lens(const JsonValue& list, const std::vector<double>& numbers, ImportedCamera& one) {
-  if (std::ranges::all_of(numbers, [](double number) { return number == 0; })) return;
-  if (const auto fault = distortion_count_fault(entry_of(LensModel::opencv_14), numbers.size()))
-    list.fail(*fault);
-  Lens lens{LensModel::opencv_14};
+/// OpenCV's lens or fisheye with these numbers; no lens where all are 0 and the model is one of the
+/// plane.
+void set_lens(const JsonValue& list, LensModel model, const std::vector<double>& numbers,
+              ImportedCamera& one) {
+  const bool bends = std::ranges::any_of(numbers, [](double number) { return number != 0; });
+  if (is_plane(model) && !bends) return;
+  if (const auto fault = distortion_count_fault(entry_of(model), numbers.size())) list.fail(*fault);
+  Lens lens{model};
   std::ranges::copy(numbers, lens.distortion.begin());
   if (const auto fault = find_fault(lens)) {
     one.distortion = list.where() + ": " + *fault;
@@ -119,10 +121,10 @@ constexpr CalibrationKeys keys_of_opencv{opencv_matrix, opencv_width, opencv_hei
 
 void read_opencv_lens(const JsonValue& root, ImportedCamera& one) {
   const auto fisheye = root.find("fisheye_model");
-  if (fisheye && fisheye->is_number() && fisheye->number() != 0) {
-    one.distortion = fisheye->where() + ": OpenCV's fisheye model is not available yet";
-  } else if (const auto list = find_first(root, keys_of_opencv.distortion)) {
-    set_lens(*list, numbers_of_matrix(*list), one);
+  const bool is_fisheye = fisheye && fisheye->is_number() && fisheye->number() != 0;
+  if (const auto list = find_first(root, keys_of_opencv.distortion)) {
+    set_lens(*list, is_fisheye ? LensModel::opencv_fisheye : LensModel::opencv_14,
+             numbers_of_matrix(*list), one);
   } else {
     one.distortion = root.where() + ": has no numbers of distortion: expected " +
                      listed(keys_of_opencv.distortion);
@@ -138,13 +140,17 @@ constexpr CalibrationKeys keys_of_ros{ros_matrix, ros_width, ros_height, ros_dis
 /// A distortion_model of ROS, and how many numbers it may have.
 struct RosModel {
   std::string_view name;
+  LensModel model;
   std::span<const std::size_t> counts;
 };
 
 constexpr std::array<std::size_t, 2> of_plumb_bob{4, 5};
 constexpr std::array<std::size_t, 3> of_rational_polynomial{8, 12, 14};
-constexpr std::array<RosModel, 2> ros_models{
-    {{"plumb_bob", of_plumb_bob}, {"rational_polynomial", of_rational_polynomial}}};
+constexpr std::array<std::size_t, 1> of_equidistant{4};
+constexpr std::array<RosModel, 3> ros_models{
+    {{"equidistant", LensModel::opencv_fisheye, of_equidistant},
+     {"plumb_bob", LensModel::opencv_14, of_plumb_bob},
+     {"rational_polynomial", LensModel::opencv_14, of_rational_polynomial}}};
 
 void read_ros_lens(const JsonValue& root, ImportedCamera& one) {
   const auto list = find_first(root, keys_of_ros.distortion);
@@ -154,7 +160,8 @@ void read_ros_lens(const JsonValue& root, ImportedCamera& one) {
   const auto* const known = std::ranges::find(ros_models, model.string(), &RosModel::name);
   if (known == ros_models.end()) {
     one.distortion = model.where() + ": " + text::printable(model.string()) +
-                     " is not available yet; expected plumb_bob or rational_polynomial";
+                     " is not available yet; expected equidistant, plumb_bob or "
+                     "rational_polynomial";
     return;
   }
   if (std::ranges::find(known->counts, numbers.size()) == known->counts.end()) {
@@ -163,7 +170,7 @@ void read_ros_lens(const JsonValue& root, ImportedCamera& one) {
     list->fail("found " + text::counted(numbers.size(), "number") + ", " + model.string() +
                " has " + joined(counts, " or "));
   }
-  set_lens(*list, numbers, one);
+  set_lens(*list, known->model, numbers, one);
 }
 
 /// The camera at the world's origin, or at each of the poses.

@@ -39,29 +39,33 @@ struct Frame {
 constexpr std::array<std::string_view, 5> pinhole_models{"OPENCV", "PINHOLE", "RADIAL",
                                                          "SIMPLE_PINHOLE", "SIMPLE_RADIAL"};
 
-/// Refuses a lens that is another than those of the polynomial models.
-void expect_polynomial_lens(const Frame& frame) {
+/// Nerfstudio names its fisheye; instant-ngp has a key for it.
+bool is_fisheye(const Frame& frame) {
+  const auto model = frame.find("camera_model"), flag = frame.find("is_fisheye");
+  return (model && model->string() == "OPENCV_FISHEYE") || (flag && flag->boolean());
+}
+
+/// Refuses a lens of another model.
+void expect_known_lens(const Frame& frame) {
   if (const auto model = frame.find("camera_model"))
     if (const std::string& name = model->string();
-        std::ranges::find(pinhole_models, name) == pinhole_models.end())
-      model->fail(
-          "the camera model " + name +
-          " is no pinhole camera; undistort the images, or expected OPENCV, PINHOLE, RADIAL, "
-          "SIMPLE_PINHOLE or SIMPLE_RADIAL");
+        name != "OPENCV_FISHEYE" && std::ranges::find(pinhole_models, name) == pinhole_models.end())
+      model->fail("the camera model " + name +
+                  " is not supported; undistort the images, or expected OPENCV, OPENCV_FISHEYE, "
+                  "PINHOLE, RADIAL, SIMPLE_PINHOLE or SIMPLE_RADIAL");
   // instant-ngp names its other lenses by keys of their own.
   for (const char* key : {"ftheta_p0", "latlong", "equirectangular"})
     if (const auto other = frame.find(key)) other->fail("the lens is no pinhole camera");
-  if (const auto fisheye = frame.find("is_fisheye"); fisheye && fisheye->boolean())
-    fisheye->fail("a fisheye lens cannot be expressed; undistort the images first");
 }
 
-/// The lens, nothing where all its numbers are 0: OpenCV's, or Brown's where k3 or k4, which are of
-/// r⁶ and r⁸ above the fraction bar, are not 0.
+/// OpenCV's lens or fisheye, or Brown's lens where k3 or k4, which are of r⁶ and r⁸ above the
+/// fraction bar, are not 0. Nothing where all numbers of a lens that is no fisheye are 0.
 std::optional<Lens> lens_of(const Frame& frame) {
-  expect_polynomial_lens(frame);
+  expect_known_lens(frame);
   const auto number = [&](const char* key) { return frame.number(key).value_or(0); };
   const double k1 = number("k1"), k2 = number("k2"), k3 = number("k3"), k4 = number("k4"),
                p1 = number("p1"), p2 = number("p2");
+  if (is_fisheye(frame)) return Lens{LensModel::opencv_fisheye, {k1, k2, k3, k4}};
   std::optional<Lens> lens;
   if (k3 != 0 || k4 != 0) {
     lens = Lens{LensModel::brown, {k1, k2, k3, k4, p1, p2}};
