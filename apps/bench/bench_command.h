@@ -13,17 +13,17 @@
 
 namespace fathom::app {
 
-/// What --peers names, or what there is.
+/// The renderers that --peers names, or all that are built in.
 struct Peers {
   bool vtk = bench::peers_are_built(), embree = bench::peers_are_built(), reference = true;
   bool masked_occlusion_culling = bench::masked_occlusion_culling_is_built();
-  /// No --peers: the reference engine where it is bearable.
+  /// Without --peers, the reference engine runs only where it is fast enough.
   bool by_default = true;
 };
 
 /// The arguments of `fathom bench`.
 struct BenchArguments {
-  /// Empty where they are not given: what is timed says what is used then.
+  /// Empty if not given; each kind of timing then has its own defaults.
   std::vector<std::string> scenes;
   std::vector<Size> sizes;
   std::vector<int> threads;
@@ -31,14 +31,14 @@ struct BenchArguments {
   std::vector<Channel> channels{Channel::Z};
   int repeat = 9;
   std::string json;
-  /// What each idea brings, instead of a comparison; only these ideas, if there are any.
+  /// Times each idea instead of a comparison; if `ideas` is not empty, only these ideas.
   bool parts = false;
   std::vector<std::string> ideas;
 
   void add_to(Command& command);
 };
 
-/// `fathom bench --parts`: what each idea brings.
+/// `fathom bench --parts`: times each idea.
 /// Fails    InputError where a scene cannot be read; bench::WrongPicture where an idea changes the
 ///          picture.
 int run_parts(const BenchArguments& arguments, const Console& console);

@@ -12,14 +12,14 @@
 
 namespace fathom::bench {
 
-/// What is timed, and how often.
+/// What to time, and how often.
 struct Plan {
   /// A name of scenes.h.
   std::string scene;
   std::uint32_t width = 1920, height = 1080;
   int threads = 1;
   int repeat = 9;
-  /// What our engines write; the others always write depths.
+  /// The channels that our engines write. Other renderers always write depths.
   std::vector<Channel> channels{Channel::Z};
 };
 
@@ -34,8 +34,8 @@ struct Measurement {
   double first_ms = 0;
   /// Times of the frames after it, in increasing order; not empty.
   std::vector<double> milliseconds;
-  /// The most memory that its process had in RAM while it rendered, less what it had before it made
-  /// the scene: the scene as this renderer holds it, what the renderer builds, the image.
+  /// The peak memory of its process in RAM while it rendered, minus the memory before it made the
+  /// scene: the renderer's copy of the scene, its acceleration structures, the image.
   std::uint64_t peak_bytes = 0;
   /// Pixels that show a surface; 0 for embree-build.
   std::uint64_t covered_pixels = 0;
@@ -45,13 +45,13 @@ struct Measurement {
 
 struct Frames {
   double first_ms = 0;
-  /// In increasing order; only the first frame's time if that took all the time there is.
+  /// In increasing order; only the time of the first frame if it took all the available time.
   std::vector<double> milliseconds;
 };
 
-/// Times `draw` once, keeps drawing until `warm_up` has passed (threads first have to find their
-/// processors, and allocators their sizes), then times it `repeat` times more. Starts no frame
-/// after 20 seconds. `clear` is called before each frame and not timed.
+/// Times `draw` once, keeps drawing until `warm_up` has passed, so that threads settle on
+/// processors and allocators on sizes, and then times `repeat` more frames. Starts no frame after
+/// 20 seconds. `clear` is called before each frame and not timed.
 Frames time_frames(
     int repeat, const std::function<void()>& draw, const std::function<void()>& clear = [] {},
     std::chrono::milliseconds warm_up = std::chrono::milliseconds(300));
@@ -60,7 +60,7 @@ Frames time_frames(
 
 namespace fathom::validation {
 
-/// The names under which a measurement comes from its process.
+/// The names of the fields in the message from the measuring process.
 template <>
 struct Fields<bench::Measurement> {
   template <class Visit, class S>
@@ -102,11 +102,11 @@ namespace fathom::bench {
 ///          no such renderer.
 std::vector<Measurement> measure(const std::string& renderer, const Plan& plan);
 
-/// measure() in a process of its own, so that its peak memory and its threads are its own.
+/// measure() in a separate process, so that its peak memory and its threads are separate too.
 /// Needs    a process that has started no threads.
 std::vector<Measurement> measure_in_child(const std::string& renderer, const Plan& plan);
 
-/// The number of triangles of a plan's scene, which is made in a process of its own.
+/// The number of triangles of a plan's scene, which is made in a separate process.
 /// Needs    a process that has started no threads.
 /// Fails    as make_scene().
 std::uint64_t count_triangles_in_child(const Plan& plan);
@@ -114,7 +114,7 @@ std::uint64_t count_triangles_in_child(const Plan& plan);
 /// Whether VTK and Embree are built in.
 bool peers_are_built();
 
-/// Whether Masked Occlusion Culling is.
+/// Whether Masked Occlusion Culling is built in.
 bool masked_occlusion_culling_is_built();
 
 // VTK, Embree and Masked Occlusion Culling on a bench scene. `idle_bytes` is the memory that the
@@ -123,7 +123,7 @@ bool masked_occlusion_culling_is_built();
 std::vector<Measurement> measure_vtk(BenchScene bench, const Plan& plan, std::uint64_t idle_bytes);
 std::vector<Measurement> measure_embree(BenchScene bench, const Plan& plan, bool robust,
                                         std::uint64_t idle_bytes);
-/// Nothing if the camera is orthographic.
+/// Empty for an orthographic camera.
 std::vector<Measurement> measure_masked_occlusion_culling(BenchScene&& bench, const Plan& plan,
                                                           std::uint64_t idle_bytes);
 

@@ -1,7 +1,6 @@
 // Times `fathom-mpi render` on scenes of any size, which the ranks make instead of reading them:
 //   mpirun -n 2 build/…/bin/fathom_mpi_bench --scene terrain --triangles 1000000 -o map.exr
-// Prints a line of JSON; of what each rank takes, processor_seconds and peak_memory, it has the
-// most.
+// Prints a line of JSON. Its processor_seconds and peak_memory are the maxima over all ranks.
 
 #include <sys/resource.h>
 
@@ -33,8 +32,8 @@
 namespace fathom::app {
 namespace {
 
-/// The arguments of fathom_mpi_bench: the scene that is made, and of what `fathom-mpi render` takes
-/// that which costs something.
+/// The arguments of fathom_mpi_bench: the scene to make, and the arguments of `fathom-mpi render`
+/// that affect its cost.
 struct MpiBenchArguments {
   bench::GeneratedArguments scene;
   Size size{1920, 1080};
@@ -83,7 +82,7 @@ using Json = nlohmann::ordered_json;
 /// Whether this rank has come as far as others wait for it.
 bool work_has_begun = false;
 
-/// What this process has taken until now.
+/// The resources that this process has used until now.
 struct Taken {
   std::uint64_t microseconds;  ///< of processors, also those that a rank spends waiting for others
   std::uint64_t memory;        ///< the most that it has had in RAM at a time, in bytes
@@ -100,7 +99,7 @@ Taken taken() {
           static_cast<std::uint64_t>(usage.ru_maxrss) * 1024};
 }
 
-/// What the ranks have sent of triangles, pixels and chunks, and in all, as they have told it.
+/// The traffic of triangles, pixels and chunks, and its sum, from the file that the ranks wrote.
 Json sent(const std::string& traffic_file) {
   std::ifstream file(traffic_file);
   std::string line;

@@ -46,7 +46,7 @@ void add_dataset(Command& program);
 class CodesBeyond {
  public:
   void note(const DepthMap& map);
-  /// Warns of them, where there are any.
+  /// Warns of these pixels, if there are any.
   void tell(const Console& console) const;
 
  private:
@@ -66,9 +66,9 @@ struct FileOfView {
 /// A layout in which each camera has a map, in one file or several.
 struct Views {
   std::vector<Camera> cameras;
-  /// What the files of a camera are called in messages; Job::noun.
+  /// Name of the files of a camera in messages; Job::noun.
   std::string noun;
-  /// What they depend on beside the map.
+  /// What the files depend on in addition to the map.
   std::string inputs;
   /// At least one; messages call a map as its first file.
   std::vector<FileOfView> files;
@@ -78,7 +78,7 @@ struct Views {
   std::vector<JobList> lists;
 };
 
-/// Makes the views of a scene by the plan of the arguments, and warns of what is wrong with them.
+/// Makes the views of a scene by the plan of the arguments, and warns of problems.
 /// Fails    as plan_maps(), ViewMaker and run_job().
 void make_views(const DatasetArguments& arguments, const Views& views, const Console& console);
 

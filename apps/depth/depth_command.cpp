@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What is asked about a depth format: `text` is one VALUE.
+/// A question about a depth format; `text` is one VALUE.
 struct DepthQuestion {
   const DepthFormat& format;
   bool clamp;  ///< takes depths outside of [near, far] as the nearer end
@@ -39,7 +39,7 @@ std::string to_text(double x) {
   return fmt::format("{}", x);
 }
 
-/// A number; where it is none, VALUE is to blame.
+/// A number. Fails with a message about VALUE if the text is not a number.
 double number_in(const std::string& text) {
   return about_option("VALUE", [&] { return parse_number(text); });
 }
@@ -59,7 +59,7 @@ std::string to_text(const DepthFormat& format, StoredDepth stored) {
                                   : to_text(value_in_binary64(format, stored));
 }
 
-/// What both kinds of storage say about a stored value.
+/// Adds the members that both kinds of storage have for a stored value.
 void add_stored(Json& json, const DepthFormat& format, StoredDepth stored) {
   json[is_unorm(format.storage) ? "code" : "bits"] = stored.bits;
   json["value"] = value_in_binary64(format, stored);
@@ -84,7 +84,7 @@ StoredDepth stored_in(const DepthQuestion& question) {
   return round_to_storage(storage, Ratio(Dyadic(number)));
 }
 
-/// All fail with UsageError where the text is no number, with InputError where the format has no
+/// All fail with UsageError if the text is not a number, and with InputError if the format has no
 /// such depth or stored value.
 DepthAnswer encode_answer(const DepthQuestion& question) {
   const Ratio depth = depth_in(question, question.text);
@@ -161,10 +161,10 @@ std::string line_of(const DepthAnswer& answer, bool json) {
   return (json ? answer.json : answer.text) + "\n";
 }
 
-/// A binary64 number needs 1074 digits at most; no sane text is longer.
+/// A binary64 number needs at most 1074 digits; a reasonable text is not longer.
 constexpr std::size_t longest_value = 4096;
 
-/// The next line of standard input, or its beginning where it is too long for a value.
+/// Reads the next line of standard input, or its beginning if it is too long for a value.
 bool read_line(std::string& line) {
   line.clear();
   for (int c = std::cin.get(); c != std::char_traits<char>::eof(); c = std::cin.get()) {
@@ -175,7 +175,7 @@ bool read_line(std::string& line) {
   return !line.empty();
 }
 
-/// One value a line from standard input, one answer a line, as they come.
+/// Reads one value per line from standard input and prints one answer per line, each at once.
 void answer_lines(const DepthFormat& format, const DepthArguments& arguments, Ask ask) {
   std::string line;
   for (std::size_t number = 1; read_line(line); ++number) {

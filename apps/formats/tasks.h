@@ -7,12 +7,13 @@
 
 #include "fathom/mesh_files/formats_program/messages.h"
 
-/// What fathom-formats is asked to do. Each takes the parameters and the bytes of a request and
-/// returns the bytes of the answer; what std::exception says is the reason where there is none.
+/// The tasks of fathom-formats. Each takes the parameters and the bytes of a request and returns
+/// the bytes of the answer. If a task fails, the message of its std::exception is the reason.
 namespace fathom::app {
 
-/// Reads a file of any of the formats that assimp knows; the parameters are its name. The answer is
-/// laid out as lib/fathom/mesh_files/formats_program/read_by_assimp.cpp reads it.
+/// Reads a file of any format of assimp; the parameters are its name.
+/// lib/fathom/mesh_files/formats_program/read_by_assimp.cpp reads the answer and defines its
+/// layout.
 std::vector<std::byte> read_by_assimp(std::span<const std::byte> parameters,
                                       std::span<const std::byte> bytes);
 
@@ -32,9 +33,8 @@ std::string assimp_version();
 std::string draco_version();
 std::string meshoptimizer_version();
 
-/// Answers the requests that come over the socket on standard input, until it is closed. Each is
-/// carried out within the limits that it names; where one is passed, the system ends this program.
-/// Returns the exit status.
+/// Answers requests from the socket on standard input, until it is closed. Each request names its
+/// limits; the system ends this program if it exceeds one. Returns the exit status.
 int serve_requests();
 
 }  // namespace fathom::app

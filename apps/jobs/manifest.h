@@ -28,12 +28,12 @@ struct PublishedFile {
   std::uint32_t crc32 = 0;
 };
 
-/// As PublishedFile has it.
+/// The checksum of PublishedFile.
 std::uint32_t crc32_of(files::ByteView bytes);
 
 /// A finished task.
 struct Record {
-  /// SHA-256 of what its files depend on.
+  /// SHA-256 of the inputs of its files.
   std::string key;
   /// In the order of the task's files.
   std::vector<PublishedFile> files;
@@ -54,11 +54,11 @@ struct ManifestContent {
 
   /// The record of the task with this first file and this key; null if there is no record.
   [[nodiscard]] const Record* find(const std::string& file, const std::string& key) const;
-  /// A manifest. A line that is no record is passed over, with a warning where it is not the last.
-  /// `name` is the manifest's for messages.
-  /// Fails    InputError where a later version of this program has written it.
+  /// Adds the records of a manifest. Skips damaged lines, with a warning unless only the last line
+  /// is damaged. `name` is the manifest's for messages.
+  /// Fails    InputError if a later version of this program has written it.
   void add(const std::string& text, const std::string& name, Warnings& warnings);
-  /// What has been published just now: no other record of its task counts.
+  /// Adds the record of a task that was just published; it replaces all other records of this task.
   void add(Record record);
 };
 
@@ -75,8 +75,8 @@ class Manifest {
   /// Records which files will be made, before the first file is made.
   void announce(const std::vector<std::string>& files);
   void add(const std::vector<Record>& records);
-  /// Where all is finished: replaces the manifests of the folder by one of these records, with what
-  /// else is `owned`.
+  /// Called when all tasks are finished: replaces the manifests of the folder by one manifest with
+  /// these records and the other `owned` files.
   void replace(const std::vector<Record>& records, std::unordered_set<std::string> owned);
 
  private:

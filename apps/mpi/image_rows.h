@@ -21,8 +21,8 @@
 #include "fathom/image/map_files.h"
 #include "fathom/image/row_share.h"
 
-/// Rows of an image on their way between ranks: of tiles that they have drawn, and of what each has
-/// found in its share of the rows.
+/// Rows of an image as messages between ranks: pixels of tiles that they have drawn, and items that
+/// each rank has found in its share of the rows.
 namespace fathom::app {
 
 /// Rows first ≤ row < end of tiles.
@@ -31,7 +31,8 @@ struct TileRows {
   [[nodiscard]] std::uint32_t count() const { return end - first; }
 };
 
-/// About as many rows of tiles for each rank, the first of them for rank 0; for some perhaps none.
+/// Divides rows of tiles into bands of about equal height, the first for rank 0. Some ranks may get
+/// no row.
 std::vector<TileRows> equal_bands(std::uint32_t rows, int ranks);
 /// All of them for rank 0.
 std::vector<TileRows> all_for_first(std::uint32_t rows, int ranks);
@@ -40,7 +41,7 @@ std::vector<TileRows> all_for_first(std::uint32_t rows, int ranks);
 std::vector<TileRows> parts_of(std::span<const TileRows> bands, std::uint32_t from,
                                std::uint32_t most);
 
-/// Which rank has drawn each tile of an image.
+/// The rank that has drawn each tile of an image.
 struct DrawnTiles {
   ImageTiles tiles;
   std::uint32_t width = 0, height = 0;
@@ -74,15 +75,14 @@ class WholeMap {
   std::size_t pixels_ = 0;
 };
 
-/// Which rows of an image a rank makes by itself, where each has the whole scene.
+/// The rows of an image that a rank makes by itself, when each rank has the whole scene.
 RowShare share_of(const Ranks& ranks);
 
-/// What other ranks than the first have found in their shares of the rows, as it comes to the
-/// first.
+/// In the first rank, the items that other ranks have found in their shares of the rows.
 class RowsOfOthers {
  public:
   explicit RowsOfOthers(const Ranks& ranks);
-  /// The next so many counts, or bytes of items, of a rank.
+  /// Takes the next counts, or the next items, of a rank.
   void take_counts(std::size_t rank, std::span<std::uint32_t> to) { take(counts_[rank], to); }
   template <class Item>
   void take_items(std::size_t rank, std::span<Item> to) {
@@ -103,8 +103,8 @@ class RowsOfOthers {
   std::vector<List> counts_, items_;
 };
 
-/// Sends the first rank what this one has found in its share of the rows, where RowsOfOthers takes
-/// it.
+/// Sends to the first rank, for its RowsOfOthers, the items that this rank has found in its share
+/// of the rows.
 void send_rows(const Ranks& ranks, std::uint32_t width, std::span<const std::uint32_t> counts,
                files::ByteView items, Traffic& traffic);
 

@@ -37,22 +37,23 @@ class Ranks {
 
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] int self() const { return self_; }
-  /// The first of them reads standard input, answers and writes files.
+  /// The first rank reads standard input, answers and writes files.
   [[nodiscard]] bool is_first() const { return self_ == 0; }
 
-  /// How many of them share the memory of this machine.
+  /// How many ranks share the memory of this machine.
   [[nodiscard]] int count_on_this_machine() const;
   [[nodiscard]] std::uint64_t least(std::uint64_t value) const;
   [[nodiscard]] std::uint64_t greatest(std::uint64_t value) const;
   [[nodiscard]] std::uint64_t sum(std::uint64_t value) const;
-  /// Element by element, of lists of equal length.
+  /// Sums lists of equal length, element by element.
   void add_up(std::span<std::uint64_t> values) const;
-  /// The same, taking the least; no number is NaN.
+  /// The same with the least instead of the sum; no number is NaN.
   void take_least(std::span<double> values) const;
-  /// What rank `from` has.
+  /// The text of rank `from`.
   [[nodiscard]] std::string broadcast(const std::string& text, int from) const;
-  /// Sends messages[r] to rank r and returns what rank r has sent. The messages are taken away as
-  /// they are sent, in rounds in which a rank sends so many bytes at most, or one to each.
+  /// Sends messages[r] to rank r and returns the messages that ranks have sent to this one.
+  /// Messages are freed when they are sent. In a round a rank sends at most `most_at_once` bytes,
+  /// or one message to each rank.
   [[nodiscard]] std::vector<files::Bytes> exchange(std::vector<files::Bytes> messages,
                                                    std::size_t most_at_once = std::size_t{1}
                                                                               << 26) const;
@@ -62,7 +63,7 @@ class Ranks {
   void send_to_first(files::ByteView bytes) const;
   [[nodiscard]] files::Bytes receive_from(int rank) const;
 
-  /// Ends all processes with this status, now, where no agreement with them is possible any more.
+  /// Ends all processes with this status at once, when they cannot agree any more.
   [[noreturn]] void abort(int status) const;
 
  private:
@@ -87,15 +88,15 @@ class SparseExchange {
   /// and discards their messages until they have ended too.
   ~SparseExchange();
 
-  /// Sends less than 2³¹ bytes to another rank. Takes what comes meanwhile.
+  /// Sends less than 2³¹ bytes to another rank. Receives messages meanwhile.
   /// Fails    as take().
   void send(int to, files::Bytes message);
-  /// Takes what has come, and does not wait for more.
+  /// Receives the messages that have arrived, without waiting for more.
   /// Fails    as take().
   void receive();
   /// Whether a rank has given up: further work is useless.
   [[nodiscard]] bool is_given_up() const;
-  /// Takes what comes until all ranks have called end() or given up.
+  /// Receives messages until all ranks have called end() or given up.
   /// Fails    as take().
   void end();
 

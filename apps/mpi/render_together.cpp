@@ -76,7 +76,8 @@ SortedTriangles TilesTogether::deal_out_by_all() {
   return all;
 }
 
-// By as many triangles as a round has, taken all over the part; each stands for those around it.
+// Measures the load by a sample: as many triangles as a round has, from all over the part. Each
+// represents the triangles around it.
 void TilesTogether::deal_out_by_sample() {
   constexpr std::uint64_t places = 64;
   std::vector<std::uint64_t> counts(tiles_of(camera_).count(), 0);
@@ -107,19 +108,19 @@ void TilesTogether::deal_out_tiles(std::vector<std::uint64_t> triangles) {
   together(ranks_, [&] { drawing_->choose(std::move(own)); });
 }
 
-// Each rank at its own pace: what others send is drawn between rounds.
+// Each rank works at its own pace and draws received triangles between rounds.
 void TilesTogether::draw_in_rounds(TriangleMail& mail,
                                    const std::function<void(double)>& progress) {
   const std::uint64_t at_once = job_.memory.triangles_at_once;
   for (std::uint64_t next = 0; next < own_.count() && !mail.is_given_up(); next += at_once) {
     draw_read(drawing_->sort(job_.scene.read(own_.part(next, at_once))), mail);
-    // Drawing takes most of the time, and writing the rest: a tenth, say.
+    // Drawing takes most of the time. Writing is assumed to take a tenth.
     if (progress) progress(0.9 * static_cast<double>(next) / static_cast<double>(own_.count()));
   }
 }
 
-// What touches tiles of other ranks is sent there, some triangles at a time: copies of all would
-// take nearly as much memory as the round.
+// Sends triangles that touch tiles of other ranks to these ranks, some triangles at a time: copies
+// of all of them would take nearly as much memory as the round.
 void TilesTogether::draw_read(const SortedTriangles& sorted, TriangleMail& mail) {
   draw(sorted);
   if (ranks_.count() == 1) return;

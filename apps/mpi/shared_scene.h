@@ -32,9 +32,10 @@ struct TriangleRange {
   }
 };
 
-/// A scene whose objects and sources all ranks know, and whose triangles are divided among them.
-/// Binary STL and PLY stay in their files, of which a rank keeps only its part; of an STL, and of a
-/// PLY with only triangles, it also reads only its part. Other formats are in memory in every rank.
+/// A scene whose objects and sources are the same in all ranks, and whose triangles are divided
+/// among the ranks. Binary STL and PLY stay in their files, and a rank keeps only its part of them.
+/// Of an STL, and of a PLY with only triangles, it also reads only its part. Other formats are in
+/// memory in every rank.
 class SharedScene {
  public:
   struct Kept {
@@ -43,13 +44,12 @@ class SharedScene {
     /// Materials, groups, parts and labels; normals. If they are requested, files are read whole,
     /// too.
     bool segments = false, normals = false;
-    /// SHA-256 of the sources, which one rank is enough for.
+    /// SHA-256 of the sources; it is enough if one rank computes them.
     bool hash = false;
   };
   /// Fails    as SceneOptions::read() and stream_scene(); UsageError for standard input.
   SharedScene(const SceneOptions& options, const Kept& kept, const Console& console);
-  /// A scene that is there, the same in all ranks. Bounds that its streams know are taken as they
-  /// are.
+  /// A given scene, the same in all ranks. Bounds that its streams have are used unchanged.
   /// Fails    InputError where it has a fault (find_fault).
   explicit SharedScene(StreamedScene scene);
 
@@ -73,11 +73,11 @@ class SharedScene {
   [[nodiscard]] TriangleSource triangles() const;
   /// Renders a map of the scene in this rank only.
   [[nodiscard]] Rendered render(const Camera& camera, const RenderOptions& options) const;
-  /// Which of its triangles are a rank's to read.
+  /// The triangles that a rank reads.
   [[nodiscard]] TriangleRange part_of(const Ranks& ranks) const;
   /// The numbers of the objects' first triangles, and of all triangles.
   [[nodiscard]] const std::vector<std::uint64_t>& first_numbers() const { return first_numbers_; }
-  /// Some of its triangles, a list for each object that has any.
+  /// The triangles of a range, as a list for each object with triangles in it.
   /// Fails    InputError where a file has changed, or a triangle of it a fault.
   [[nodiscard]] std::vector<SomeTriangles> read(const TriangleRange& range) const;
   /// A text that is equal in all ranks if they read the same files.
@@ -87,7 +87,7 @@ class SharedScene {
   void open(bool check, const Console& console);
   void number_triangles();
 
-  /// What stays in its files: how these are opened, and what has been said of them.
+  /// Streamed files, the options for opening them, and the warnings that were printed about them.
   std::vector<std::filesystem::path> files_;
   ReadOptions reading_;
   Warnings told_;

@@ -7,7 +7,7 @@
 #include "apps/mpi/ranks.h"
 #include "apps/shell/last_resort.h"
 
-/// Ranks that fail together, and which of them says why.
+/// Makes ranks fail together, with one rank that reports the reason.
 namespace fathom::app {
 
 /// Runs a part of the work without communication, and ends it together with the other ranks. If the

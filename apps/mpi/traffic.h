@@ -10,13 +10,12 @@
 
 namespace fathom::app {
 
-/// What ranks send to each other: a message is what one rank sends to another one at a time,
-/// whatever pieces MPI makes of it.
+/// Messages between ranks and their bytes. A message counts once, even if MPI sends it in pieces.
 struct Traffic {
   std::uint64_t messages = 0, bytes = 0;
 
   void add(std::size_t bytes_of_message);
-  /// What `self` sends of these, to all ranks but itself.
+  /// Adds the messages that `self` sends to other ranks.
   void add(std::span<const files::Bytes> messages_to_ranks, int self);
 };
 
@@ -25,7 +24,8 @@ struct MapTraffic {
   std::string map;  ///< the name of the file
   /// Triangles of the scene; triangles drawn, in total and by the busiest rank.
   std::uint64_t triangles = 0, drawn = 0, most_drawn = 0;
-  /// Triangles to those who draw them, pixels to those who compress them, and these to the file.
+  /// Triangles sent to the ranks that draw them, pixels to the ranks that compress them, and
+  /// compressed chunks to the file.
   Traffic of_triangles, of_pixels, of_chunks;
   /// Seconds of drawing: of all ranks together, and of the slowest one.
   double drawing = 0, slowest = 0;

@@ -15,18 +15,18 @@
 /// Triangles as messages between ranks.
 namespace fathom::app {
 
-/// Takes triangles out of a mesh, once or often. The mesh outlives it unchanged.
+/// Copies triangles out of a mesh, once or often. The mesh must outlive it unchanged.
 /// Cost     4 bytes for each vertex, once; then proportional to the triangles taken.
 class TrianglePicker {
  public:
   explicit TrianglePicker(const Mesh& mesh) : mesh_(mesh) {}
-  /// A mesh of these triangles, in this order, with the vertices that they have; of faces,
-  /// attributes and segments nothing.
+  /// A mesh of these triangles, in this order, with their vertices, but without faces, attributes
+  /// and segments.
   [[nodiscard]] Mesh picked(std::span<const std::uint32_t> triangles);
 
  private:
   const Mesh& mesh_;
-  /// For each vertex its place in the mesh that is being made; no_index: none.
+  /// For each vertex its place in the new mesh, or no_index.
   std::vector<std::uint32_t> places_;
 };
 
@@ -45,12 +45,12 @@ std::vector<files::Bytes> messages_of(const std::vector<SomeTriangles>& part,
                                       std::span<const TileTouch> touches,
                                       std::span<const int> owners, int ranks);
 
-/// The triangles that a rank has received, one list for each object, in their order.
+/// The triangles that a rank has received, as one list for each object, in their order.
 /// `messages`   from all ranks, in the order of the triangles that these read. They are used up.
 std::vector<SomeTriangles> received_triangles(std::vector<files::Bytes> messages);
 
-/// Triangles on their way between ranks: messages wait until together they
-/// are worth sending, and what has come until it is worth drawing.
+/// Sends triangles between ranks. Messages wait until they are large enough to be worth sending,
+/// and received triangles wait until there are enough to be worth drawing.
 class TriangleMail {
  public:
   using Draw = std::function<void(std::vector<SomeTriangles>)>;
@@ -62,13 +62,14 @@ class TriangleMail {
   /// `draw`          gets the received triangles, within the other functions
   TriangleMail(const Ranks& ranks, std::size_t most_waiting, Traffic& traffic, Draw draw);
 
-  /// messages[r] is for rank r. May take what has come meanwhile.
+  /// messages[r] is for rank r. May also receive messages.
   /// Fails    as draw().
   void send(std::vector<files::Bytes> messages);
-  /// Takes what has come.
+  /// Receives the messages that have arrived.
   /// Fails    as draw().
   void receive() { exchange_.receive(); }
-  /// Sends what waits, and returns when all ranks have called this and all that came is drawn.
+  /// Sends waiting messages, and returns when all ranks have called this and all received triangles
+  /// are drawn.
   /// Fails    as draw().
   void end();
   /// Whether a rank has failed: nothing is drawn any more.

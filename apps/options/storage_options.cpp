@@ -25,7 +25,7 @@ Compression parse_compression(const std::string& text) {
   return parse_enumerator(text, all_compressions);
 }
 
-/// Whether it is none.
+/// Whether it is `none`.
 bool parse_beyond(const std::string& text) {
   return parse_word<bool>(text, {{"error", false}, {"none", true}});
 }

@@ -40,30 +40,30 @@ struct MapPlan {
   bool is_mask = false;
   /// The mask is that of one object.
   std::optional<std::uint32_t> object;
-  /// Whether nobody asked for channels, so that they are those that suit the camera.
+  /// Whether no channels were requested, so that the channels depend on the camera.
   bool channels_by_default = false;
   std::vector<MatteKind> mattes;
   std::optional<SamplePattern> samples;
   std::optional<DepthBufferPlan> depth_buffer;
   std::optional<std::uint64_t> verified_pixels;
 
-  /// `rendering`, with the default channels of a camera: with a lens, Z without A, and also the ray
-  /// distance where its rays need not all go forwards.
+  /// `rendering`, with the default channels of a camera. A camera with a lens has Z without A, and
+  /// also the ray distance if some of its rays may not go forwards.
   [[nodiscard]] RenderOptions rendering_for(const Camera& camera) const;
   /// Whether the normals of files are interpolated.
   [[nodiscard]] bool needs_normals() const;
-  /// Whether the map shows what triangles are called.
+  /// Whether the map shows materials, groups, parts or labels.
   [[nodiscard]] bool needs_segments() const;
 };
 
-/// One of the files of each camera: which -o it is, and its plan as if it were the only one.
+/// One of the files of each camera: the number of its -o, and its plan as if it were the only file.
 struct OutputPlan {
   std::size_t number = 0;
   MapPlan plan;
 };
 
-/// A rendering of each camera, and the files that are written from it. The plan's channels are
-/// those of all its outputs.
+/// A rendering of each camera, and the files that are written from it. The plan has the channels of
+/// all its outputs.
 struct RenderPass {
   MapPlan plan;
   std::vector<OutputPlan> outputs;
@@ -72,21 +72,21 @@ struct RenderPass {
   [[nodiscard]] RenderOptions rendering_for(const Camera& camera) const;
 };
 
-/// The file of a map, or of its mask; `name` is its name for messages.
+/// The bytes of a map's file, or of its mask's file; `name` is its name for messages.
 /// Fails    as encode_map().
 std::vector<std::byte> encode_planned(const DepthMap& map, const MapPlan& plan,
                                       const std::string& name);
 
-/// How deep maps are made.
+/// How to make deep maps.
 struct DeepMapPlan {
   Compression compression = Compression::zips;
   RenderOptions rendering;
 };
 
-/// All fail with UsageError where the arguments contradict each other, before any work.
+/// All fail with UsageError if the arguments contradict each other, before any work.
 MapPlan plan_maps(const RenderArguments& arguments);
-/// All outputs, in as few passes as can be: depths of different types (binary32, binary64, codes)
-/// are rounded once each, so each type takes a pass of its own.
+/// All outputs, in as few passes as possible. Depths of different types (binary32, binary64, codes)
+/// are each rounded once, so each type needs a separate pass.
 std::vector<RenderPass> plan_passes(const RenderArguments& arguments);
 DeepMapPlan plan_deep_maps(const RenderArguments& arguments);
 

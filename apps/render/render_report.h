@@ -18,25 +18,25 @@
 
 namespace fathom::app {
 
-/// Of scenes that show nothing or less than one would think.
+/// Warns if a scene shows nothing, or less than expected.
 void warn_of(const RenderStatistics& statistics, const Console& console);
 
 /// Warnings about channels that will be empty because the scene has no such data.
 void warn_of_missing_segments(const TriangleSource& triangles, const std::vector<Channel>& channels,
                               const Console& console);
 
-/// A hint for whoever writes a depth map as EXR into a folder without any, which other programs
-/// will read: how OpenCV and imageio find the depth. Empty for other maps and folders.
+/// A hint for users who write their first EXR with depths into a folder, probably for other
+/// programs: how OpenCV and imageio find the depth. Empty for other maps and folders.
 std::string hint_for_first_exr(const std::string& map, const MapPlan& plan);
 
-/// A hint for whoever writes depths seen through a lens, and nothing else that gives points: how to
-/// get a point cloud. Empty for other cameras and maps.
+/// A hint for users who write depths seen through a lens and no other channel that gives points:
+/// how to get a point cloud. Empty for other cameras and maps.
 std::string hint_for_lens(const Camera& camera, const MapPlan& plan);
 
 /// Warnings about suspicious cameras of a path, each kind once.
 class CameraWarnings {
  public:
-  /// Of a camera whose map shows the scene in so many pixels.
+  /// Takes note of a camera whose map shows the scene in this many pixels.
   void note(const Scene& scene, const Camera& camera, std::uint64_t shown_pixels) {
     of_cameras_.push_back(view_warnings(scene, camera, shown_pixels));
   }
@@ -53,14 +53,13 @@ class CameraWarnings {
 struct MapVerification {
   /// Pixels that were computed again, and how many of them differ.
   std::uint64_t verified = 0, differing = 0;
-  /// Of the verified ones, those at which a bound of the fast engine nearly failed to settle a
-  /// decision.
+  /// Verified pixels at which a bound of the fast engine nearly failed to settle a decision.
   std::uint64_t nearly_unsettled = 0;
 
   [[nodiscard]] bool agrees() const { return differing == 0; }
 };
 
-/// What was stored in a map as a depth buffer would store it.
+/// The depth buffer that was added to a map.
 struct DepthBufferReport {
   DepthFormat format;
   bool against_exact = false;

@@ -10,7 +10,7 @@ class App;
 
 namespace fathom::app {
 
-/// What commands stand below in lists of them, unless they are programs of their own.
+/// Heading of commands in lists, except commands that are separate programs.
 inline constexpr const char* command_heading = "Commands";
 
 /// The spelling that every "-o,--output" also takes. Help and completion show one name only.
@@ -43,7 +43,7 @@ struct CommandText {
   std::string examples;  ///< lines that are kept as they are
   std::string notes;     ///< paragraphs, with empty lines between them
 
-  /// What options and commands stand below, in the order in which each occurs first.
+  /// The headings of options and commands, in the order of first occurrence.
   [[nodiscard]] std::vector<std::string> headings() const;
   /// "fathom camera orbit"
   [[nodiscard]] std::string name() const;
@@ -59,13 +59,13 @@ const std::string& name_of(const OptionText& option);
 /// Its help, and its relations to other options.
 std::string meaning_of(const OptionText& option);
 
-/// Columns of a UTF-8 text whose characters take one each.
+/// The number of columns of a UTF-8 text in which each character takes one column.
 std::size_t columns(const std::string& text);
 
 /// The parts of a text between empty lines.
 std::vector<std::string> paragraphs_of(const std::string& text);
 
-/// The words of a text in lines of at most `width` columns, where words are not longer than that.
+/// The words of a text in lines of at most `width` columns, except for words that are longer.
 std::vector<std::string> wrapped(const std::string& text, std::size_t width);
 
 /// The help of a command, as plain text of at most `width` columns; examples may be wider.

@@ -121,7 +121,7 @@ namespace fs = std::filesystem;
   throw OutputError(target.string() + ": " + why);
 }
 
-/// `folder` is where it was to be staged.
+/// `folder` is the folder in which it should have been staged.
 [[noreturn]] void fail_to_stage(const fs::path& target, const fs::path& place,
                                 const fs::path& folder, int error) {
   if (error == ENOENT && folder == ".") fail(target, "the working directory is gone");
@@ -145,7 +145,7 @@ std::string with_target_for(const std::string& staged, const fs::path& target,
   return message;
 }
 
-/// Waits until the names in a folder are on the disk. Some systems cannot tell.
+/// Waits until the names in a folder are on the disk. Some file systems do not support this.
 void sync_folder(const fs::path& folder) {
   const files::Descriptor open(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (open.is_open()) ::fsync(open.get());
@@ -189,8 +189,8 @@ void OutputFile::find_place(bool exists, mode_t mode) {
   }
 }
 
-/// A folder that does not exist is made when the output takes its place: until then the output
-/// waits above it.
+/// A missing folder is made when the output takes its place. Until then the output is staged in an
+/// existing folder above it.
 void OutputFile::stage() {
   const fs::path folder = nearest_existing(folder_of(place_));
   try {
@@ -223,7 +223,8 @@ void OutputFile::take_permissions() const {
   const int file = staged_->descriptor();
   mode_t mode = staged_->ordinary_mode();
   if (existing_) {
-    // Only root can give a file away. What runs as its owner or group does so for no other.
+    // Only root can give a file away. A file with the set-user-ID or set-group-ID bit must not run
+    // as another owner or group.
     const bool is_theirs = ::fchown(file, existing_->owner, existing_->group) == 0 ||
                            ::fchown(file, static_cast<uid_t>(-1), existing_->group) == 0;
     mode = existing_->mode & (is_theirs ? 07777 : 0777);
@@ -232,14 +233,14 @@ void OutputFile::take_permissions() const {
 }
 
 void OutputFile::sync(int (*sync_one)(int)) const {
-  // Some systems cannot tell, and say so.
+  // Some file systems do not support this and report it.
   if (sync_one(staged_->descriptor()) != 0 && errno != EINVAL && errno != ENOSYS) {
     fail_with_errno(target_, errno);
   }
 }
 
-/// Waits until all are on the disk. Each file takes a turn of the disk; where there are many, their
-/// file systems, with all that others have written to them, take less.
+/// Waits until all outputs are on the disk. Syncing a file takes a turn of the disk. For many files
+/// it takes less time to sync their file systems, including all data of other programs.
 void OutputFile::sync_all(const std::vector<OutputFile*>& placed) {
   constexpr std::size_t many = 8;
   if (placed.size() < many) {
@@ -274,7 +275,7 @@ void OutputFile::write_through() {
 
 void OutputFile::take_place(bool is_last) {
   try {
-    // Once the last one is in its place nothing can fail any more.
+    // After the last output is in its place nothing can fail any more.
     if (is_last) {
       staged_->put_at(place_);
     } else {
@@ -294,7 +295,7 @@ void OutputFile::make_folder_in(NewFolders& folders) const {
   }
 }
 
-/// All of them, or none.
+/// Puts all outputs in their places, or none.
 void OutputFile::take_places(const std::vector<OutputFile*>& outputs) {
   std::size_t placed = 0;
   try {
@@ -314,7 +315,7 @@ void OutputFile::commit_together(const std::vector<OutputFile*>& outputs) {
   for (OutputFile* output : outputs) {
     if (output->place_.empty()) continue;
     output->take_permissions();
-    // Where several take their places, none may want memory any more.
+    // If several outputs take their places, this must not need memory any more.
     output->staged_->prepare_for(output->place_);
     to_place.push_back(output);
     folders.insert(folder_of(output->place_));
@@ -323,7 +324,7 @@ void OutputFile::commit_together(const std::vector<OutputFile*>& outputs) {
   for (OutputFile* output : outputs) {
     if (output->place_.empty()) output->write_through();
   }
-  // Folders come last, too: nothing that has failed before leaves one.
+  // Folders are made at the end, so that an earlier failure leaves no folder behind.
   NewFolders new_folders;
   for (const OutputFile* output : to_place) output->make_folder_in(new_folders);
   for (const fs::path& folder : new_folders.made()) folders.insert(folder_of(folder));

@@ -22,7 +22,7 @@ namespace fathom::app {
 
 /// A finite number.
 double parse_number(const std::string& text);
-/// A finite number, or one of some words that stand for numbers.
+/// A finite number, or a word that stands for a number.
 double parse_number_or(const std::string& text,
                        std::initializer_list<std::pair<const char*, double>> words);
 /// A finite number or "inf".
@@ -76,16 +76,16 @@ auto parse_distinct(const std::string& list, const Parse& parse) {
   return values;
 }
 
-/// Fails    UnknownName: "'text' is not one of …", with a suggestion. `other` is what else it could
-///          have been: "a number".
+/// Fails    UnknownName: "'text' is not one of …", with a suggestion. `other` names what else is
+///          accepted: "a number".
 [[noreturn]] void refuse_word(const std::string& text, const std::vector<std::string>& words,
                               const std::string& other = "");
 
-/// Words, and what each of them means.
+/// Words with their values.
 template <class Value>
 using Words = std::initializer_list<std::pair<const char*, Value>>;
 
-/// One of some words. The caller has already tried other accepted values; `other` names them.
+/// The value of a word. The caller has already tried other accepted values; `other` names them.
 template <class Value>
 Value parse_word(const std::string& text, Words<Value> words, const std::string& other = "") {
   std::vector<std::string> names;
@@ -96,7 +96,7 @@ Value parse_word(const std::string& text, Words<Value> words, const std::string&
   refuse_word(text, names, other);
 }
 
-/// One of the values of an enumeration, by the name that its name_of() returns.
+/// The value of an enumeration with this name_of().
 template <class Values>
 std::ranges::range_value_t<Values> parse_enumerator(const std::string& text, const Values& values) {
   if (const auto value = value_named(values, text)) return *value;

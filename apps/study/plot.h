@@ -25,18 +25,18 @@ std::string png_bytes(const RgbImage& image);
 /// Fails    OutputError.
 StudyFile picture_file(const std::string& name, const RgbImage& image, std::uint32_t scale = 1);
 
-/// Plots, drawn by gnuplot, which is run as a program: it is small, well kept, writes PNG and SVG
-/// from one description without a display, and its scripts can be changed by whoever reads a study.
+/// Plots, drawn by the program gnuplot: it is small and well maintained, writes PNG and SVG from
+/// one description without a display, and readers of a study can change its scripts.
 
-/// A line of a plot. Lines differ by colour, dashes and point marks, so that they can be told apart
-/// in black and white too. A line that lies on an earlier one is not drawn: the key names it below
-/// that one, as "= LABEL".
+/// A line of a plot. Lines differ by colour, dashes and point marks, so that they can be
+/// distinguished in black and white too. A line that coincides with an earlier line is not drawn;
+/// the key lists it below the earlier line as "= LABEL".
 struct Series {
   std::string label;
   std::vector<std::pair<double, double>> points;
 };
 
-/// A point for each row; x and y are numbers among its members, or functions of it.
+/// A series with a point for each row; x and y are members or functions of a row.
 template <class Rows, class X, class Y>
 Series series_of(std::string label, const Rows& rows, X x, Y y) {
   Series series{std::move(label), {}};
@@ -52,7 +52,7 @@ struct Plot {
   std::string name;  ///< of its files, without the suffix
   std::string title, x_label, y_label;
   bool logarithmic_x = false, logarithmic_y = false;
-  /// Points that are not drawn for want of a logarithm still stretch the other axis.
+  /// Points that are not drawn because they have no logarithm still extend the other axis.
   bool stretched_by_all = false;
   std::vector<Series> series;
 };
@@ -75,26 +75,26 @@ struct HeatMap {
   std::string title, x_label, y_label, value_label;
   std::vector<double> x, y;    ///< centres of columns and rows, evenly spaced
   std::vector<double> values;  ///< rows × columns, row by row
-  /// Red where it is positive, blue where it is negative; otherwise dark where it is great, from 0.
+  /// Red for positive and blue for negative values; otherwise darker for greater values, from 0.
   bool by_sign = false;
-  /// Of an image: its first row is on top, and its cells are squares.
+  /// Shows an image: the first row is on top, and cells are squares.
   bool as_image = false;
-  /// Cells whose values are written into the plot: a row and a column of so many, from the middle
-  /// of the first so many; 0: none.
+  /// Writes the values of every n-th row and column of cells into the plot, beginning in the middle
+  /// of the first n; 0: no values.
   std::size_t cells_per_number = 0;
 };
 
 /// Whether a bar has a height.
 bool has_heights(const BarChart& chart);
 
-/// NAME.gp, the script that draws it, NAME.png and NAME.svg. No file of a plot without a point.
+/// NAME.gp, the script that draws the plot, NAME.png and NAME.svg. No files for a plot without
+/// points.
 /// Fails    OutputError if gnuplot is missing or fails.
 std::vector<StudyFile> draw(const Plot& plot);
 std::vector<StudyFile> draw(const BarChart& chart);
 std::vector<StudyFile> draw(const HeatMap& map);
 
-/// Fails with OutputError where plots are to be drawn and gnuplot is missing: to be called before
-/// the work.
+/// Fails with OutputError if plots are to be drawn and gnuplot is missing. Call it before the work.
 void require_gnuplot(const StudyOptions& options);
 
 }  // namespace fathom::studies

@@ -15,32 +15,32 @@
 
 namespace fathom::studies {
 
-/// What summary.json holds, in its order: values, and tables as lists of an object for each row.
-/// Keys may have members and lists, as those of columns have.
+/// The contents of summary.json in order: values, and tables as lists with an object for each row.
+/// Keys may have members and lists, like the keys of columns.
 using Summary = std::vector<std::pair<std::string, std::variant<Cell, Table>>>;
 
 std::string json_of(const Summary& summary);
 
-/// What a study hands back, as it comes together: the figures of summary.json, tables, plots and
-/// pictures, and the page that shows them.
+/// Collects the results of a study: the figures of summary.json, tables, plots and pictures, and
+/// the page that shows them.
 class Results {
  public:
-  /// `page` is the study's Markdown: see page.h. The options say whether plots are drawn.
+  /// `page` is the study's Markdown (page.h). The options decide whether plots are drawn.
   Results(const std::string& study, std::string_view page, const StudyOptions& options);
 
   /// A figure of summary.json, which the page may quote as {{key}}, formatted as text_of() does.
   void figure(const std::string& key, const Cell& value, const char* page_format = "g");
-  /// A figure that the page alone quotes.
+  /// A figure that only the page quotes.
   void quote(const std::string& name, const Cell& value, const char* page_format = "g");
 
-  /// Where a table goes: the file CSV.csv, the key `json` of summary.json, the page's
-  /// {{table:page}}. Empty: not there.
+  /// The places of a table: the file CSV.csv, the key `json` of summary.json, the page's
+  /// {{table:page}}. An empty name leaves the table out of that place.
   struct Places {
     std::string csv, json, page;
   };
   void table(const Table& table, const Places& places);
 
-  /// Drawn, unless it has nothing to draw or no plots are wanted.
+  /// Draws it, unless it has nothing to draw or plots are switched off.
   void plot(const Plot& plot);
   void plot(const BarChart& chart);
   void plot(const HeatMap& map);
@@ -49,11 +49,11 @@ class Results {
   /// And the command that draws it, which the page quotes as {{draw NAME}}.
   void picture(StudyFile png, const std::string& command, std::uint32_t width = 0);
   void pictures(std::vector<StudyFile> pngs);
-  /// A file that lies beside the page, such as a scene that a command of its captions reads.
+  /// A file next to the page, such as a scene that a command in its captions reads.
   void file(StudyFile file);
   /// {{text:name}} of the page.
   void text(const std::string& name, const std::string& text);
-  /// Anything else that draw() makes NAME.gp, NAME.png and NAME.svg of.
+  /// A plot whose files NAME.gp, NAME.png and NAME.svg are made by `draw`.
   void plot(const std::string& name, const std::function<std::vector<StudyFile>()>& draw);
 
   /// All files, summary.json and index.html among them.

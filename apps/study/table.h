@@ -13,13 +13,13 @@
 
 namespace fathom::studies {
 
-/// What the cells of a column are, whatever its rows hold: so that tables of one study have one
-/// type, those without rows too.
+/// The type of the cells of a column, independent of its rows, so that tables of a study have the
+/// same types even without rows.
 enum class CellKind {
-  any,     ///< not told by the column: what its cells hold
+  any,     ///< not fixed by the column: each cell has its own type
   flag,    ///< bool
   count,   ///< integers
-  number,  ///< floating-point numbers, and whatever number may be empty
+  number,  ///< floating-point numbers, and any numbers that may be empty
   text
 };
 
@@ -48,8 +48,8 @@ struct KindOf<std::optional<T>> {
 template <class T>
 inline constexpr CellKind kind_of_cells = table::KindOf<std::remove_cvref_t<T>>::value;
 
-/// A column of a table: where it is written, under which name, and how its floating-point numbers
-/// are formatted there (see text_of). Without more it is in CSV and JSON.
+/// A column of a table: the places where it is written, its names there, and the formats of its
+/// floating-point numbers (see text_of). By default it is in CSV and JSON.
 struct Column {
   std::string key;  ///< in CSV; empty: not there
   const char* csv_format;
@@ -82,7 +82,7 @@ struct Column {
   }
 };
 
-/// A column of the page alone.
+/// A column that only the page has.
 inline Column heading(const std::string& name, const char* format = "") {
   return Column("").page(name, format);
 }
@@ -102,7 +102,7 @@ struct ColumnOf {
   }
 };
 
-/// The rows that `holds` is true of.
+/// The rows for which `holds` is true.
 template <class Row, class Predicate>
 std::vector<Row> rows_where(const std::vector<Row>& rows, const Predicate& holds) {
   std::vector<Row> some;
@@ -134,10 +134,10 @@ class Table {
   std::vector<std::vector<Cell>> rows_;
 };
 
-/// A line of keys and one for each row. Text with a comma stands between quotes (RFC 4180).
+/// A line of keys and a line for each row. Text with a comma is quoted (RFC 4180).
 std::string csv_of(const Table& table);
 
-/// A row of headings and one for each row.
+/// An HTML table: a row of headings and a row for each row.
 std::string html_of(const Table& table);
 
 }  // namespace fathom::studies

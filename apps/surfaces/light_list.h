@@ -13,7 +13,7 @@ struct LightList {
 
   /// For messages.
   std::string file;
-  /// Of the other columns, in their order; each is there once.
+  /// The headings of the other columns, in their order; no heading occurs twice.
   std::vector<std::string> headings;
   struct Light {
     std::array<double, 3> numbers{};

@@ -65,7 +65,7 @@ inline std::string packed(std::span<const std::uint32_t> words) {
   return packed(words, count, {.columns = count, .rows = 1});
 }
 
-/// A script element of this id that holds such a text.
+/// A script element with this id that contains such a text.
 inline std::string script_text(const std::string& id, const std::string& text) {
   return "<script type=\"text/plain\" id=\"" + id + "\">" + text + "</script>\n";
 }

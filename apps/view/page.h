@@ -17,9 +17,9 @@ namespace fathom::view {
 struct ViewedMap {
   std::string name;
   DepthMap map;
-  /// With what the map was rendered; nullopt: nothing says where its points are.
+  /// The camera of the map; nullopt if the positions of its points are unknown.
   std::optional<Camera> camera;
-  /// The samples of a deep map, of which `map` is flat_map(); nullopt: it is none.
+  /// The samples of a deep map, whose flat_map() is `map`; nullopt for other maps.
   std::optional<DeepMap> deep;
 };
 
@@ -32,9 +32,10 @@ using Sink = std::function<void(std::string_view part)>;
 /// Chromium opens 1.4 GB in half a minute.
 inline constexpr std::uint64_t most_page_bytes = std::uint64_t{2} << 30;
 
-/// Writes the page of `fathom view`: one HTML file that needs no other and no network. It holds
-/// every channel of every map, bit by bit: in tiles of 512 × 512 pixels (packing.h), of large maps
-/// also every second, every fourth, … pixel. `progress` is called with the share that is done.
+/// Writes the page of `fathom view`: one HTML file that needs no other file and no network. It
+/// contains every channel of every map, bit by bit, in tiles of 512 × 512 pixels (packing.h); of
+/// large maps also every second, every fourth, … pixel. `progress` is called with the share that is
+/// done.
 /// Needs    valid maps, at least one.
 /// Fails    OutputError where the page would be larger than `most_bytes`; std::bad_alloc; as the
 ///          sink.

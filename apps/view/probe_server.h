@@ -7,16 +7,17 @@
 
 namespace fathom::app {
 
-/// Answers about pixel (x, y) of map number `map`; empty where there is no such pixel.
+/// Answers a question about pixel (x, y) of map number `map`; empty if there is no such pixel.
 using AnswerProbe = std::function<std::string(std::uint32_t map, std::uint32_t x, std::uint32_t y)>;
 
-/// A server for the browser of this machine's user. It listens at 127.0.0.1 alone, at a port that
-/// the system chooses, and knows two addresses, both below a random token of 128 bits:
+/// A server for the browser of this machine's user. It listens only at 127.0.0.1, at a port that
+/// the system chooses, and has two addresses, both below a random token of 128 bits:
 ///   GET /TOKEN/                          the page
 ///   GET /TOKEN/probe?map=M&x=X&y=Y       the answer, as text
-/// All else is "404 Not Found", without a word: another path or method, a wrong token, and a Host
-/// that is not this server's, as in a page of another site whose name was made to lead here (DNS
-/// rebinding). What is no HTTP gets another 4xx, likewise without a word. It reads no file.
+/// Any other request gets "404 Not Found" with an empty body: another path or method, a wrong
+/// token, and a Host that is not this server's, such as the name of another site that was made to
+/// lead here (DNS rebinding). Requests that are not HTTP get another 4xx, also with an empty body.
+/// It reads no file.
 class ProbeServer {
  public:
   /// Fails    OutputError where the system gives no port.
@@ -27,8 +28,8 @@ class ProbeServer {
 
   /// "http://127.0.0.1:PORT/TOKEN/"
   [[nodiscard]] const std::string& address() const { return address_; }
-  /// Answers until the program ends, which an interruption does (shell/last_resort.h). Probes wait
-  /// for each other.
+  /// Answers requests until an interruption ends the program (shell/last_resort.h). Probes are
+  /// answered one at a time.
   void run();
 
  private:

@@ -21,12 +21,14 @@ double largest(const Vector& a) {
   return a.cwiseAbs().maxCoeff();
 }
 
-/// What this file's own binary64 adds to a sum of a few terms of this size.
+/// Bound of the rounding error of this file's own binary64 arithmetic in a sum of a few terms,
+/// relative to their size.
 constexpr double own_rounding = 0x1p-48;
 
-/// An attribute's error by rounding is bounded as a number of unit roundoffs of what is added up:
-/// a matrix's rounded entries, its products and sums of four terms (row_roundings); products,
-/// differences and quotients of a slope, with its determinant (slope_roundings).
+/// The rounding error of an attribute is bounded by a number of unit roundoffs of the magnitudes
+/// that are added up: a matrix's rounded entries, its products and sums of four terms
+/// (row_roundings); products, differences and quotients of a slope, with its determinant
+/// (slope_roundings).
 constexpr double row_roundings = 6, slope_roundings = 8;
 /// A sum of two products and a value.
 constexpr double sum_roundings = 4;
@@ -117,7 +119,7 @@ ExpectedTriangle::ExpectedTriangle(const LitTriangle& t, const LitScene& scene,
                             std::numbers::sqrt3 * (largest(eye_error[k]) + 2 * u * largest(from)));
   }
   plane_error_ = 2 * corner_error * longest / face_length;
-  // Which side is seen, and the slopes, are not certain of what is this thin.
+  // The visible side and the slopes of such a thin triangle are not certain.
   const double reach =
       std::abs(b[0] - a[0]) + std::abs(b[1] - a[1]) + std::abs(c[0] - a[0]) + std::abs(c[1] - a[1]);
   seen_edge_on_ = !(std::abs(area) > 4 * moved_ * (reach + 4 * moved_)) || !(face_length > 0);
@@ -211,7 +213,7 @@ Interval ExpectedTriangle::inverse_depth(int x, int y) const {
     return outwards(0.5 / farthest, 2 / nearest);
   }
   const Camera& camera = scene_->camera;
-  // What window depths err by, and half a step of 24 bits, as an error of 1/depth.
+  // The error of window depths and half a step of 24 bits, as an error of 1/depth.
   const double z = window_z_.error + 0x1p-24;
   return widened(range(inverse_depth_, x, y),
                  z * (camera.far - camera.near) / (camera.far * camera.near));
@@ -284,12 +286,12 @@ Interval ExpectedTriangle::light(int x, int y, LightModel model) const {
   return clamped(sum / weight, 0, 1);
 }
 
-/// How far the unit normal that the differences of neighbouring positions give may be from the
-/// plane's, in each component; 2 if nothing is known.
+/// Bound of the difference between the plane's unit normal and the unit normal computed from
+/// differences of neighbouring positions, in each component; 2 if nothing is known.
 ///
-/// A position is P = f/q, of two values that are affine in the window. What errs in all pixels
-/// alike cancels in differences but for the change of 1/q; what a step adds, and each value's own
-/// rounding, stays.
+/// A position is P = f/q, a quotient of two values that are affine in the window. An error that is
+/// equal in all pixels cancels in differences, except for the change of 1/q. The error that each
+/// step adds, and each value's own rounding, remain.
 double ExpectedTriangle::derived_error(int x, int y) const {
   const int rows = static_cast<int>(scene_->camera.height);
   // The four pixels that are shaded together start at even columns and rows from the bottom.

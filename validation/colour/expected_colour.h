@@ -92,17 +92,18 @@ inline Range3 direction(const Range3& a) {
   return {clamped(a[0] / l, -1, 1), clamped(a[1] / l, -1, 1), clamped(a[2] / l, -1, 1)};
 }
 
-/// Which 8-bit colours a renderer may draw, by the formulas of the textbooks in interval
-/// arithmetic. Nothing here is taken from a renderer but how exact its steps are.
+/// The 8-bit colours that a renderer may draw, computed by the formulas of the textbooks in
+/// interval arithmetic. Only the precision of its steps is taken from the renderer.
 ///
 /// A renderer moves every corner in the window a little: to its subpixel grid, and by rounding the
-/// transform. The weights λ of a pixel's centre p in the moved triangle are those of a point p' in
-/// the true one with |p' − p| at most the greatest move in either axis, as p' − p is their mean
-/// with the weights λ. Attributes over w are affine in the window, so they differ from those at p
-/// by at most that distance times the sum of their slopes; if the renderer interpolates before it
-/// snaps, p' = p. To this come the roundings of the interpolation; see `rounding`.
+/// transform. The weights λ of a pixel's centre p in the moved triangle are the weights of a point
+/// p' in the true triangle. |p' − p| is at most the greatest move in either axis, because p' − p is
+/// the mean of the moves with the weights λ. Attributes over w are affine in the window, so they
+/// differ from the attributes at p by at most this distance times the sum of their slopes. If the
+/// renderer interpolates before it snaps, p' = p. The roundings of the interpolation are added; see
+/// `rounding`.
 
-/// What is lit how.
+/// Where light is computed, and with which normal.
 enum class LightModel {
   /// Each fragment, with the interpolated normal: our `phong`, VTK's Gouraud and Phong.
   interpolated_normal,
@@ -114,7 +115,7 @@ enum class LightModel {
   corners,
 };
 
-/// How exactly a renderer computes.
+/// The precision of a renderer's arithmetic.
 struct Precision {
   /// Unit roundoff of every operation.
   double rounding = 0x1p-24;
@@ -128,7 +129,7 @@ struct Precision {
 inline constexpr Precision binary64_pipeline{.rounding = 0x1p-53, .shader = false};
 inline constexpr Precision vtk_on_llvmpipe{};
 
-/// A triangle in the window, with everything that its fragments get.
+/// A triangle in the window, with all values of its fragments.
 class ExpectedTriangle {
  public:
   ExpectedTriangle(const LitTriangle& triangle, const LitScene& scene, const Precision& precision);
@@ -138,8 +139,8 @@ class ExpectedTriangle {
 
   enum class Coverage { none, possible, certain };
   [[nodiscard]] Coverage coverage(int x, int y) const;
-  /// 1/depth, enlarged so far that depths whose intervals do not overlap are told apart by the
-  /// renderer's depth buffer, of 24 bits or more.
+  /// 1/depth, enlarged so that the renderer's depth buffer, of 24 bits or more, distinguishes
+  /// depths whose intervals do not overlap.
   [[nodiscard]] Interval inverse_depth(int x, int y) const;
   /// The light on the fragment, from 0 to 1.
   [[nodiscard]] Interval light(int x, int y, LightModel model) const;
@@ -148,8 +149,8 @@ class ExpectedTriangle {
   /// An attribute over w: affine in the window.
   struct Affine {
     double value = 0, dx = 0, dy = 0;  ///< at the first corner; per pixel
-    /// Of the renderer: of a value anywhere in the triangle; of what a pixel's step adds, of all
-    /// values alike, of each value by itself (in roundings of its own).
+    /// Errors of the renderer: of a value anywhere in the triangle; of the step of a pixel, of the
+    /// common part of all values, and of each value by itself (in its own roundings).
     double error = 0, step_error = 0, offset_error = 0, own_error = 0;
     [[nodiscard]] double at(double x, double y) const { return value + dx * x + dy * y; }
   };
@@ -173,7 +174,7 @@ class ExpectedTriangle {
   bool seen_edge_on_ = false;
 };
 
-/// The codes to which a renderer may round a light: to nearest, after a product in binary32.
+/// The codes to which a renderer may round a light, to nearest, after a product in binary32.
 struct Codes {
   int least = 0, greatest = 255;
 };

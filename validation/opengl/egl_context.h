@@ -9,16 +9,16 @@ namespace fathom::validation {
 
 class VirtualDisplay;
 
-/// An OpenGL context without a window or a screen: drawing goes to framebuffer objects. It needs no
-/// display (EGL_MESA_platform_surfaceless) if the driver supports that, and starts an Xvfb of its
-/// own otherwise. Current on the thread that made it until it is destroyed.
+/// An OpenGL context without a window or a screen, for drawing into framebuffer objects. It needs
+/// no display if the driver supports EGL_MESA_platform_surfaceless, and otherwise starts its own
+/// Xvfb. It is current on the thread that made it until it is destroyed.
 ///
 /// Environment  Mesa's software renderer reads LP_NUM_THREADS when the context is made.
 ///              FATHOM_OPENGL_DISPLAY=xvfb forces an Xvfb. Another driver than the usual one
 ///              sets variables: demand().
 /// Needs        a process that has started no threads, for Xvfb and for another driver; and for
 ///              that also one in which no other context was made.
-/// Fails        InputError: one line that says which step failed and what to install.
+/// Fails        InputError: one line with the step that failed and the package to install.
 class EglContext {
  public:
   explicit EglContext(Driver driver = Driver::usual);
@@ -44,8 +44,8 @@ class EglContext {
   void* surface_ = nullptr;
 };
 
-/// Has OpenGL load `driver` on this machine, whatever it would load otherwise. The usual one:
-/// nothing is changed.
+/// Makes OpenGL load `driver` on this machine instead of its default. Changes nothing for the usual
+/// driver.
 ///
 /// Environment  of this process, from then on: what Mesa reads when a display is opened.
 /// Needs        a process that has not opened a display through EGL, and has no other threads.

@@ -14,7 +14,7 @@ using attribution::world_mesh;
 
 namespace {
 
-/// None where there is no OpenGL: the variants without samples say so.
+/// Empty without OpenGL; variants without samples report the reason.
 std::vector<int> offered_samples(Driver driver, int seconds) {
   try {
     return in_child([&] { return built_in_samples(driver); },
@@ -37,7 +37,7 @@ std::vector<Peer> vtk_peers(Driver driver, int seconds) {
       VtkVariant{.attachment = Storage::unorm24, .encoding = Encoding::logarithmic},
       VtkVariant{.attachment = Storage::float32, .encoding = Encoding::logarithmic}};
   std::vector<int> counts = offered_samples(driver, seconds);
-  const int usual = 8;  // VTK's default, whatever is granted of it
+  const int usual = 8;  // VTK's default; the driver may grant fewer
   if (std::find(counts.begin(), counts.end(), usual) == counts.end()) counts.push_back(usual);
   for (const int count : counts) peers.emplace_back(VtkVariant{.samples = count});
   peers.emplace_back(VtkVariant{.mesh = VtkVariant::Mesh::peeled});
@@ -92,7 +92,7 @@ DrawnMap draw(const Peer& peer, const ValidationScene& scene) {
 }
 
 Drawing draw_in_child(const Peer& peer, const std::function<ValidationScene()>& make, int seconds) {
-  // What the scene is to blame for is told apart from what the renderer is.
+  // Keeps faults of the scene apart from faults of the renderer.
   const auto drawing = [&]() -> Drawing {
     const ValidationScene scene = make();
     try {

@@ -12,14 +12,14 @@
 /// How an engine's answers to rays differ from the truth.
 namespace fathom::validation {
 
-/// - right: the triangle that the specification says, or no hit where there is none
-/// - tie: another answer that is right too: the ray touches an edge or a corner, and the answer is
-///   the hit of a ray beside it, or another triangle that it touches at the same place
-/// - lost: no hit where there is one
-/// - invented: a hit where there is none
-/// - behind: a triangle behind the nearest, which the ray has gone through
-/// - beside: a triangle that the ray does not touch, as the neighbour across an edge, where it
-///   meets another
+/// - right: the triangle of the specification, or correctly no hit
+/// - tie: another correct answer: the ray touches an edge or a corner, and the answer is the hit of
+///   a neighbouring ray, or another triangle that the ray touches at the same place
+/// - lost: no hit, although the ray meets a triangle
+/// - invented: a hit, although the ray meets no triangle
+/// - behind: a triangle behind the nearest triangle, through which the ray has passed
+/// - beside: a triangle that the ray does not touch, such as the neighbour across an edge, although
+///   it meets another one
 enum class RayVerdict { right, tie, lost, invented, behind, beside };
 inline constexpr std::size_t verdict_count = 6;
 
@@ -32,8 +32,9 @@ struct JudgedRays {
   std::vector<RayHit> truth;
   std::vector<RayVerdict> verdicts;
   std::array<std::size_t, verdict_count> counts{};
-  /// Rays that touch no edge or corner, of which the engine counts too few or too many hits. Rays
-  /// with edges or corners are not judged: engines count these as they like.
+  /// Numbers of rays that touch no edge or corner and for which the engine counts too few or too
+  /// many hits. Rays that touch edges or corners are not judged, because engines may count these
+  /// hits in any way.
   std::size_t counts_too_low = 0, counts_too_high = 0, counts_judged = 0;
   /// The greatest error of t, among right answers, in steps of binary32 at the true t.
   double greatest_error_of_t = 0;

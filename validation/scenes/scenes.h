@@ -7,7 +7,7 @@
 #include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
 
-/// What is timed: a scene and the camera that looks at it.
+/// Scenes for timing, each with a camera.
 ///
 ///   sphere-20k, sphere-200k, sphere-2m
 ///                  a whole sphere, which covers 41.5 % of the pixels of a 16:9 image (861 thousand
@@ -20,8 +20,8 @@
 ///                  through pixel centres
 ///   grid-shifted   grid-aligned, shifted by (0.1234567, 0.7654321) pixel
 ///   room           a closed room of 120 thousand triangles, seen from inside
-///   room-outside   that room, seen from outside
-///   scan           a bumpy boulder of 980 thousand triangles as a scanner leaves it: of uneven
+///   room-outside the same room, seen from outside scan a bumpy boulder of 980 thousand triangles
+///   as a scanner leaves it: of uneven
 ///                  sizes, about a pixel, with noise and holes
 ///   city           309 thousand triangles of 400 houses, seen from the middle of a street: long
 ///                  and thin, from behind the camera to the horizon, most of them hidden
@@ -40,15 +40,15 @@ struct BenchScene {
   Camera camera;
 };
 
-/// The names that are timed where none are given: those above except room-outside, which is there
-/// for comparison with room.
+/// The scenes that are timed by default: all above except room-outside, which exists for comparison
+/// with room.
 std::vector<std::string> default_scene_names();
 
-/// Whether the scene of this name is made here rather than read from a file.
+/// Whether the scene of this name is generated rather than read from a file.
 bool is_made_scene(const std::string& name);
 
 /// Makes or reads a scene for an image of width × height pixels.
-/// Fails    InputError if the name is none of the above and not that of a file that can be read.
+/// Fails    InputError if the name is not in the list above and not a readable file.
 BenchScene make_scene(const std::string& name, std::uint32_t width, std::uint32_t height);
 
 }  // namespace fathom::bench

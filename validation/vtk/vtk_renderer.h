@@ -46,12 +46,12 @@ struct GlFunctions;
 struct VtkOptions {
   /// The type of the depth attachment; VTK's own choice if not given.
   std::optional<Storage> depth;
-  /// Samples per pixel that VTK is asked for; 0: no multisampling.
+  /// Requested samples per pixel; 0: no multisampling.
   int samples = 0;
   /// Near and far at 1 and 0, the greater depth wins: glClipControl, which VTK does not use.
   bool reversed = false;
-  /// VTK's fragment shader writes this depth in place of the interpolated one; with a reversed one,
-  /// the depth test also lets the greater win.
+  /// VTK's fragment shader writes this depth instead of the interpolated one. If it is reversed,
+  /// the depth test also lets the greater depth win.
   std::optional<attribution::WrittenDepth> written;
   VtkVariant::Mesh mesh = VtkVariant::Mesh::opaque;
   Driver driver = Driver::usual;
@@ -60,19 +60,19 @@ struct VtkOptions {
   bool numbers = false;
 };
 
-/// What a frame was drawn with, and its depths.
+/// The depths of a frame, and the settings with which it was drawn.
 struct VtkDrawing {
   /// Window depths exactly as stored, width × height, rows from the top; 1 (reversed: 0) where
   /// nothing was drawn.
   std::vector<double> windows;
-  /// Numbers of the visible triangles, no_surface where nothing was drawn; empty where they are not
-  /// drawn.
+  /// Numbers of the visible triangles, no_surface where nothing was drawn; empty if numbers were
+  /// not drawn.
   std::vector<std::uint32_t> triangles;
   Storage storage = Storage::unorm24;
   /// Which of equal depths won, by OpenGL's depth test.
   std::optional<EqualDepths> equal_depths;
   int subpixel_bits = 8, samples = 0;
-  /// Where in the pixel the sample lies, in pixels from its top left corner; of several, the first.
+  /// Position of the (first) sample within the pixel, in pixels from its top left corner.
   std::array<double, 2> sample{0.5, 0.5};
   /// Positions are held as (position − shift)·scale, in the world; the matrix, row by row, takes
   /// them to clip coordinates.
@@ -86,8 +86,8 @@ struct VtkDrawing {
 /// the triangle.
 ///
 /// Does not  read the mesh after construction.
-/// Threads   all calls from the thread that made it. Mesa's software renderer uses as many threads
-///           as LP_NUM_THREADS says at construction.
+/// Threads   all calls from the thread that made it. The number of threads of Mesa's software
+///           renderer is LP_NUM_THREADS at construction.
 /// Fails     InputError if there is no OpenGL (see EglContext).
 class VtkRenderer {
  public:
@@ -105,8 +105,8 @@ class VtkRenderer {
   /// was drawn.
   [[nodiscard]] std::vector<float> window_depths();
 
-  /// The last frame; with several samples, what OpenGL resolves them to; of a peeled mesh, the
-  /// nearest layer.
+  /// The last frame: with several samples, the values to which OpenGL resolves them; of a peeled
+  /// mesh, the nearest layer.
   /// Fails    InputError if VTK did not peel.
   [[nodiscard]] VtkDrawing drawing();
 

@@ -13,24 +13,25 @@ class MaskedOcclusionCulling;
 
 namespace fathom::bench {
 
-/// How Masked Occlusion Culling is asked to draw.
+/// How Masked Occlusion Culling draws.
 struct MaskedWay {
-  /// Vectors of 512 bits rather than 256, where the processor has them.
+  /// Vectors of 512 bits instead of 256, if the processor has them.
   bool widest = true;
-  /// It transforms each vertex once, to memory, and then draws; or each corner of each triangle
-  /// while it draws.
+  /// Whether it transforms each vertex once, to memory, before it draws, or each corner of each
+  /// triangle while it draws.
   bool vertices_first = true;
 };
 
-/// What is drawn by Masked Occlusion Culling [HAA16]: per block of 8×4 pixels two depths and a mask
-/// that says which pixel has which; each depth is no nearer than what is seen there, as far as
-/// binary32 and corners on a grid of 1/256 pixel allow, and often farther.
+/// The depth buffer of Masked Occlusion Culling [HAA16]. For each block of 8×4 pixels it has two
+/// depths and a mask that assigns one of them to each pixel. A depth is not nearer than the visible
+/// surface, except for the roundings of binary32 and of corners on a grid of 1/256 pixel, and is
+/// often farther.
 ///
-/// It is given the vertices in the world, in binary32, and the matrix from there to clip space;
-/// both sides of triangles are drawn; it clips at the near plane of attribution::clip_range(), as
-/// VTK does, and knows no far plane. One thread.
+/// Its input is the vertices in the world, in binary32, and the matrix from world to clip space. It
+/// draws both sides of triangles. It clips at the near plane of attribution::clip_range(), as VTK
+/// does, and has no far plane. It uses one thread.
 ///
-/// Needs    a perspective camera; it has no other depth than 1/w.
+/// Needs    a perspective camera, because its only depth is 1/w.
 class MaskedBuffer {
  public:
   MaskedBuffer(const attribution::WorldMesh& mesh, const Camera& camera, const MaskedWay& way);
@@ -38,8 +39,8 @@ class MaskedBuffer {
   void clear();
   /// All triangles, in the order of the mesh.
   void draw();
-  /// The planar depth of each pixel, row by row from the top, as its buffer has it; +∞ where it
-  /// shows no surface.
+  /// The planar depth of each pixel in its buffer, row by row from the top; +∞ where it shows no
+  /// surface.
   [[nodiscard]] std::vector<float> depths() const;
   /// "Masked Occlusion Culling, AVX-512, vertices first".
   [[nodiscard]] std::string description() const;

@@ -16,7 +16,7 @@
 
 namespace fathom::bench {
 
-/// Something counted while drawing, which says why a variant takes its time.
+/// A count of events while drawing, which explains the time of a variant.
 struct Count {
   std::string name;
   double value = 0;
@@ -26,16 +26,17 @@ using Counts = std::vector<Count>;
 /// One way of drawing a scene.
 struct Variant {
   std::string name;
-  /// The variant that its time is compared with, by its place in the idea: its own for a plain one.
+  /// The variant with which its time is compared, as a place in the idea. A plain variant is
+  /// compared with itself.
   std::size_t plain = 0;
   /// Not timed; comes before draw().
   std::function<void()> prepare = [] {};
   std::function<void()> draw;
-  /// What was drawn last, and what was counted; and what has to be drawn.
+  /// The last picture, its counts, and the expected picture.
   std::function<Picture()> picture;
   std::function<Counts()> counts = [] { return Counts(); };
   std::shared_ptr<const Picture> expected;
-  /// Whether pixels that differ are counted instead of refused: of arithmetic that is not exact.
+  /// Whether different pixels are counted instead of refused, for arithmetic that is not exact.
   bool may_differ = false;
 };
 
@@ -44,7 +45,7 @@ struct Idea {
   /// "lanes of binary32"
   std::string name;
   std::vector<Variant> variants;
-  /// What a reader of the table has to know; a sentence or none.
+  /// A sentence that a reader of the table needs; may be empty.
   std::string note;
 };
 
@@ -52,8 +53,8 @@ struct VariantTimes {
   std::string name, plain;
   /// In increasing order; not empty.
   std::vector<double> milliseconds;
-  /// How many times as fast as the plain variant, by the least time of each: others that use the
-  /// machine can only add to a time, and more to a long one.
+  /// How many times as fast as the plain variant, by the least time of each: other processes on the
+  /// machine can only add to a time, and add more to a long one.
   double speed_up = 1;
   Counts counts;
 
@@ -65,21 +66,20 @@ struct IdeaTimes {
   std::vector<VariantTimes> variants;
 };
 
-/// A variant drew something else than it has to: its time would mean nothing.
+/// A variant drew another picture than expected, so its time would mean nothing.
 class WrongPicture : public std::logic_error {
  public:
   using std::logic_error::logic_error;
 };
 
-/// Draws with every variant once, untimed, and compares the pictures; then times all of them in
-/// turn, `repeat` times, so that what else the machine does falls on all. A time is the least of
-/// the draws of 30 milliseconds, or that of a single one that takes longer. Starts no round after
-/// 20 seconds.
+/// Draws with every variant once, untimed, and compares the pictures. Then times all variants in
+/// turn, `repeat` times, so that other load on the machine affects all of them. A time is the least
+/// time of the draws within 30 milliseconds, or the time of a single longer draw. Starts no round
+/// after 20 seconds.
 /// Fails    WrongPicture: the variant, and how many pixels differ.
 IdeaTimes time_idea(const Idea& idea, int repeat);
 
-// The ideas, one file each. What they draw is kept by their variants; the scene has to outlive
-// them.
+// The ideas. Variants keep what they draw; the scene must outlive them.
 
 /// A scene to draw, as it is and as it reaches scan conversion.
 struct PartsScene {
@@ -98,11 +98,11 @@ std::vector<Idea> blocks(const PartsScene& scene);
 /// The depth test before shading, and the fast engine's rejection of blocks, by the order in which
 /// triangles are drawn.
 std::vector<Idea> early_rejection(const PartsScene& scene);
-/// Tiles with a z-buffer of their own, of several sizes, beside the whole image.
+/// Tiles of several sizes, each with its own z-buffer, compared with the whole image.
 std::vector<Idea> tiles(const PartsScene& scene);
 /// One thread and more.
 std::vector<Idea> threads(const PartsScene& scene, const std::vector<int>& counts);
-/// Back faces left out; no idea where that changes the picture, as it does if a mesh is not closed.
+/// Back faces left out. Empty if that changes the picture, as it does if a mesh is not closed.
 std::vector<Idea> culling(const PartsScene& scene);
 
 /// "lanes", "blocks", "early-rejection", "tiles", "threads", "culling".

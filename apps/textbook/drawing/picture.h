@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-/// Pictures of steps as SVG, readable in light and in dark. What is drawn comes from the JSON of
-/// the answer, so the numbers of a picture are those of --trace.
+/// Pictures of steps as SVG, readable on light and on dark pages. They are drawn from the JSON of
+/// the answer, so a picture has the same numbers as --trace.
 namespace fathom::app::drawing {
 
 using Json = nlohmann::ordered_json;
@@ -20,18 +20,18 @@ struct Box {
   double left = 0, top = 0, right = 0, bottom = 0;
 };
 
-/// A number of an answer as a number: of "p/q", the nearest binary64.
+/// A number of an answer in binary64: for "p/q", the nearest one.
 double number_of(const Json& number);
 
-/// A number of an answer as a picture shows it: as it stands if it is short, else to 5 significant
+/// A number of an answer as a picture shows it: unchanged if it is short, else to 5 significant
 /// digits.
 std::string shown(const Json& number);
 
-/// About how wide a text is: labels leave so much room.
+/// The approximate width of a text; labels reserve this width.
 double width_of(std::string_view text, double size = 13);
 
 /// A drawing of one case. The kinds are classes of the style sheet in picture.cpp: "ink", "thin",
-/// "soft", "fill", "a", "b", "c", …; what is drawn later is on top.
+/// "soft", "fill", "a", "b", "c", …. Later drawings cover earlier ones.
 class Picture {
  public:
   void line(Place a, Place b, std::string_view kind, bool dashed = false);
@@ -45,17 +45,17 @@ class Picture {
   /// `anchor`: start, middle or end; the text's base line goes through `at`.
   void text(Place at, std::string_view words, std::string_view kind = "text",
             std::string_view anchor = "start");
-  /// A number of the answer: its text is shown(), its attribute data-value the number as it stands
-  /// in the JSON, its attribute data-of the key that it is the value of.
+  /// A number of the answer. Its text is shown(), its attribute data-value the number as in the
+  /// JSON, and its attribute data-of the key of the value.
   void value(Place at, const Json& number, std::string_view of, std::string_view kind = "number",
              std::string_view anchor = "start");
   /// Numbers one after the other, from `at` to the right: "1, 2, 3". Returns where they end.
   Place values(Place at, const Json& numbers, std::string_view of);
 
-  /// A short text beside a point, where no other label is yet; farther away with a line to the
-  /// point. `bounds` is where it may stand.
+  /// A short text next to a point, where no label is yet. If it is farther away, a line leads to
+  /// the point. It stays within `bounds`.
   void label(Place point, std::string_view words, const Box& bounds);
-  /// Keeps labels off a place that holds something else.
+  /// Keeps labels out of this box.
   void keep_clear(const Box& box) { taken_.push_back(box); }
 
   [[nodiscard]] double width() const { return width_; }
@@ -76,7 +76,7 @@ std::string document(const std::string& title, const std::vector<Picture>& pictu
 /// A part of the page that shows a part of a plane, at one scale in both directions.
 class View {
  public:
-  /// Shows at least `points` and what is about them within a square of `size` at `corner`; y grows
+  /// Shows at least `points` and their surroundings within a square of `size` at `corner`; y grows
   /// up as in mathematics, or down as in the window.
   View(const std::vector<Place>& points, Place corner, double width, double height, bool y_down);
 

@@ -31,7 +31,7 @@ void put_outline(Picture& picture, const std::vector<Place>& corners) {
 
 constexpr double window_size = 520, inset_size = 260;
 
-/// The smallest box about some places, of which there is one at least.
+/// The smallest box around these places, of which there is at least one.
 Box box_about(const std::vector<Place>& places) {
   Box box{places[0].x, places[0].y, places[0].x, places[0].y};
   for (const Place& p : places)
@@ -50,8 +50,8 @@ Box common_part(const Box& a, const Box& b) {
           std::min(a.bottom, b.bottom)};
 }
 
-/// What the large panel shows: the whole window, or the surroundings of a primitive that would be
-/// small in it.
+/// The part of the window in the large panel: the whole window, or the surroundings of a primitive
+/// that would be small in it.
 Box shown_part(const std::vector<Place>& corners, const Box& window) {
   if (corners.empty()) return window;
   constexpr double least_across = 4;
@@ -71,7 +71,7 @@ Box visible_part(const View& view, const Box& window) {
                      {view.least().x, view.least().y, view.greatest().x, view.greatest().y});
 }
 
-/// Lines between pixels and the pixels' numbers, where pixels are large enough to be told apart.
+/// Lines between pixels, and the pixels' numbers, if pixels are large enough.
 void put_pixel_grid(Picture& picture, const View& view, const Box& part) {
   constexpr double least_cell = 6, least_gap = 44;
   if (view.scale() < least_cell) return;
@@ -117,7 +117,7 @@ void put_inset(Picture& picture, const Json& trace, const Box& window, const Box
   picture.rect(frame, "a");
 }
 
-/// What clipping has left, in the image.
+/// The clipped primitive in the image.
 Picture draw_window(const Json& trace, double width, double height) {
   Picture picture;
   picture.text(
@@ -205,7 +205,7 @@ std::string name_of_primitive(const Json& primitive) {
   return primitive.is_null() ? "background" : "primitive " + primitive.dump();
 }
 
-/// What was in the pixel, the test, the blend, what is written: fragment by fragment.
+/// For each fragment: the pixel before it, the test, the blend, the pixel after it.
 Picture draw_merger(const Json& trace) {
   Picture picture;
   const Json& merger = trace["output_merger"];
@@ -256,7 +256,7 @@ std::string words_of(const Json& step) {
   return fmt::format("{} before {}:", step["P"].dump(), step["Q"].dump());
 }
 
-/// The painter's list step by step: painted polygons are filled, those of the step are outlined.
+/// The painter's list step by step: painted polygons are filled, polygons of the step are outlined.
 Picture draw_painter(const Json& painter) {
   Picture picture;
   const Json &polygons = painter["polygons"], &steps = painter["steps"];

@@ -27,7 +27,7 @@ using pipeline::attribute::depth;
 
 constexpr std::size_t unlimited = std::size_t{1} << 20;
 
-/// All that a record may hold, whatever the stage: it goes on to the next one.
+/// Accepts the keys of all stages, because the answer of a stage is the record of the next stage.
 void expect_known_keys(const Json& record) {
   cases::expect_only(
       record,
@@ -89,7 +89,7 @@ std::optional<pipeline::WindowRectangle> rectangle(const Json& record, const std
   return pipeline::WindowRectangle{at(0), at(1), at(2), at(3)};
 }
 
-/// What a word of the record names, by a function that fails with a UsageError.
+/// The value of a word of the record, read by `parse`, which fails with UsageError.
 template <class Parse>
 auto named(const Json& record, const std::string& key, const std::string& otherwise,
            const Parse& parse) {
@@ -147,7 +147,7 @@ PipelineOptions options_of(const Json& record, pipeline::Precision precision) {
   return options;
 }
 
-/// A list for each corner, of the same number of corners as `corners`.
+/// A member with a list for each corner; it must have as many lists as there are corners.
 std::vector<std::vector<double>> beside(const Json& record, const std::string& key,
                                         std::size_t corners, std::size_t each) {
   auto values = cases::points(record, key, each, each);
@@ -183,7 +183,7 @@ std::vector<std::vector<Real>> attributes_of(const Json& record, std::size_t cor
   return result;
 }
 
-/// The attributes back into the record, where it has them.
+/// Writes the attributes back into the record, if it has attributes.
 template <class Corners>
 void put_attributes(Json& record, const Corners& corners) {
   if (record.contains("depths")) {
@@ -425,7 +425,7 @@ void put_fragments(Json& list, const pipeline::WindowTriangle<Real>& part,
   }
 }
 
-/// The fragments of a line or a point: those that reach an empty frame buffer.
+/// The fragments of a line or a point that reach an empty frame buffer.
 template <class Real>
 void put_fragments(Json& list, const std::vector<pipeline::WindowVertex<Real>>& corners,
                    const PipelineOptions& options, const Camera& image,
@@ -501,7 +501,7 @@ pipeline::DrawRules rules_of(const Json& record) {
   return rules;
 }
 
-/// What the frame buffer holds before: the background, and the pixels of "buffer".
+/// The initial frame buffer: the background, and the pixels of "buffer".
 pipeline::FrameBuffer buffer_of(const Json& record, const PipelineOptions& options,
                                 const Camera& image) {
   const pipeline::DepthTest test(options);
@@ -565,7 +565,7 @@ Json output_merger(Json record, pipeline::Precision precision) {
   return record;
 }
 
-/// A stage over each precision.
+/// A stage, for each precision.
 using Stage = Json (*)(Json, pipeline::Precision);
 struct NamedStage {
   StageDescription description;

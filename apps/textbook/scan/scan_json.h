@@ -4,39 +4,39 @@
 #include "fathom/clipping/points.h"
 #include "fathom/pipeline/scan/area_fill.h"
 
-/// Reading the cases of `fathom scan`, and writing the pixels of the answers.
-/// Fails    InputError in words that name the place.
+/// Reads the cases of `fathom scan`, and writes the pixels of the answers.
+/// Fails    InputError, naming the place.
 namespace fathom::app::scan {
 
-/// "width" and "height", both or none: without them every pixel is asked for.
+/// "width" and "height", both or neither: without them the window contains every pixel.
 pipeline::PixelWindow window_of(const Json& object);
 
 /// Refuses coordinates beyond ±2³¹; `where` names them.
 double checked_coordinate(double x, const std::string& where);
 
-/// The corners that close their rings: the last one of a ring where it repeats the first. Corners
-/// are numbered as they are written, ring after ring.
+/// A last corner of a ring that repeats the first corner and so closes the ring. Corners are
+/// numbered as they are written, ring after ring.
 struct ClosingCorner {
   std::size_t corner, first;
 };
 
-/// The rings of "polygon", each of three corners or more, without the corners that close them;
-/// these are appended to `closing`.
+/// The rings of "polygon", each with at least three corners, without the corners that close them.
+/// Closing corners are appended to `closing`.
 clipping::Rings<double> polygon_of(const Json& object,
                                    std::vector<ClosingCorner>* closing = nullptr);
 
-/// The corners of "triangle", snapped where --subpixel-bits says so.
+/// The corners of "triangle", snapped if --subpixel-bits is given.
 clipping::Ring<double> triangle_of(const Json& object, const Form& form);
 
-/// What is carried along at corners: "attributes" and "w".
+/// The values at corners: "attributes" and "w".
 struct CarriedAlong {
   std::vector<std::vector<double>> attributes;  ///< a list for each corner
   std::vector<double> w;                        ///< one for each corner, or none
 
   [[nodiscard]] bool any() const { return !attributes.empty() && !attributes[0].empty(); }
 };
-/// `corners` are without the closing ones, which have entries too: those of the first corner of the
-/// ring, which are dropped.
+/// `corners` does not count closing corners. These have entries too, equal to the entries of the
+/// first corner of their ring, which are dropped.
 CarriedAlong carried_along(const Json& object, std::size_t corners,
                            const std::vector<ClosingCorner>& closing = {});
 
@@ -64,15 +64,15 @@ std::vector<Number> recovered(const CarriedAlong& carried, std::vector<Number> v
   return values;
 }
 
-/// The pixels of an answer, and the values at them where there are any.
+/// The pixels of an answer, and the values at them, if any.
 class PixelList {
  public:
   explicit PixelList(bool runs) : runs_(runs) {}
 
   void add(const pipeline::Pixel& pixel);
   void add(const pipeline::Span& span);
-  /// Counts `entries` more things, of the values or the trace, that the answer is about to hold.
-  /// Fails    InputError where it holds too many: an answer stays in memory.
+  /// Counts `entries` more entries that the answer is about to get, of values or the trace.
+  /// Fails    InputError if there are too many, because an answer stays in memory.
   void make_room(std::int64_t entries);
   void add_values(Json values) { values_.push_back(std::move(values)); }
   /// {"pixels"} or {"runs"}, and {"values"}.

@@ -21,7 +21,7 @@ enum class Verdict {
 /// "worse", "new", "not comparable", …, as pages show it.
 std::string name_of(Verdict verdict);
 
-/// A result in both runs. Of `before` and `after` the one that there is not has nothing but names.
+/// A result in both runs. If a run lacks the result, its `before` or `after` has only names.
 struct ResultChange {
   ReportedResult before, after;
   Verdict verdict = Verdict::same;
@@ -37,19 +37,19 @@ struct Comparison {
   std::vector<ResultChange> changes;
 
   [[nodiscard]] std::size_t count(Verdict verdict) const;
-  /// Why the run is worse, in one line: its first clause. Empty where it is not.
+  /// Why the run is worse, in one line: its first clause. Empty if it is not worse.
   [[nodiscard]] std::string regression() const;
-  /// Why results are not compared though there is a baseline, in one clause: one of them is
-  /// incomparable, or the baseline has none of them. A gate would let all through there. Empty
-  /// where all is well.
+  /// Why results are not compared with the baseline, in one clause: a result is incomparable, or
+  /// the baseline contains no result of this run. A gate that only looks for regressions would then
+  /// let everything pass. Empty if all results are compared.
   [[nodiscard]] std::string obstacle() const;
 };
 
-/// Results are paired by scene, renderer and variant. Findings are the same where their kind is.
+/// Results are paired by scene, renderer and variant. Findings are the same if their kinds are.
 Comparison compare(const Report& before, const Report& after);
 
-/// Lines for the terminal: what is worse, better, new, gone, not comparable, each named; the last
-/// counts them. Results that are as they were are only counted.
+/// Lines for the terminal. They name the results that are worse, better, new, gone or not
+/// comparable; the last line counts them. Unchanged results are only counted.
 std::string lines_of(const Comparison& comparison);
 
 }  // namespace fathom::validation

@@ -31,44 +31,45 @@ std::string xml_text(std::string_view text);
 /// An element in a line of its own, those within it below it, indented.
 std::string to_xml(const XmlElement& element, int depth = 0);
 
-/// The forms in which `fathom validate` writes its results; each is a source of its own.
+/// The forms in which `fathom validate` writes its results.
 
 /// report.json, explained in docs/validation.md: {"fathom": version, "format": report_format,
 /// "verdict": verdict_of(cases), "results": [ … ]}, one result for each case. Ends with a newline.
 std::string to_json(const std::vector<ValidationCase>& cases);
 
-/// report.html: a page that needs no other file. It holds report.json and, compressed, every map:
-/// depths of the truth and of the others, classes, triangle numbers.
+/// report.html: a page that needs no other file. It contains report.json and every map, compressed:
+/// exact depths, the renderers' depths, classes, triangle numbers.
 std::string to_html(const std::vector<ValidationCase>& cases);
 
 /// comparison.html: a page that needs no other file, with what changed between two runs, and links
 /// report.html beside it.
 std::string to_html(const Comparison& comparison);
 
-/// A JUnit XML file, as CI services read it: a test suite for each scene, a test case for each
-/// renderer and variant with the pixels of each class as properties, and its time where that was
-/// measured. A `failure` is what is unexplained or found (message: verdict_of()) or, with a
-/// comparison, worse; an `error` is what was not drawn or cannot be compared.
+/// A JUnit XML file for CI services: a test suite for each scene, and a test case for each renderer
+/// and variant, with the number of pixels of each class as properties and with its time if it was
+/// measured. Unexplained pixels and findings are a `failure` (message: verdict_of()), and so is a
+/// result that got worse than in the comparison. A map that was not drawn, or a result that cannot
+/// be compared, is an `error`.
 /// Needs    the comparison, if there is one, to be of the same cases.
 std::string to_junit(const std::vector<ValidationCase>& cases, const Comparison* comparison);
 
-/// Pictures of a result, where they lie.
+/// The files with the pictures of a result.
 struct PictureFiles {
   std::filesystem::path classes, differences;
 };
 
-/// What CTest reads from the output of a test and passes on to CDash: the cause of its failure, if
-/// there is one, as its details; the pixels of each class, the bound and the greatest error as
-/// measurements; the pictures as files.
+/// Lines that CTest reads from the output of a test and passes on to CDash: the cause of a failure
+/// as details; the pixels of each class, the bound and the greatest error as measurements; the
+/// pictures as files.
 /// Needs    a map.
 /// Source   ctest(1), "Additional Test Measurements".
 std::string to_ctest_lines(const ValidationCase& validated, const std::string& cause,
                            const PictureFiles& pictures);
 
-// The pictures of report.html as files, with legends. Small maps are enlarged by a whole factor,
-// of very large ones every k-th pixel is shown.
+// The pictures of report.html as files, with legends. Small maps are enlarged by a whole factor.
+// Pictures of very large maps show every k-th pixel.
 
-/// What the pictures are called in the folder of a report.
+/// The names of the pictures in the folder of a report.
 inline constexpr const char *class_picture_name = "classes.png",
                             *difference_picture_name = "differences.png";
 

@@ -20,13 +20,13 @@ struct ValidationCase {
   std::string scene;
   /// vtk, opengl, blender, embree or map; and its variant or model: "unorm24", "robust", …
   std::string renderer, variant;
-  /// Its version and what it runs on; empty of a map that someone brings.
+  /// The renderer's version and the driver or machine it runs on; empty for a map from a file.
   std::string version;
-  /// Where a map that someone brings was read from.
+  /// The file of the map, if it was read from a file.
   std::string file;
-  /// Why there is no map, in one line; empty where there is one.
+  /// Reason for a missing map, in one line; empty if the map exists.
   std::string failure;
-  /// What drawing and judging took, by the clock; none where it was not measured.
+  /// Wall-clock time of drawing and judging; nullopt if it was not measured.
   std::optional<double> seconds;
   attribution::RendererModel model;
   std::shared_ptr<const attribution::Truth> truth;
@@ -35,11 +35,10 @@ struct ValidationCase {
   /// See predicted_fights() in validation_case.h.
   std::optional<std::uint64_t> predicted_fights;
 
-  /// Whether it is known which triangle each pixel shows: where it is not, z-fighting shows only
-  /// where depths reveal it.
+  /// Whether the triangle of each pixel is known. If not, only depths can reveal z-fighting.
   [[nodiscard]] bool has_triangle_numbers() const { return !other.triangles.empty(); }
   [[nodiscard]] bool is_done() const { return failure.empty(); }
-  /// Nothing is unexplained and nothing was found to be wrong.
+  /// No pixel is unexplained and there is no finding.
   [[nodiscard]] bool is_good() const {
     return is_done() && attribution.count(attribution::PixelClass::unexplained) == 0 &&
            attribution.findings.empty();
@@ -53,14 +52,15 @@ inline void set_judgement(ValidationCase& made, attribution::Judgement judgement
   made.attribution = std::move(judgement.attribution);
 }
 
-/// Why a result is not good, in one line: why there is no map, else the first finding, else how
-/// many pixels are unexplained and the one to look at first. Empty where the result is good.
+/// Why a result is not good, in one line: the reason for a missing map, else the first finding,
+/// else the number of unexplained pixels and the first pixel to look at. Empty if the result is
+/// good.
 std::string cause_of(const ValidationCase& validated);
 
-/// What is to be said first of a result: as attribution::verdict_text(), or why there is no map.
+/// The headline of a result: attribution::verdict_text(), or the reason for a missing map.
 std::string verdict_of(const ValidationCase& validated);
 
-/// The same of several: how many failed, and the first of them.
+/// The headline of several results: how many failed, and the first of them.
 std::string verdict_of(const std::vector<ValidationCase>& cases);
 
 /// As attribution::pixel_text().

@@ -32,7 +32,7 @@ RenderOptions options_of(const std::string& cull, int threads) {
 
 namespace {
 
-/// Options as Python's code has them, with names that it has checked.
+/// Options from the arguments of Python, which has checked the names.
 RenderOptions make_options(const std::vector<std::string>& channels, const std::string& cull,
                            const std::string& type, double scale, const std::string& engine,
                            int threads, const std::string& normals) {
@@ -55,22 +55,22 @@ RenderOptions make_options(const std::vector<std::string>& channels, const std::
   return options;
 }
 
-/// The type of NumPy's that a channel has; "" where it is the one that is asked for.
+/// NumPy's type for a channel; "" if it is the requested type.
 std::string numpy_type_of(ChannelType type) {
   if (type == ChannelType::identifier) return "uint32";
   return type == ChannelType::binary32 ? std::string(name_of(StoredType::binary32)) : "";
 }
 
-/// Where the values of one channel of all maps go: an array of Python's, of the channel's type,
-/// with the number of the camera first, if there are several, and its parts last, if it has
-/// several.
+/// The destination of one channel of all maps: a Python array of the channel's type. The first
+/// index is the number of the camera, if there are several, and the last index is the part, if the
+/// channel has several.
 struct Target {
   Target(const Channel channel, py::array& array)
       : names(part_names(channel)),
         data(static_cast<std::byte*>(array.mutable_data())),
         bytes_of_value(static_cast<std::size_t>(array.itemsize())) {}
 
-  /// Where the values of a map begin. For a channel of one part they are written there at once.
+  /// The place where the values of a map begin. A channel with one part is written there directly.
   [[nodiscard]] std::byte* of_map(std::size_t number, std::size_t pixels) const {
     return data + number * pixels * names.size() * bytes_of_value;
   }
@@ -80,7 +80,8 @@ struct Target {
   std::size_t bytes_of_value;
 };
 
-/// Channels of several parts, which maps have apart and arrays have together. They are binary32.
+/// Interleaves the parts of a channel, which are separate in maps and together in arrays. They are
+/// binary32.
 void interleave(const Target& target, const DepthMap& map, std::size_t number) {
   const std::size_t parts = target.names.size();
   const std::size_t width = map.width;
@@ -94,7 +95,7 @@ void interleave(const Target& target, const DepthMap& map, std::size_t number) {
   });
 }
 
-/// A map without its channels, and what is probably not meant in its view.
+/// A map without its channels, and warnings about its view.
 struct Described {
   DepthMap map;
   std::vector<ViewWarning> warnings;
@@ -120,8 +121,8 @@ Described render_into(const Scene& scene, const Camera& camera, const RenderOpti
           view_warnings(scene, camera, rendered.statistics.pixels_with_surface)};
 }
 
-/// Whether each thread had better render maps of its own than all of them a map together: so they
-/// need not wait for each other, but each has its own vertices of the whole scene in the image.
+/// Whether each thread should render its own maps, instead of all threads sharing a map. Threads
+/// then do not wait for each other, but each has its own projected vertices of the whole scene.
 bool one_thread_each(const Scene& scene, std::size_t cameras, int threads) {
   constexpr std::size_t most_triangles = 1U << 20;
   return threads != 1 && cameras >= 16 && triangle_count(scene) <= most_triangles;
@@ -152,8 +153,8 @@ std::vector<Described> render_all(const Scene& scene, const std::vector<Camera>&
   return rendered;
 }
 
-/// Python has made an array of the right type, shape and order for each channel that is asked for,
-/// in the order of these.
+/// Python has made an array of the right type, shape and order for each requested channel, in the
+/// order of the channels.
 std::vector<Target> targets_of(const RenderOptions& options, std::vector<py::array>& arrays) {
   std::vector<Target> targets;
   targets.reserve(arrays.size());
@@ -191,7 +192,8 @@ std::pair<std::vector<SharedMap>, Warnings> render_stack(const SharedScene& shar
   });
 }
 
-/// Refuses what would end the process. As the machine's lack of memory does, it says MemoryError.
+/// Refuses sizes that would end the process. Raises MemoryError, as if the machine had run out of
+/// memory.
 void require_bytes(const std::string& what, double bytes) {
   try {
     require_memory(what, bytes, available_memory());

@@ -21,14 +21,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// The thread does nothing any more. It does not end either: that would unwind its stack, with
-/// Python's objects in it, while Python is taken down.
+/// Blocks the thread until the process ends. Ending the thread would unwind its stack, which
+/// contains Python objects, while Python shuts down.
 [[noreturn]] void stand_still() {
   while (true) ::pause();
 }
 
-/// Without the GIL until take() is called. Not in a destructor: once Python exits, a thread that
-/// wants the GIL is unwound (before Python 3.14), which nothing noexcept survives.
+/// Releases the GIL until take() is called. A destructor cannot take it: when Python exits, a
+/// thread that wants the GIL is unwound (before Python 3.14), which ends the program in a noexcept
+/// function.
 class WithoutGil {
  public:
   WithoutGil() : state_(PyEval_SaveThread()) {}
@@ -52,7 +53,7 @@ class WithoutGil {
 struct OtherThreads {
   std::atomic<bool> end_is_near{false};
   std::atomic<int> working{0};
-  /// To which `working` belongs: a process that is forked off has none of these threads.
+  /// The process to which `working` belongs: a forked process does not have these threads.
   std::atomic<pid_t> process{0};
 };
 
@@ -67,7 +68,7 @@ bool is_main_thread() {
   return ::syscall(SYS_gettid) == ::getpid();
 }
 
-/// In the calling thread, which is not the main one.
+/// Does the work in the calling thread, which is not the main thread.
 void run_here(const std::function<void()>& work) {
   OtherThreads& threads = other_threads();
   WithoutGil gil;
@@ -89,8 +90,8 @@ void run_here(const std::function<void()>& work) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// A thread that does one piece of work after the other for the main thread: to start a thread for
-/// each call takes longer than to render a small map.
+/// A thread that does work for the main thread. Starting a thread for each call takes longer than
+/// rendering a small map.
 class Worker {
  public:
   Worker() : thread_([this] { work_on(); }) {}
@@ -105,7 +106,7 @@ class Worker {
     thread_.join();
   }
 
-  /// Begins a piece of work, which lives until it has ended.
+  /// Begins a piece of work. The caller keeps it alive until it has ended.
   void begin(const std::function<void()>& work) {
     {
       const std::lock_guard lock(mutex_);
@@ -120,7 +121,7 @@ class Worker {
     return ended_.wait_for(lock, time, [this] { return work_ == nullptr; });
   }
   void ask_to_end() { is_to_end_ = true; }
-  /// What the work failed with, once it has ended.
+  /// The exception of the work, after it has ended.
   [[nodiscard]] std::exception_ptr take_failure() { return std::exchange(failure_, nullptr); }
 
  private:
@@ -148,14 +149,14 @@ class Worker {
   std::exception_ptr failure_;
   std::mutex mutex_;
   std::condition_variable changed_, ended_;
-  std::thread thread_;  // the last one: it uses the others
+  std::thread thread_;  // the last member, because it uses the others
 };
 
-/// The worker of the main thread while it has nothing to do. Only that thread asks, with the GIL.
-/// Never freed: nobody joins it at exit.
+/// The idle worker of the main thread. Only the main thread accesses it, with the GIL. It is never
+/// freed, because nothing joins it at exit.
 struct IdleWorker {
   Worker* worker = nullptr;
-  /// A process that is forked off does not have the thread.
+  /// A forked process does not have the thread.
   pid_t process = 0;
 };
 IdleWorker idle_worker;
@@ -168,13 +169,14 @@ std::unique_ptr<Worker> take_worker() {
   return std::make_unique<Worker>();
 }
 
-/// A handler of a signal may have called within a call: then there are two.
+/// A signal handler may have made a call within a call; then there are two workers.
 void put_back(std::unique_ptr<Worker> worker) {
   if (idle_worker.worker != nullptr) return;
   idle_worker = {worker.release(), ::getpid()};
 }
 
-/// Waits for the worker in the main thread; whether a signal has raised an exception meanwhile.
+/// Waits for the worker in the main thread. Returns whether a signal has raised an exception
+/// meanwhile.
 bool wait_for(Worker& worker) {
   WithoutGil gil;
   bool raised = false;
@@ -206,7 +208,8 @@ void run_in_main_thread(const std::function<void()>& work) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// Work notices within a second that it is to end; what does not is not waited for much longer.
+/// Work usually notices within a second that it must end. Work that does not notice is not awaited
+/// much longer.
 void end_work() {
   OtherThreads& threads = other_threads();
   threads.end_is_near = true;
