@@ -1,4 +1,3 @@
-
 #include "apps/bench/bench_command.h"
 
 #include <fmt/core.h>

@@ -1,4 +1,3 @@
-
 #include "apps/bench/measurement.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "apps/bench/report.h"
 
 #include <fmt/core.h>

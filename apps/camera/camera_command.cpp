@@ -1,12 +1,9 @@
-// fathom camera directions
-
 #include <fmt/core.h>
 
 #include <filesystem>
 #include <memory>
 #include <optional>
 
-#include "apps/camera/directions_command.h"
 #include "apps/camera/import_sources.h"
 #include "apps/commands.h"
 #include "apps/options/camera_options.h"
@@ -24,6 +21,8 @@
 
 namespace fathom::app {
 namespace {
+
+// fathom camera directions
 
 struct DirectionsArguments {
   std::string camera, output;
@@ -77,8 +76,6 @@ int run_directions(const DirectionsArguments& arguments, const Console& console)
   return done;
 }
 
-}  // namespace
-
 void add_directions(Command& camera) {
   const auto arguments = std::make_shared<DirectionsArguments>();
   Command& command = camera.command(
@@ -98,8 +95,6 @@ void add_directions(Command& camera) {
       .required();
   command.runs([arguments](const Console& console) { return run_directions(*arguments, console); });
 }
-
-namespace {
 
 // fathom camera look-at
 

@@ -1,14 +1,14 @@
-
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
 #include <sstream>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/camera/import_sources.h"
-#include "apps/camera/yaml_text.h"
 #include "apps/shell/known_files.h"
 #include "fathom/camera/data_set_cameras.h"
 #include "fathom/failures/errors.h"
@@ -120,8 +120,14 @@ std::string without_header(std::string_view yaml) {
   return text;
 }
 
-}  // namespace
-
+/// The first document of a YAML text as JSON, for readers of JSON. JSON is YAML, too, and so is
+/// what OpenCV's FileStorage writes, with its first line "%YAML:1.0". Tags are left out.
+///
+/// Exact    numbers are rounded once to binary64, as readers of JSON round them; "320." is one.
+///          "true", "false", "null" and "~" mean what they mean in JSON, and all other scalars are
+///          strings.
+/// Fails    InputError "FILE: line N: …": syntax, an alias, a key that is a list or an object, a
+///          number beyond binary64; and for a text above 16 MiB or without a document.
 std::string json_of_yaml(std::string_view yaml, const std::string& file) {
   if (yaml.size() > largest_yaml)
     throw InputError(fmt::format("{}: has {} bytes, expected a calibration of at most 16 MiB", file,
@@ -138,8 +144,6 @@ std::string json_of_yaml(std::string_view yaml, const std::string& file) {
 }
 
 // fathom camera import opencv | ros
-
-namespace {
 
 using Cameras = std::vector<ImportedCamera>;
 

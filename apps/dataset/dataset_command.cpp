@@ -1,4 +1,3 @@
-
 #include "apps/dataset/dataset_command.h"
 
 #include <fmt/format.h>

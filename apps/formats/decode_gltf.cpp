@@ -1,4 +1,3 @@
-
 #include <draco/compression/decode.h>
 #include <draco/core/draco_version.h>
 #include <meshoptimizer.h>

@@ -1,4 +1,3 @@
-
 #include "apps/jobs/manifest.h"
 
 #include <fcntl.h>

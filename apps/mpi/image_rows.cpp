@@ -1,4 +1,3 @@
-
 #include "apps/mpi/image_rows.h"
 
 #include <fcntl.h>

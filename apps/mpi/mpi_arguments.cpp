@@ -1,4 +1,3 @@
-
 #include "apps/mpi/mpi_arguments.h"
 
 #include <malloc.h>

@@ -1,4 +1,3 @@
-
 #include "apps/mpi/ranks.h"
 
 #include <mpi.h>

@@ -1,4 +1,3 @@
-
 #include "apps/mpi/render_together.h"
 
 #include <algorithm>

@@ -1,11 +1,14 @@
 #include "apps/options/depth_format_options.h"
 
+#include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::app {
+
 void DepthFormatOptions::add_to(Command& command) {
   command.option("--mapping", "NAME", into(mapping, mapping_named),
                  "Mapping from depth to stored value: standard (default), reversed, infinite, "
@@ -38,6 +41,16 @@ void require_constant_of(Mapping mapping, const std::optional<double>& c) {
   if (!c || mapping == Mapping::log) return;
   throw UsageError("--c: mapping " + std::string(name_of(mapping)) +
                    " has no constant C; --c is only for --mapping log");
+}
+
+nlohmann::ordered_json json_of(const DepthFormat& format) {
+  using Json = nlohmann::ordered_json;
+  Json json{{"mapping", name_of(format.mapping)},
+            {"storage", name_of(format.storage)},
+            {"near", format.near},
+            {"far", std::isfinite(format.far) ? Json(format.far) : Json(nullptr)}};
+  if (format.mapping == Mapping::log) json["c"] = format.c;
+  return json;
 }
 
 }  // namespace fathom::app

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
 #include "apps/shell/command.h"
@@ -22,5 +23,8 @@ struct DepthFormatOptions {
 /// `--mapping` and `--c` for commands with other options for the rest. Fails with UsageError if the
 /// mapping has no constant C.
 void require_constant_of(Mapping mapping, const std::optional<double>& c);
+
+/// Description of the depth format for a map's `fathom.depth_format` and for `render --stats`.
+nlohmann::ordered_json json_of(const DepthFormat& format);
 
 }  // namespace fathom::app

@@ -1,4 +1,3 @@
-
 #include "apps/options/output_arguments.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-
 #include "apps/options/pipeline_options.h"
 
 #include <fmt/core.h>

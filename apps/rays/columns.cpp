@@ -1,4 +1,3 @@
-
 #include "apps/rays/columns.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "apps/rays/ray_file.h"
 
 #include <algorithm>

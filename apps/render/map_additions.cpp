@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "apps/render/depth_format_json.h"
+#include "apps/options/depth_format_options.h"
 #include "apps/shell/console.h"
 #include "fathom/area/coverage.h"
 #include "fathom/image/depth_map.h"

@@ -1,4 +1,3 @@
-
 #include "apps/render/render_plan.h"
 
 #include <fmt/core.h>

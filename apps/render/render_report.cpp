@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
-#include "apps/render/depth_format_json.h"
+#include "apps/options/depth_format_options.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/rendering/rendered.h"

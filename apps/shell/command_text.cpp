@@ -1,4 +1,3 @@
-
 #include "apps/shell/command_text.h"
 
 #include <fmt/chrono.h>

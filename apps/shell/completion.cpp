@@ -1,4 +1,3 @@
-
 #include "apps/shell/completion.h"
 
 #include <fmt/core.h>

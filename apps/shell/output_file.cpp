@@ -1,4 +1,3 @@
-
 #include "apps/shell/output_file.h"
 
 #include <fcntl.h>

@@ -1,4 +1,3 @@
-
 #include "apps/shell/program.h"
 
 #include <fmt/core.h>

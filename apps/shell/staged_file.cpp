@@ -1,4 +1,3 @@
-
 #include "apps/shell/staged_file.h"
 
 #include <dirent.h>

@@ -1,4 +1,3 @@
-
 #include "apps/study/page.h"
 
 #include <sstream>

@@ -1,4 +1,3 @@
-
 #include "apps/study/pipeline_scenes.h"
 
 #include <fmt/format.h>

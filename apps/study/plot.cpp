@@ -1,4 +1,3 @@
-
 #include "apps/study/plot.h"
 
 #include <fmt/format.h>

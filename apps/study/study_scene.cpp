@@ -1,4 +1,3 @@
-
 #include "apps/study/study_scene.h"
 
 #include <array>

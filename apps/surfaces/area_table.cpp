@@ -1,4 +1,3 @@
-
 #include "apps/surfaces/area_table.h"
 
 #include <fmt/core.h>

@@ -1,15 +1,19 @@
-
 #include "apps/surfaces/probe_answer.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include "apps/shell/standard_streams.h"
-#include "apps/surfaces/probed_ray.h"
+#include "fathom/camera/camera.h"
 #include "fathom/lens/preimages.h"
 #include "fathom/lens/without_ray.h"
 #include "fathom/numeric/rounding.h"
@@ -20,6 +24,28 @@
 
 namespace fathom::app {
 namespace {
+
+/// The ray of a pixel that a lens bends, or why the pixel has none: a part of the answer of
+/// `fathom probe`.
+class ProbedRay {
+ public:
+  /// nullopt if the camera bends no rays.
+  static std::optional<ProbedRay> of(const Camera& camera, std::uint32_t column, std::uint32_t row);
+
+  /// Lines that end in a line break.
+  [[nodiscard]] std::string text() const;
+  [[nodiscard]] nlohmann::ordered_json json() const;
+
+ private:
+  std::string_view lens_;
+  /// Decimals of the direction, whose greatest component is 1 or −1, and the angle to the z axis in
+  /// degrees; empty, with a reason, where there is no ray.
+  std::array<std::string, 3> direction_;
+  double degrees_ = 0;
+  std::string why_none_;
+  /// Q of the specification, section 2; +∞ if the lens folds nowhere.
+  double disc_ = 0;
+};
 
 constexpr int digits = 25;
 /// More than `digits` decimal digits.
@@ -32,8 +58,6 @@ std::array<Ratio, 3> scaled(const std::array<DyadicInterval, 3>& enclosure) {
   const Dyadic greatest = std::max({abs(middle[0]), abs(middle[1]), abs(middle[2])});
   return {Ratio(middle[0], greatest), Ratio(middle[1], greatest), Ratio(middle[2], greatest)};
 }
-
-}  // namespace
 
 std::optional<ProbedRay> ProbedRay::of(const Camera& camera, std::uint32_t column,
                                        std::uint32_t row) {
@@ -80,8 +104,6 @@ nlohmann::ordered_json ProbedRay::json() const {
   json["degrees_from_axis"] = degrees_;
   return json;
 }
-
-namespace {
 
 using Json = nlohmann::ordered_json;
 

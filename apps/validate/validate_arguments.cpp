@@ -1,4 +1,3 @@
-
 #include "apps/validate/validate_arguments.h"
 
 #include <fmt/core.h>

@@ -1,10 +1,11 @@
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,16 +14,57 @@
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
-#include "apps/validate/colour_report.h"
 #include "apps/validate/validate_arguments.h"
 #include "apps/validate/validate_report.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/rgb_image.h"
 #include "fathom/pipeline/render_pipeline.h"
+#include "validation/colour/colour_comparison.h"
 #include "validation/peers/drawing.h"
+#include "validation/vtk/drawn_by_vtk.h"
 
 namespace fathom::app {
 namespace {
+
+struct ColourPair {
+  const char* name;
+  const char* file;  ///< the end of the name of its picture
+  /// With highlights or without.
+  bool glossy;
+  pipeline::Shading ours;
+  validation::LightModel our_model;
+  validation::VtkShading theirs;
+  validation::LightModel their_model;
+};
+
+/// Pairs with equal formulas first.
+constexpr std::array colour_pairs{
+    // Without highlights, which ours has from the centre of the face and VTK's from each fragment.
+    ColourPair{"flat, VTK flat, matte", "flat-matte", false, pipeline::Shading::flat,
+               validation::LightModel::face, validation::VtkShading::flat,
+               validation::LightModel::derived_normal},
+    ColourPair{"phong, VTK Phong", "phong", true, pipeline::Shading::phong,
+               validation::LightModel::interpolated_normal, validation::VtkShading::phong,
+               validation::LightModel::interpolated_normal},
+    ColourPair{"phong, VTK Gouraud", "phong-beside-gouraud", true, pipeline::Shading::phong,
+               validation::LightModel::interpolated_normal, validation::VtkShading::gouraud,
+               validation::LightModel::interpolated_normal},
+    // Different formulas.
+    ColourPair{"flat, VTK flat, glossy", "flat", true, pipeline::Shading::flat,
+               validation::LightModel::face, validation::VtkShading::flat,
+               validation::LightModel::derived_normal},
+    ColourPair{"gouraud, VTK Gouraud", "gouraud", true, pipeline::Shading::gouraud,
+               validation::LightModel::corners, validation::VtkShading::gouraud,
+               validation::LightModel::interpolated_normal}};
+
+/// A scene and a pair of pictures of it, or the reason why they are missing.
+struct ColourCase {
+  std::string scene;
+  const ColourPair* pair = nullptr;
+  std::string failure;
+  std::optional<validation::GreyPicture> ours, theirs;
+  validation::ColourComparison found;
+};
 
 using Json = nlohmann::ordered_json;
 using validation::ColourComparison;
@@ -109,12 +151,11 @@ void write_files(const std::vector<ColourCase>& cases, const std::filesystem::pa
   OutputFile::commit_together(all);
 }
 
-}  // namespace
-
 using pipeline::Material;
 using pipeline::SpecularModel;
 using validation::GreyPicture;
 
+/// Of a pair's surfaces. Highlights are Phong's, as VTK's are.
 Material material_of(const ColourPair& pair) {
   if (pair.glossy)
     return {.ambient = 0.15,
@@ -129,6 +170,7 @@ Material material_of(const ColourPair& pair) {
           .highlight = SpecularModel::phong};
 }
 
+/// The pipeline's picture, in binary64 and with its usual grid.
 GreyPicture drawn_by_pipeline(const validation::LitScene& scene, pipeline::Shading shading) {
   pipeline::PipelineOptions options;
   options.precision = pipeline::Precision::binary64;
@@ -141,6 +183,9 @@ GreyPicture drawn_by_pipeline(const validation::LitScene& scene, pipeline::Shadi
   return picture;
 }
 
+/// Prints a line for each case and, where `out` is not empty, writes colours.json and a picture for
+/// each case to that folder, which exists: ours on the left, VTK's on the right. Returns the exit
+/// status.
 int report_colours(const std::vector<ColourCase>& cases, const std::string& out) {
   std::string text;
   for (const ColourCase& c : cases) text += line_of(c);
@@ -153,8 +198,6 @@ int report_colours(const std::vector<ColourCase>& cases, const std::string& out)
       std::all_of(cases.begin(), cases.end(), [](const ColourCase& c) { return c.theirs; });
   return all_drawn ? done : unusable_input;
 }
-
-namespace {
 
 using validation::LitScene;
 

@@ -1,3 +1,4 @@
+// fathom-view: maps in a page for a browser, and a server that answers its questions.
 
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -22,10 +23,8 @@
 #include "apps/shell/program.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/surfaces/probe_answer.h"
-#include "apps/view/browser.h"
 #include "apps/view/page.h"
 #include "apps/view/probe_server.h"
-#include "apps/view/view_command.h"
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
 #include "fathom/image/cryptomatte.h"
@@ -35,7 +34,10 @@
 #include "fathom/threads/threads.h"
 
 namespace fathom::app {
+namespace {
 
+/// A name for a page in a new folder of its own, below $TMPDIR, which only the user can read.
+/// Fails    OutputError.
 std::filesystem::path new_page_path() {
   std::error_code error;
   std::filesystem::path parent = std::filesystem::temp_directory_path(error);
@@ -45,15 +47,14 @@ std::filesystem::path new_page_path() {
   return std::filesystem::path(folder) / "map.html";
 }
 
-namespace {
-
 bool is_set(const char* variable) {
   const char* const value = ::getenv(variable);
   return value != nullptr && *value != '\0';
 }
 
-}  // namespace
-
+/// Opens a file or an address in the system's browser, by xdg-open or the program of $BROWSER. Does
+/// not wait for it. Without $BROWSER and without a display it only warns.
+/// Fails    OutputError where there is no such program.
 void open_in_browser(const std::string& page, const Console& console) {
   const bool is_chosen = is_set("BROWSER");
   if (!is_chosen && !is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) {
@@ -80,8 +81,6 @@ void open_in_browser(const std::string& page, const Console& console) {
 }
 
 // fathom view MAP [OTHER]… [-o PAGE] [--scene SCENE --serve]
-
-namespace {
 
 using view::ViewedMap;
 
@@ -212,8 +211,7 @@ int run_view(const ViewArguments& arguments, const Console& console) {
   return serve(arguments, std::move(maps), console);
 }
 
-}  // namespace
-
+/// `fathom view`: maps in a page for a browser.
 void add_view(Command& program) {
   const auto arguments = std::make_shared<ViewArguments>();
   Command& command = program.command(
@@ -243,9 +241,8 @@ void add_view(Command& program) {
   command.runs([arguments](const Console& console) { return run_view(*arguments, console); });
 }
 
+}  // namespace
 }  // namespace fathom::app
-
-// fathom-view: maps in a page for a browser, and a server that answers its questions.
 
 int main(int argc, char** argv) {
   return fathom::app::companion_main(argc, argv, "view", fathom::app::add_view);

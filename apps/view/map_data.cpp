@@ -1,4 +1,3 @@
-
 #include "apps/view/map_data.h"
 
 #include <algorithm>
@@ -9,12 +8,15 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
+#include <span>
+#include <string>
 #include <type_traits>
+#include <vector>
 
-#include "apps/view/deep_data.h"
 #include "apps/view/packing.h"
 #include "fathom/camera/pose.h"
 #include "fathom/image/channel_table.h"
+#include "fathom/image/deep_map.h"
 #include "fathom/image/files/file_texts.h"
 #include "fathom/image/surface.h"
 #include "fathom/threads/threads.h"
@@ -30,8 +32,7 @@ std::array<std::uint32_t, 5> words_of(const DeepSample& sample) {
           sample.id};
 }
 
-}  // namespace
-
+/// Where the samples of each pixel begin, and at last where all of them end.
 std::vector<std::size_t> begins_of(const DeepMap& deep) {
   std::vector<std::size_t> begins(deep.counts.size() + 1);
   std::inclusive_scan(deep.counts.begin(), deep.counts.end(), begins.begin() + 1, std::plus<>(),
@@ -39,6 +40,7 @@ std::vector<std::size_t> begins_of(const DeepMap& deep) {
   return begins;
 }
 
+/// The samples of the pixels of a tile, in the order of the pixels: Z, ZBack, area, A and id.
 std::array<std::string, 5> packed_samples(const DeepMap& deep, std::span<const std::size_t> begins,
                                           const TilePlace& tile) {
   std::array<Words, 5> planes;
@@ -55,8 +57,6 @@ std::array<std::string, 5> packed_samples(const DeepMap& deep, std::span<const s
   std::ranges::transform(planes, texts.begin(), [](const Words& words) { return packed(words); });
   return texts;
 }
-
-namespace {
 
 using Json = nlohmann::json;
 using Mask = std::vector<std::uint8_t>;

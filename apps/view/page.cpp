@@ -1,4 +1,3 @@
-
 #include "apps/view/page.h"
 
 #include <fmt/core.h>

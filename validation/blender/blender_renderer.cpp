@@ -1,9 +1,9 @@
-
 #include "validation/blender/blender_renderer.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp
+#include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,6 +15,8 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/camera/camera.h"
@@ -22,11 +24,37 @@
 #include "fathom/geometry/eigen_arrays.h"
 #include "fathom/image/map_files.h"
 #include "validation/blender/blender_script.h"
-#include "validation/blender/workplace.h"
 #include "validation/child/child_process.h"
 
 namespace fathom::validation {
 namespace {
+
+/// A folder for the files of another program. It is removed at the end, even if this process is
+/// killed: a second process waits for that.
+class Workplace {
+ public:
+  /// Fails    InputError if no folder can be made.
+  Workplace();
+  ~Workplace();
+  Workplace(const Workplace&) = delete;
+  Workplace& operator=(const Workplace&) = delete;
+
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
+    return path_ / name;
+  }
+  /// Fails    InputError if the file cannot be written.
+  void write(const std::string& name, const std::string& bytes) const;
+  template <class T>
+  void write(const std::string& name, const std::vector<T>& values) const {
+    write(name,
+          std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)));
+  }
+
+ private:
+  std::filesystem::path path_;
+  int alive_ = -1;  ///< open as long as this process lives
+  pid_t remover_ = -1;
+};
 
 /// Waits until nobody has the other end of `pipe` any more, then removes the folder.
 [[noreturn]] void wait_and_remove(int pipe, const std::filesystem::path& folder) {
@@ -39,8 +67,6 @@ namespace {
   std::filesystem::remove_all(folder, error);
   ::_exit(0);
 }
-
-}  // namespace
 
 Workplace::Workplace() {
   std::error_code error;
@@ -74,8 +100,6 @@ void Workplace::write(const std::string& name, const std::string& bytes) const {
   file.close();
   if (!file) throw InputError("cannot write a renderer's files in " + path_.string());
 }
-
-namespace {
 
 using attribution::model_named;
 using attribution::other_map;

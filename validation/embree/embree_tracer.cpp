@@ -1,22 +1,47 @@
-
 #include "validation/embree/embree_tracer.h"
 
+#include <embree3/rtcore.h>
 #include <tbb/blocked_range2d.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <xmmintrin.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <thread>
 
 #include "fathom/attribution/model/renderer_input.h"
+#include "fathom/camera/camera.h"
 #include "fathom/image/depth_map.h"
 #include "validation/embree/embree_mesh.h"
-#include "validation/embree/trace_image.h"
 
 namespace fathom::validation {
 namespace {
+
+/// The image and its viewing rays, each number rounded to binary32.
+///
+/// Frame    world; u, v in pixels from the top left corner of the image; near and far are depths.
+struct Binary32View {
+  std::uint32_t width, height;
+  float near, far;
+  /// f(u, v) = at_corner + u·per_u + v·per_v, evaluated in binary32.
+  struct Affine {
+    std::array<float, 3> at_corner, per_u, per_v;
+    [[nodiscard]] float at(std::size_t k, float u, float v) const {
+      return at_corner[k] + u * per_u[k] + v * per_v[k];
+    }
+  } origin, direction;
+};
+
+/// Images of width × height pixels, rows from the top: depths, infinite where nothing was hit, and,
+/// unless null, the numbers of the triangles, no_surface there.
+struct TracedImages {
+  float* depths = nullptr;
+  std::uint32_t* triangles = nullptr;
+};
 
 using attribution::CameraRays;
 
@@ -146,8 +171,6 @@ void trace_blocks(RTCScene scene, const Binary32View& view, std::uint32_t side,
   });
 }
 
-}  // namespace
-
 Binary32View binary32_view(const Camera& camera) {
   const CameraRays rays = attribution::camera_rays(camera);
   return {camera.width,
@@ -158,6 +181,7 @@ Binary32View binary32_view(const Camera& camera) {
           narrowed(rays.direction)};
 }
 
+/// Traces one ray through each pixel's centre, blocks of pixels in parallel.
 void trace_image(RTCScene scene, const Binary32View& view, RayStream stream,
                  const TracedImages& images) {
   if (stream == RayStream::packets) {
@@ -166,6 +190,8 @@ void trace_image(RTCScene scene, const Binary32View& view, RayStream stream,
     trace_blocks<Arrays>(scene, view, stream_side, images);
   }
 }
+
+}  // namespace
 
 struct EmbreeTracer::Parts {
   bool robust;

@@ -1,4 +1,3 @@
-
 #include "validation/opengl/gl_functions.h"
 
 #include <EGL/egl.h>

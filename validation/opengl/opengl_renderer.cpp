@@ -1,4 +1,3 @@
-
 #include "validation/opengl/opengl_renderer.h"
 
 #include <fmt/format.h>
@@ -11,16 +10,35 @@
 
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/attribution/model/renderer_input.h"
+#include "fathom/attribution/model/renderer_model.h"
 #include "fathom/attribution/model/window_depth.h"
+#include "fathom/camera/camera.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "validation/opengl/drawn_mesh.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/opengl/gl_functions.h"
+#include "validation/variants/variants.h"
 
 namespace fathom::validation {
 namespace {
+
+/// A mesh that OpenGL holds: positions in binary32 as the model says, each vertex multiplied by the
+/// model's matrix, the number of the triangle as its colour. It goes with its context.
+class DrawnMesh {
+ public:
+  /// Needs    a model with a matrix.
+  /// Fails    InputError where the driver does not take the shaders.
+  DrawnMesh(const GlFunctions& gl, const attribution::WorldMesh& mesh,
+            const attribution::RasterModel& model);
+
+  /// Clears the framebuffer that is bound and draws the mesh into it.
+  void draw(const Camera& camera, const OpenGlVariant& variant) const;
+
+ private:
+  const GlFunctions& gl_;
+  GLsizei vertex_count_ = 0;
+};
 
 using attribution::RasterModel;
 using attribution::WorldMesh;
@@ -79,8 +97,6 @@ void hand_over(const GlFunctions& gl, const WorldMesh& mesh, const RasterModel& 
   gl.EnableVertexAttribArray(1);
 }
 
-}  // namespace
-
 DrawnMesh::DrawnMesh(const GlFunctions& gl, const WorldMesh& mesh, const RasterModel& model)
     : gl_(gl), vertex_count_(static_cast<GLsizei>(3 * mesh.triangles.size())) {
   const GLuint program = use_new_program(gl, vertex_shader, fragment_shader);
@@ -106,8 +122,6 @@ void DrawnMesh::draw(const Camera& camera, const OpenGlVariant& variant) const {
   }
   gl_.DrawArrays(GL_TRIANGLES, 0, vertex_count_);
 }
-
-namespace {
 
 using attribution::camera_rays;
 using attribution::clip_from_held;

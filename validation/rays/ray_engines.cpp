@@ -1,4 +1,3 @@
-
 #include "validation/rays/ray_engines.h"
 
 #include <CGAL/AABB_traits.h>

@@ -1,4 +1,3 @@
-
 #include "validation/vtk/triangle_numbers.h"
 
 #include <vtkCellArray.h>

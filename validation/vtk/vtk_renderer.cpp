@@ -1,4 +1,3 @@
-
 #include "validation/vtk/vtk_renderer.h"
 
 #include <fcntl.h>

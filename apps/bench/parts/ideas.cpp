@@ -1,4 +1,3 @@
-
 #include "apps/bench/parts/ideas.h"
 
 #include <fmt/format.h>

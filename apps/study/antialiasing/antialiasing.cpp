@@ -3,7 +3,7 @@
 #include "apps/study/antialiasing/coverage.h"
 #include "apps/study/antialiasing/methods.h"
 #include "apps/study/antialiasing/sampling.h"
-#include "apps/study/page_texts.h"
+#include "apps/study/page.h"
 #include "apps/study/plot.h"
 #include "apps/study/results.h"
 #include "apps/study/study.h"

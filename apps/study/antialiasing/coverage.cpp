@@ -1,4 +1,3 @@
-
 #include "apps/study/antialiasing/coverage.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "apps/study/antialiasing/methods.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "apps/study/antialiasing/sampling.h"
 
 #include <algorithm>

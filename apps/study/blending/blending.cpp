@@ -1,4 +1,3 @@
-
 #include "apps/study/blending/blending.h"
 
 #include <fmt/format.h>
@@ -6,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/study/page_texts.h"
+#include "apps/study/page.h"
 #include "apps/study/pipeline_scenes.h"
 #include "apps/study/plot.h"
 #include "apps/study/results.h"

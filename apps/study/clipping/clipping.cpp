@@ -4,7 +4,7 @@
 
 #include "apps/study/clipping/beside_cgal.h"
 #include "apps/study/clipping/clipped_shapes.h"
-#include "apps/study/page_texts.h"
+#include "apps/study/page.h"
 #include "apps/study/plot.h"
 #include "apps/study/results.h"
 #include "apps/study/study.h"

@@ -6,7 +6,7 @@
 #include "apps/study/course/demonstrations.h"
 #include "apps/study/course/exercises.h"
 #include "apps/study/course/orientation.h"
-#include "apps/study/page_texts.h"
+#include "apps/study/page.h"
 #include "apps/study/plot.h"
 #include "apps/study/results.h"
 #include "apps/study/study.h"

@@ -1,4 +1,3 @@
-
 #include "apps/study/course/demonstrations.h"
 
 #include <fmt/format.h>
@@ -12,7 +11,6 @@
 #include <vector>
 
 #include "apps/study/antialiasing/coverage.h"
-#include "apps/study/course/mesh_texts.h"
 #include "apps/study/pipeline_scenes.h"
 #include "fathom/pipeline/scan/area_fill.h"
 #include "fathom/pipeline/scan/edge_function.h"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/study/pipeline_scenes.h"
@@ -70,3 +71,10 @@ RgbImage shaded(const GalleryMesh& mesh, pipeline::Shading shading,
                 const std::string& texture = "");
 
 }  // namespace fathom::studies
+
+/// Files of data/meshes, so that the page's pictures need no folder of data (CMakeLists.txt).
+namespace fathom::studies::mesh_texts {
+
+extern const std::string_view cube, house, spot, teapot;
+
+}  // namespace fathom::studies::mesh_texts

@@ -1,4 +1,3 @@
-
 #include "apps/study/course/orientation.h"
 
 #include <algorithm>

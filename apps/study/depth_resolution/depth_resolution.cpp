@@ -1,18 +1,62 @@
-
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <map>
+#include <vector>
 
-#include "apps/study/depth_resolution/format_steps.h"
-#include "apps/study/page_texts.h"
+#include "apps/study/page.h"
 #include "apps/study/results.h"
 #include "apps/study/study.h"
 #include "apps/study/sweeps.h"
+#include "fathom/depth_format/depth_format.h"
 #include "fathom/depth_format/resolution.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::studies {
 namespace {
+
+/// At one depth.
+struct Step {
+  double depth;
+  double step;       ///< the larger distance to a neighbouring code's depth
+  double bin_width;  ///< of the depths that are stored alike
+};
+
+struct FormatSteps {
+  DepthFormat format;
+  std::vector<Step> steps;
+  std::uint64_t codes;                    ///< between near and far
+  double share_below_2, share_below_10;   ///< of the codes, up to 2 and to 10 times near
+  double greatest_relative, greatest_at;  ///< step over depth, and the depth where it is greatest
+};
+
+/// The mapping of the least step of a storage at a depth.
+struct BestMapping {
+  Storage storage;
+  double depth;
+  Mapping mapping;
+  double step;
+};
+
+/// Neighbouring depths over which one mapping is the best of a storage.
+struct BestRange {
+  Storage storage;
+  Mapping mapping;
+  double from, to;
+};
+
+/// The step at a depth when near or far is moved.
+enum class Moved { near, far };
+
+struct MovedStep {
+  Moved moved;
+  DepthFormat format;
+  double depth;
+  double step;
+
+  [[nodiscard]] double place() const { return moved == Moved::near ? format.near : format.far; }
+};
 
 double step_at(const DepthFormat& format, double depth) {
   const Resolution r = resolution(format, Dyadic(depth));
@@ -43,8 +87,7 @@ FormatSteps measure(const DepthFormat& format, const std::vector<double>& depths
   return measured;
 }
 
-}  // namespace
-
+/// Of every format, at these depths from near to far.
 std::vector<FormatSteps> measure_formats(double near, double far, const std::vector<double>& depths,
                                          const std::function<void(double)>& tick) {
   std::vector<FormatSteps> all;
@@ -58,6 +101,7 @@ std::vector<FormatSteps> measure_formats(double near, double far, const std::vec
   return all;
 }
 
+/// opengl is standard in the ideal model, and is left out.
 std::vector<BestMapping> best_mappings(const std::vector<FormatSteps>& all) {
   std::vector<BestMapping> best;
   for (const Storage storage : all_storages) {
@@ -89,6 +133,7 @@ std::vector<BestRange> best_ranges(const std::vector<BestMapping>& best) {
   return ranges;
 }
 
+/// By factors from 0.01 to 100, at the geometric mean of near and far.
 std::vector<MovedStep> move_near_and_far(double near, double far) {
   constexpr double factors[] = {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100};
   std::vector<MovedStep> rows;
@@ -108,8 +153,6 @@ std::vector<MovedStep> move_near_and_far(double near, double far) {
   }
   return rows;
 }
-
-namespace {
 
 /// A step with its format: a row of steps.csv.
 struct StepOfFormat {

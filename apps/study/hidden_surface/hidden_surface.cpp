@@ -2,7 +2,7 @@
 
 #include "apps/study/hidden_surface/comparison.h"
 #include "apps/study/hidden_surface/sight.h"
-#include "apps/study/page_texts.h"
+#include "apps/study/page.h"
 #include "apps/study/plot.h"
 #include "apps/study/results.h"
 #include "apps/study/study.h"

@@ -1,4 +1,3 @@
-
 #include "apps/study/indistinguishable/depth_order.h"
 
 #include <tbb/parallel_for.h>

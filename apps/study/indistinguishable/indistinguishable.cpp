@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "apps/study/indistinguishable/depth_order.h"
-#include "apps/study/page_texts.h"
+#include "apps/study/page.h"
 #include "apps/study/results.h"
 #include "apps/study/study.h"
 #include "fathom/failures/errors.h"

@@ -1,4 +1,3 @@
-
 #include "apps/study/lines/lines.h"
 
 #include <algorithm>
@@ -7,7 +6,7 @@
 #include <random>
 
 #include "apps/study/cell.h"
-#include "apps/study/page_texts.h"
+#include "apps/study/page.h"
 #include "apps/study/results.h"
 #include "apps/study/study.h"
 #include "fathom/failures/errors.h"

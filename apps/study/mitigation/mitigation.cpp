@@ -1,25 +1,40 @@
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "apps/study/cell.h"
-#include "apps/study/mitigation/cures.h"
-#include "apps/study/page_texts.h"
+#include "apps/study/page.h"
 #include "apps/study/pipeline_scenes.h"
 #include "apps/study/results.h"
 #include "apps/study/study.h"
 #include "apps/study/sweeps.h"
+#include "apps/study/z_fighting/scene_fights.h"
 #include "fathom/failures/errors.h"
 
 namespace fathom::studies {
+namespace {
+
+/// The storage that is to be cured. Cures keep it unless they name another one.
+constexpr Storage uncured_storage = Storage::unorm24;
+
+/// The whole scene in another format, or with another near plane.
+struct Cure {
+  std::string name;
+  SceneFights fights;
+};
+
+constexpr double offset_factors[] = {0, -0.5, -1, -2, -4};
+constexpr double offset_units[] = {0, -1, -2, -4, -16, -64, -256, -1024, -4096};
 
 DepthFormat uncured_format(const Camera& camera) {
   return format_between(camera.near, camera.far, Mapping::standard, uncured_storage);
 }
 
+/// The least visible depth; +∞ if nothing is visible.
 double nearest_depth(const DepthMap& visible) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const float z : *visible.values<float>("Z")) {
@@ -28,6 +43,8 @@ double nearest_depth(const DepthMap& visible) {
   return nearest;
 }
 
+/// Near planes farther and farther away, by factors of two, up to the nearest visible surface, so
+/// that nothing is cut away.
 std::vector<Cure> farther_near_planes(const SceneView& view, const DepthMap& visible) {
   std::vector<Cure> cures;
   const double nearest = 0.999 * nearest_depth(visible);
@@ -55,6 +72,8 @@ std::vector<Cure> other_formats(const SceneView& view, const DepthMap& visible) 
   return cures;
 }
 
+/// Polygon offset, factor by factor, for the triangles of all objects except the first. Empty for a
+/// single object, or without perspective.
 std::vector<OffsetCount> polygon_offsets(const SceneView& view) {
   if (view.scene.objects.size() < 2 || !is_perspective(view.camera.projection)) return {};
   const auto first =
@@ -68,8 +87,6 @@ std::vector<OffsetCount> polygon_offsets(const SceneView& view) {
   });
   return counts;
 }
-
-namespace {
 
 /// `key` names the cures in the CSV.
 Table cures_table(const std::vector<Cure>& rows, const std::string& key) {

@@ -1,4 +1,3 @@
-
 #include "apps/study/subpixel/subpixel.h"
 
 #include <algorithm>
@@ -7,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "apps/study/page_texts.h"
+#include "apps/study/page.h"
 #include "apps/study/results.h"
 #include "apps/study/study.h"
 #include "apps/study/study_scene.h"

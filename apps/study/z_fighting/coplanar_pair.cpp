@@ -1,4 +1,3 @@
-
 #include "apps/study/z_fighting/coplanar_pair.h"
 
 #include <tbb/parallel_for.h>

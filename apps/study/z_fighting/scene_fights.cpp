@@ -1,4 +1,3 @@
-
 #include "apps/study/z_fighting/scene_fights.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include <limits>
 #include <optional>
 
-#include "apps/study/page_texts.h"
+#include "apps/study/page.h"
 #include "apps/study/results.h"
 #include "apps/study/study.h"
 #include "apps/study/sweeps.h"

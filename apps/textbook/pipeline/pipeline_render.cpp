@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "apps/options/depth_format_options.h"
 #include "apps/options/map_arguments.h"
-#include "apps/render/depth_format_json.h"
 #include "apps/render/render_arguments.h"
 #include "apps/render/render_outputs.h"
 #include "apps/shell/console.h"

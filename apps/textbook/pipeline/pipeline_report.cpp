@@ -1,4 +1,3 @@
-
 #include "apps/textbook/pipeline/pipeline_report.h"
 
 #include <array>

@@ -1,4 +1,3 @@
-
 #include "apps/validate/faults/changes.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "apps/validate/faults/fault_study.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-
 #include "apps/validate/report/validation_case.h"
 
 #include <fmt/format.h>

@@ -5,8 +5,8 @@
 #include <array>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "attributes.h"
 #include "bindings.h"
 #include "fathom/attribution/attribution.h"
 #include "fathom/attribution/judgement.h"
@@ -155,12 +155,31 @@ void bind_comparison(Module& core) {
   });
 }
 
-}  // namespace fathom::python
+// Why another renderer's map differs from the truth.
 
-namespace py = pybind11;
-
-namespace fathom::python {
 namespace {
+
+/// A `__repr__` that shows attributes as a call: Estimate(name='x', value=-0.5). Leaves out an
+/// attribute that is None.
+class Attributes {
+ public:
+  Attributes(std::string type, std::vector<std::string> names)
+      : type_(std::move(type)), names_(std::move(names)) {}
+
+  std::string operator()(const py::object& self) const {
+    std::string text;
+    for (const std::string& name : names_) {
+      const py::object value = self.attr(name.c_str());
+      if (value.is_none()) continue;
+      text += (text.empty() ? "" : ", ") + name + "=" + std::string(py::repr(value));
+    }
+    return type_ + "(" + text + ")";
+  }
+
+ private:
+  std::string type_;
+  std::vector<std::string> names_;
+};
 
 using namespace attribution;
 

@@ -1,4 +1,3 @@
-
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -205,13 +204,8 @@ void bind_maps(Module& core) {
   core.attr("normal_axes") = names_of(all_normal_axes);
 }
 
-}  // namespace fathom::python
-
 // Pictures of maps as arrays of colours, and as PNG.
 
-namespace py = pybind11;
-
-namespace fathom::python {
 namespace {
 
 using Picture = ContiguousArray<std::uint8_t>;

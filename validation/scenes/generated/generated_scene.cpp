@@ -1,4 +1,3 @@
-
 #include "validation/scenes/generated/generated_scene.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "validation/scenes/made/made_meshes.h"
 
 #include <array>
