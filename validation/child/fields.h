@@ -55,10 +55,6 @@ inline constexpr bool is_array = false;
 template <class T, std::size_t N>
 inline constexpr bool is_array<std::array<T, N>> = true;
 
-}  // namespace fields_detail
-
-namespace fields_detail {
-
 using Json = nlohmann::json;
 
 template <class T>
@@ -128,8 +124,6 @@ std::string to_bytes(const T& value) {
 }
 
 namespace fields_detail {
-
-using Json = nlohmann::json;
 
 [[noreturn]] inline void refuse(const std::string& where, const std::string& what) {
   throw ForeignAnswer((where.empty() ? "it" : where) + " " + what);
