@@ -4,34 +4,41 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
 #include <type_traits>
 #include <variant>
 
-#include "apps/rays/number_rows.h"
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
 #include "fathom/image/files/npy_array.h"
-#include "fathom/text/ascii.h"
-#include "fathom/text/decimal.h"
+#include "fathom/text/csv.h"
 #include "fathom/text/printable.h"
-#include "fathom/text/text_cursor.h"
 
 namespace fathom::app {
 namespace {
 
-/// By field of a line: which number it is; nullopt if the headings are not these names.
-std::optional<std::vector<std::size_t>> order_of(const std::vector<std::string_view>& headings,
-                                                 const ColumnNames& names) {
-  std::vector<std::size_t> order;
-  if (headings.size() != names.size()) return std::nullopt;
-  for (const std::string_view heading : headings) {
-    const auto* const found = std::ranges::find(names, heading);
-    const auto place = static_cast<std::size_t>(found - names.begin());
-    if (found == names.end() || std::ranges::find(order, place) != order.end()) return std::nullopt;
-    order.push_back(place);
-  }
-  return order;
+using NumberRow = std::array<double, 6>;
+using ColumnNames = std::array<std::string_view, 6>;
+
+/// Rows of a file whose columns have one of several sets of names.
+struct NumberRows {
+  /// The set of names, by number.
+  std::size_t names = 0;
+  /// In the order of the names.
+  std::vector<NumberRow> rows;
+};
+
+/// What is wrong with a row of finite numbers; empty if nothing is.
+using FaultOfRow = std::function<std::string(std::size_t names, const NumberRow& row)>;
+
+/// The places of the columns among the headings; empty unless these are the only columns.
+std::vector<std::size_t> places_of(const ColumnNames& names,
+                                   const std::vector<std::string_view>& headings) {
+  return headings.size() == names.size() ? text::places_of(names, headings)
+                                         : std::vector<std::size_t>();
 }
 
 /// "a, b and c"
@@ -42,36 +49,28 @@ std::string listed(const ColumnNames& names) {
   return list;
 }
 
-double finite_number(std::string_view field, const text::TextCursor& cursor) {
-  const char* const end = field.data() + field.size();
-  const auto [value, number_end, fault] = text::parse_decimal<double>(field.data(), end);
-  if (fault != text::DecimalFault::none || number_end != end)
-    cursor.fail("expected a finite number, found '" + text::printable(std::string(field)) + "'");
-  return value;
-}
-
 NumberRows rows_of_csv(std::string_view text, const std::string& name,
                        std::span<const ColumnNames> sets, const FaultOfRow& fault_of) {
-  text::TextCursor cursor(text, name, {});
-  if (!cursor.next_line_with_words()) throw InputError(name + ": is empty");
-  const std::vector<std::string_view> headings = text::comma_fields(cursor.rest_of_line());
+  text::CsvReader csv(text, name);
+  csv.go_to_heading();
+  const std::vector<std::string_view> headings = csv.fields();
   NumberRows result;
-  std::optional<std::vector<std::size_t>> order;
+  std::vector<std::size_t> places;
   std::string expected;
-  for (std::size_t i = 0; i < sets.size() && !order; ++i) {
-    order = order_of(headings, sets[i]);
-    if (order) result.names = i;
+  for (std::size_t i = 0; i < sets.size() && places.empty(); ++i) {
+    places = places_of(sets[i], headings);
+    if (!places.empty()) result.names = i;
     expected += (i > 0 ? "; or " : "") + listed(sets[i]);
   }
-  if (!order) cursor.fail("expected a heading with the columns " + expected);
-  for (cursor.skip_line(); cursor.next_line_with_words(); cursor.skip_line()) {
-    const std::vector<std::string_view> fields = text::comma_fields(cursor.rest_of_line());
-    if (fields.size() != order->size())
-      cursor.fail("expected 6 fields, found " + std::to_string(fields.size()));
-    NumberRow& row = result.rows.emplace_back();
-    for (std::size_t i = 0; i < fields.size(); ++i)
-      row[(*order)[i]] = finite_number(fields[i], cursor);
-    if (const std::string fault = fault_of(result.names, row); !fault.empty()) cursor.fail(fault);
+  if (places.empty()) csv.fail("expected a heading with the columns " + expected);
+  while (csv.next_line()) {
+    const std::vector<std::string_view> fields = csv.fields();
+    csv.require_count(fields.size(), headings.size());
+    NumberRow in_file, row;
+    for (std::size_t i = 0; i < fields.size(); ++i) in_file[i] = csv.finite_number(fields[i]);
+    for (std::size_t k = 0; k < row.size(); ++k) row[k] = in_file[places[k]];
+    if (const std::string fault = fault_of(result.names, row); !fault.empty()) csv.fail(fault);
+    result.rows.push_back(row);
   }
   return result;
 }
@@ -97,8 +96,8 @@ NumberRows rows_of_npy(files::ByteView bytes, const std::string& name, const Fau
   return result;
 }
 
-}  // namespace
-
+/// Reads the rows of a file. The columns of a CSV file have the names of a set, and the columns of an
+/// NPY file have the order of the first set. `row` names a row in messages: "ray".
 NumberRows read_rows(const std::string& file, const char* row, std::span<const ColumnNames> sets,
                      const FaultOfRow& fault_of) {
   const files::InputFile input(file);
@@ -109,8 +108,6 @@ NumberRows read_rows(const std::string& file, const char* row, std::span<const C
   if (rows.rows.empty()) throw InputError(name + ": has a heading and no " + row);
   return rows;
 }
-
-namespace {
 
 constexpr std::array<ColumnNames, 1> ray_columns{{{"x", "y", "z", "dx", "dy", "dz"}}};
 constexpr std::array<ColumnNames, 2> pair_columns{

@@ -6,12 +6,16 @@
 #include "fathom/rays/ray.h"
 #include "fathom/rays/sight.h"
 
-/// Files of rays and of pairs of points: CSV or NPY, as read_rows() reads them (number_rows.h).
-/// "-" is standard input.
+/// Files of rays and of pairs of points, with six numbers in each row. "-" is standard input.
+///   CSV   a heading with the names of the columns, in any order, then a line for each row; each
+///         number is rounded once to binary64
+///   NPY   an array of shape N×6, of binary64 or binary32
+/// Fails    InputError "FILE: line N: …" or "FILE: row N: …": other columns, a number that is not
+///          finite, no row.
 namespace fathom::app {
 
 /// Reads rays, with the columns x, y, z (origin) and dx, dy, dz (direction).
-/// Fails    as read_rows(); InputError for a direction of 0.
+/// Fails    as above; InputError for a direction of 0.
 std::vector<Ray> read_rays(const std::string& file);
 
 struct SightPairs {
@@ -20,7 +24,7 @@ struct SightPairs {
 
 /// Reads pairs of an eye and a point, with the columns x, y, z (eye) and either px, py, pz (point)
 /// or, in CSV, triangle, v and w (point of a triangle, as SurfacePoint).
-/// Fails    as read_rows(); InputError for a triangle that is not a whole number.
+/// Fails    as above; InputError for a triangle that is not a whole number.
 SightPairs read_pairs(const std::string& file);
 
 }  // namespace fathom::app

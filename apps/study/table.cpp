@@ -1,7 +1,7 @@
 #include "apps/study/table.h"
 
 #include "apps/study/page.h"
-#include "fathom/text/ascii.h"
+#include "fathom/text/csv.h"
 
 namespace fathom::studies {
 namespace {

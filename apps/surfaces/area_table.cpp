@@ -11,9 +11,9 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/surfaces/csv_field.h"
 #include "fathom/failures/errors.h"
 #include "fathom/text/ascii.h"
+#include "fathom/text/csv.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::app {
@@ -81,7 +81,7 @@ std::string AreaTable::beginning() const {
   if (form_.format == TableFormat::json) return "[";
   std::string line;
   for (const std::string& key : own_columns()) line += (line.empty() ? "" : ",") + key;
-  for (const std::string& column : columns_) line += "," + quoted(column);
+  for (const std::string& column : columns_) line += "," + text::csv_name(column);
   return line + "\n";
 }
 
@@ -107,14 +107,14 @@ std::string AreaTable::end() const {
 
 std::string AreaTable::as_csv(std::size_t light, const AreaItem& item, const LitArea& area) const {
   std::string line = fmt::format(
-      "{},{},{},{},{},{},{},{},{},{},{}", light, quoted(item.name), name_of(form_.kind),
+      "{},{},{},{},{},{},{},{},{},{},{}", light, text::csv_name(item.name), name_of(form_.kind),
       item.number, field_of(item.object), field_of(item.face), area.side ? name_of(*area.side) : "",
       field_of(area.projected), field_of(area.visible), field_of(area.fraction), area.lit);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     line += area.centroid ? fmt::format(",{}", (*area.centroid)[axis]) : ",";
   }
   if (!list_.lights.empty()) {
-    for (const std::string& field : list_.lights[light].fields) line += "," + quoted(field);
+    for (const std::string& field : list_.lights[light].fields) line += "," + text::csv_name(field);
   }
   return line + "\n";
 }

@@ -13,11 +13,11 @@
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
-#include "apps/surfaces/csv_field.h"
 #include "fathom/area/visible_areas.h"
 #include "fathom/failures/errors.h"
 #include "fathom/scene/triangle_source.h"
 #include "fathom/text/counted.h"
+#include "fathom/text/csv.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::app {
@@ -80,14 +80,14 @@ std::string figures(const VisibleArea& area) {
 std::string as_csv(const Answer& answer) {
   std::string text = "kind,number,object,name,face,visible,unoccluded,ratio\n";
   for (std::size_t i = 0; i < answer.areas.objects.size(); ++i) {
-    text += fmt::format("object,{},{},{},,{}\n", i, i, quoted(answer.scene.objects[i].name),
+    text += fmt::format("object,{},{},{},,{}\n", i, i, text::csv_name(answer.scene.objects[i].name),
                         figures(answer.areas.objects[i]));
   }
   const TriangleSource source(answer.scene);
   for (std::size_t i = 0; i < answer.areas.triangles.size(); ++i) {
     const TriangleOrigin origin = source.origin(static_cast<std::uint32_t>(i));
     text += fmt::format("triangle,{},{},{},{},{}\n", i, origin.object,
-                        quoted(answer.scene.objects[origin.object].name), origin.face,
+                        text::csv_name(answer.scene.objects[origin.object].name), origin.face,
                         figures(answer.areas.triangles[i]));
   }
   return text;

@@ -1,4 +1,3 @@
-
 #include "fathom/image/directions.h"
 
 #include <algorithm>
@@ -15,11 +14,10 @@
 #include "fathom/image/files/direction_csv.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/text/ascii.h"
 #include "fathom/text/counted.h"
+#include "fathom/text/csv.h"
 #include "fathom/text/decimal.h"
 #include "fathom/text/printable.h"
-#include "fathom/text/text_cursor.h"
 
 namespace fathom::image {
 using namespace text;
@@ -39,15 +37,15 @@ bool is_heading(const std::vector<std::string_view>& fields) {
   });
 }
 
-double number_of(std::string_view field, const TextCursor& cursor) {
+double number_of(std::string_view field, const CsvReader& csv) {
   if (is_nan(field)) return std::numeric_limits<double>::quiet_NaN();
   const char* const end = field.data() + field.size();
   const DecimalResult<double> result = parse_decimal<double>(field.data(), end);
   if (result.fault == DecimalFault::overflow || result.fault == DecimalFault::not_finite)
-    cursor.fail("'" + printable(std::string(field)) +
-                "' is beyond the largest binary64 number, expected finite numbers");
+    csv.fail("'" + printable(std::string(field)) +
+             "' is beyond the largest binary64 number, expected finite numbers");
   if (result.fault != DecimalFault::none || result.end != end)
-    cursor.fail("expected a number, found '" + printable(std::string(field)) + "'");
+    csv.fail("expected a number, found '" + printable(std::string(field)) + "'");
   return result.value;
 }
 
@@ -55,19 +53,19 @@ double number_of(std::string_view field, const TextCursor& cursor) {
 
 std::vector<double> numbers_of_csv(std::string_view text, std::uint64_t pixels,
                                    const std::string& name) {
-  TextCursor cursor(text, name, {});
+  CsvReader csv(text, name);
   std::vector<double> numbers;
   // A line has at least 6 characters.
   numbers.reserve(3 * std::min<std::uint64_t>(pixels, text.size() / 5 + 1));
   bool may_be_heading = true;
-  for (; cursor.next_line_with_words(); cursor.skip_line()) {
-    const std::vector<std::string_view> fields = comma_fields(cursor.rest_of_line());
+  while (csv.next_line()) {
+    const std::vector<std::string_view> fields = csv.fields();
     if (std::exchange(may_be_heading, false) && is_heading(fields)) continue;
-    if (fields.size() != 3) cursor.fail("expected x,y,z, found " + counted(fields.size(), "field"));
+    if (fields.size() != 3) csv.fail("expected x,y,z, found " + counted(fields.size(), "field"));
     if (numbers.size() == 3 * pixels)
-      cursor.fail("more than the " + std::to_string(pixels) +
-                  " directions of the image, expected one line for each pixel");
-    for (const std::string_view field : fields) numbers.push_back(number_of(field, cursor));
+      csv.fail("more than the " + std::to_string(pixels) +
+               " directions of the image, expected one line for each pixel");
+    for (const std::string_view field : fields) numbers.push_back(number_of(field, csv));
   }
   if (numbers.size() != 3 * pixels)
     throw InputError(name + ": has " + counted(numbers.size() / 3, "direction") +
