@@ -35,12 +35,13 @@ class MapTogether {
       : job_(job),
         ranks_(job.ranks),
         camera_(camera),
+        options_(job.plan.rendering_for(camera)),
         outputs_(outputs),
         number_(number),
         traffic_(traffic),
         report_(report),
         tiles_(tiles_of(camera)),
-        drawing_(job, camera, traffic),
+        drawing_(job, camera, options_, traffic),
         chunks_(job.memory.chunk_bytes) {}
 
   void make(const std::function<void(double)>& progress) {
@@ -113,8 +114,7 @@ class MapTogether {
     for (const MatteKind& by : job_.plan.mattes) {
       Mattes mattes;
       together(ranks_, [&] {
-        mattes = fathom::find_mattes(job_.scene.outline(), camera_, job_.plan.rendering, by,
-                                     share_of(ranks_));
+        mattes = fathom::find_mattes(job_.scene.outline(), camera_, options_, by, share_of(ranks_));
       });
       gather_rows(ranks_, camera_.width, mattes.counts, mattes.shares, traffic_.of_pixels);
       // Only the empty name is not one of all ranks.
@@ -128,7 +128,7 @@ class MapTogether {
     constexpr std::uint64_t bytes_per_value = 8;
     // What has been drawn, what came, and its messages.
     const std::uint64_t bytes_of_row = 4 * std::uint64_t{camera_.width} * tiles_.side *
-                                       count_parts(job_.plan.rendering.channels) * bytes_per_value;
+                                       count_parts(options_.channels) * bytes_per_value;
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
         job_.memory.row_bytes / bytes_of_row, 1, std::max(1U, tiles_.rows)));
   }
@@ -156,7 +156,7 @@ class MapTogether {
 
   /// Adds the texts of the header.
   void describe(DepthMap& map) const {
-    finish_map(map, job_.scene.outline(), camera_, job_.plan.rendering, report_.statistics);
+    finish_map(map, job_.scene.outline(), camera_, options_, report_.statistics);
     const MotionOptions& motion = job_.arguments.render.motion;
     motion.describe(map, motion.time_or_start());
   }
@@ -176,9 +176,8 @@ class MapTogether {
     const auto mattes = [found = mattes_.begin()](const MatteKind&) mutable {
       return std::move(*found++);
     };
-    add_planned(map_, plan, name,
-                {job_.scene.triangles(), camera_, plan.rendering, render_again, mattes}, report_,
-                job_.console);
+    add_planned(map_, plan, name, {job_.scene.triangles(), camera_, options_, render_again, mattes},
+                report_, job_.console);
     map_ = dressed(std::move(map_));
     outputs_->map(number_).write(
         [&](const auto& path) { write_map(map_, path, plan.format, plan.writing); });
@@ -215,6 +214,7 @@ class MapTogether {
   const JobTogether& job_;
   const Ranks& ranks_;
   const Camera& camera_;
+  RenderOptions options_;
   RenderOutputs* outputs_;
   std::size_t number_;
   MapTraffic& traffic_;

@@ -28,21 +28,23 @@
 
 namespace fathom::app {
 
-TilesTogether::TilesTogether(const JobTogether& job, const Camera& camera, MapTraffic& traffic)
+TilesTogether::TilesTogether(const JobTogether& job, const Camera& camera,
+                             const RenderOptions& options, MapTraffic& traffic)
     : job_(job),
       ranks_(job.ranks),
       camera_(camera),
+      options_(options),
       traffic_(traffic),
       triangles_(job.scene.triangles()),
       own_(job.scene.part_of(job.ranks)) {}
 
 void TilesTogether::draw(const std::function<void(double)>& progress) {
   together(ranks_, [&] {
-    drawing_.emplace(triangles_, camera_, job_.plan.rendering,
+    drawing_.emplace(triangles_, camera_, options_,
                      TilesInRounds::Limits{.tile_bytes = job_.memory.tile_bytes,
                                            .kept_bytes = job_.memory.kept_bytes});
   });
-  const bool is_one_round = ranks_.greatest(own_.count()) <= job_.memory.triangles_at_once;
+  const bool is_one_round = ranks_.greatest(own_.count()) <= triangles_at_once();
   std::optional<SortedTriangles> all;
   if (is_one_round) {
     all = deal_out_by_all();
@@ -50,8 +52,8 @@ void TilesTogether::draw(const std::function<void(double)>& progress) {
     deal_out_by_sample();
   }
   together(ranks_, [&] {
-    TriangleMail mail(ranks_, job_.memory.waiting_bytes, traffic_.of_triangles,
-                      [&](std::vector<SomeTriangles> received) {
+    TriangleMail mail(ranks_, job_.memory.waiting_bytes / drawing_->view_count(),
+                      traffic_.of_triangles, [&](std::vector<SomeTriangles> received) {
                         draw(drawing_->sort_again(std::move(received)));
                       });
     if (all) {
@@ -80,7 +82,7 @@ SortedTriangles TilesTogether::deal_out_by_all() {
 void TilesTogether::deal_out_by_sample() {
   constexpr std::uint64_t places = 64;
   std::vector<std::uint64_t> counts(tiles_of(camera_).count(), 0);
-  const std::uint64_t length = std::max<std::uint64_t>(1, job_.memory.triangles_at_once / places);
+  const std::uint64_t length = std::max<std::uint64_t>(1, triangles_at_once() / places);
   std::uint64_t taken = 0;
   together(ranks_, [&] {
     std::vector<SomeTriangles> sample;
@@ -110,7 +112,7 @@ void TilesTogether::deal_out_tiles(std::vector<std::uint64_t> triangles) {
 // Each rank works at its own pace and draws received triangles between rounds.
 void TilesTogether::draw_in_rounds(TriangleMail& mail,
                                    const std::function<void(double)>& progress) {
-  const std::uint64_t at_once = job_.memory.triangles_at_once;
+  const std::uint64_t at_once = triangles_at_once();
   for (std::uint64_t next = 0; next < own_.count() && !mail.is_given_up(); next += at_once) {
     draw_read(drawing_->sort(job_.scene.read(own_.part(next, at_once))), mail);
     // Drawing takes most of the time. Writing is assumed to take a tenth.
@@ -144,6 +146,10 @@ void TilesTogether::draw(const SortedTriangles& sorted) {
   traffic_.drawing += stopwatch.lap();
   if (!job_.arguments.traffic.empty())
     traffic_.drawn += sorted.count_triangles([&](std::uint32_t tile) { return is_own(tile); });
+}
+
+std::uint32_t TilesTogether::triangles_at_once() const {
+  return std::max(1U, job_.memory.triangles_at_once / drawing_->view_count());
 }
 
 bool TilesTogether::is_own(std::uint32_t tile) const {

@@ -34,7 +34,8 @@ struct JobTogether {
 class TilesTogether {
  public:
   /// `traffic` counts sent bytes and the time in which this rank draws. All arguments outlive it.
-  TilesTogether(const JobTogether& job, const Camera& camera, MapTraffic& traffic);
+  TilesTogether(const JobTogether& job, const Camera& camera, const RenderOptions& options,
+                MapTraffic& traffic);
 
   /// Draws the scene. Called by all ranks.
   void draw(const std::function<void(double)>& progress);
@@ -52,12 +53,15 @@ class TilesTogether {
   void draw_in_rounds(TriangleMail& mail, const std::function<void(double)>& progress);
 
   [[nodiscard]] bool is_own(std::uint32_t tile) const;
+  /// Triangles of a round: each view of a lens sorts them.
+  [[nodiscard]] std::uint32_t triangles_at_once() const;
   void draw_read(const SortedTriangles& sorted, TriangleMail& mail);
   void draw(const SortedTriangles& sorted);
 
   const JobTogether& job_;
   const Ranks& ranks_;
   const Camera& camera_;
+  const RenderOptions& options_;
   MapTraffic& traffic_;
   TriangleSource triangles_;
   /// What this rank reads.

@@ -14,6 +14,7 @@
 #include "tests/engines/expect_same_map.h"
 #include "tests/inputs/adversarial_scenes.h"
 #include "tests/inputs/soup.h"
+#include "tests/inputs/tables_of_directions.h"
 
 namespace fathom {
 namespace {
@@ -228,6 +229,52 @@ TEST(TilesInRounds, PlacedObjects) {
   EXPECT_GT(statistics.areas_with_exact_ends, 100U);
   for (const Plan& plan : plans)
     expect_same_map(render_in_places(scene, camera, options, plan, random), truth);
+}
+
+RenderOptions lens_channels() {
+  RenderOptions options;
+  options.channels = testing::every_channel;
+  std::erase(options.channels, Channel::A);
+  options.channels.push_back(Channel::valid);
+  return options;
+}
+
+/// A lens of one view, lenses of several, one that folds within the image, and rays so far from the
+/// axis that no window holds them.
+TEST(TilesInRounds, OfLenses) {
+  std::mt19937_64 random(507);
+  for (const Lens& lens :
+       {Lens{LensModel::opencv, {-0.2, 0.05, 0.001}}, Lens{LensModel::division, {-2}},
+        Lens{LensModel::fisheye_stereographic}, Lens{LensModel::simple_radial, {-0.9}},
+        Lens{LensModel::simple_radial, {0x1p-1000}}}) {
+    SCOPED_TRACE(name_of(lens.model));
+    Camera camera = testing::camera_of(160, 140, 64);
+    camera.projection.lens = lens;
+    const bool is_too_far = lens.distortion[0] == 0x1p-1000;
+    if (is_too_far) {
+      camera.width = 70;
+      camera.height = 3;
+      camera.projection.fx = camera.projection.fy = 0x1p-660;
+    }
+    for (const Plan& plan : plans) {
+      const Scene scene = testing::soup(random, is_too_far ? 20 : 400 / testing::effort, false);
+      RenderOptions options = lens_channels();
+      if (plan.places == 2) options.cull = Cull::back;
+      expect_same_map(render_in_places(scene, camera, options, plan, random),
+                      render_fast(scene, camera, options).map);
+    }
+  }
+}
+
+TEST(TilesInRounds, OfATableOfDirections) {
+  std::mt19937_64 random(508);
+  const Camera camera = testing::with_table(testing::camera_of(100, 70, 64),
+                                            testing::DirectionMaker(508).numbers(7000));
+  for (const Plan& plan : plans) {
+    const Scene scene = testing::soup(random, 200 / testing::effort, false);
+    expect_same_map(render_in_places(scene, camera, lens_channels(), plan, random),
+                    render_fast(scene, camera, lens_channels()).map);
+  }
 }
 
 TEST(TilesInRounds, Adversaries) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -68,23 +69,12 @@ class Gathered {
   std::uint32_t first_number_;
 };
 
-/// Calls visit(number) for the tiles of the window that an area meets.
-template <class Visit>
-void for_each_tile(const PixelBox& area, const TileGrid& grid, const Visit& visit) {
-  for (std::uint32_t row = area.first_row / Tile::size; row <= area.last_row / Tile::size; ++row) {
-    for (std::uint32_t column = area.first_column / Tile::size;
-         column <= area.last_column / Tile::size; ++column) {
-      visit(row * grid.columns + column);
-    }
-  }
-}
-
 void draw_side(LensTile& tile, Side side, const WindowScene& scene,
                std::vector<std::uint64_t>& taken, const LensContext& context) {
   const DrawContext& window = context.window;
   Gathered gathered(window.visible.entries(), taken, scene.first_number);
-  for_each_tile(tile.where().area, scene.grid,
-                [&](std::uint32_t number) { gathered.add(scene.bins, number, side); });
+  scene.grid.for_each_tile(tile.where().area,
+                           [&](std::uint32_t number) { gathered.add(scene.bins, number, side); });
   if (side == Side::back && window.switches.early_rejection)
     gathered.leave_out_behind(tile.farthest());
   window.visible.for_each_part(tile.tile(), false, [&](std::span<const std::uint32_t> numbers) {
@@ -97,8 +87,36 @@ void draw_side(LensTile& tile, Side side, const WindowScene& scene,
 
 }  // namespace
 
+ViewDrawing::ViewDrawing(const TriangleSource& triangles, const Camera& camera,
+                         const RenderOptions& options, const Places& the_places,
+                         const Places::View& the_view, bool keeps_memory)
+    : places(the_places),
+      view(the_view),
+      window(camera, view),
+      frame(window.camera, options, keeps_memory),
+      rays(triangles, window.camera),
+      workers([this, &triangles] { return FastWorker(triangles, window.camera, rays); }),
+      sorting_again([this, &triangles] { return FastWorker(triangles, window.camera, rays); }) {
+  frame.by_area = true;  // samples lie anywhere in a window's pixels
+  frame.range = window.range;
+}
+
+PixelBox ViewDrawing::area_of_tile(std::uint32_t tile) const {
+  if (view.boxes[tile].is_empty()) return {};
+  return TileInWindow(window, {{}, {}, view.errors[tile], view.boxes[tile], true}).area;
+}
+
+void ViewDrawing::start(LensTile& lens_tile, Tile& tile, std::uint32_t number,
+                        Places::Room& room) const {
+  const Places::OfTile of_tile = places.of_tile(view, number, room);
+  lens_tile.start(tile, of_tile, TileInWindow(window, of_tile));
+}
+
 void draw_lens_tile(LensTile& tile, const WindowScene& scene, std::vector<std::uint64_t>& taken,
                     const LensContext& context) {
+  const std::size_t triangles =
+      scene.objects.empty() ? 0 : scene.objects.back().end_number() - scene.first_number;
+  if (taken.size() * 64 < triangles) taken.resize(triangles / 64 + 1, 0);
   draw_side(tile, Side::front, scene, taken, context);
   tile.begin_back_faces();
   draw_side(tile, Side::back, scene, taken, context);
@@ -106,19 +124,20 @@ void draw_lens_tile(LensTile& tile, const WindowScene& scene, std::vector<std::u
 
 bool is_met(const PixelBox& area, const WindowScene& scene) {
   bool met = false;
-  for_each_tile(area, scene.grid,
-                [&](std::uint32_t number) { met = met || is_met(scene.bins, number); });
+  scene.grid.for_each_tile(area,
+                           [&](std::uint32_t number) { met = met || is_met(scene.bins, number); });
   return met;
 }
 
-void write_valid(const Places& places, const TileGrid& image, std::uint32_t* valid) {
+void write_valid(const Places& places, const TileGrid& image, std::uint32_t first,
+                 std::uint32_t end, const MapLayout& layout, std::uint32_t* valid) {
   if (valid == nullptr) return;
-  parallel_for(std::uint32_t{0}, image.count(), [&](std::uint32_t tile) {
+  parallel_for(first, end, [&](std::uint32_t tile) {
     const PixelBox area = image.area(tile);
     for (std::uint32_t row = area.first_row; row <= area.last_row; ++row) {
       for (std::uint32_t column = area.first_column; column <= area.last_column; ++column) {
         const std::size_t i = Tile::index(column - area.first_column, row - area.first_row);
-        valid[std::size_t{row} * image.width + column] = places.has_ray(tile, i) ? 1 : 0;
+        valid[layout.pixel(column, row)] = places.has_ray(tile, i) ? 1 : 0;
       }
     }
   });
@@ -140,7 +159,12 @@ Rendered write_ray_by_ray(const TriangleSource& triangles, const Camera& camera,
   RenderStatistics statistics;
   statistics.triangles = triangles.count();
   FirstFault fault;
-  RayByRay{triangles, camera, options.cull, places.preimages()}.write(writer, statistics, fault);
+  const RayByRay rays(triangles, camera, options.cull, places.preimages());
+  std::vector<std::uint32_t> all(triangles.count());
+  std::iota(all.begin(), all.end(), 0);
+  rays.count(all, statistics);
+  rays.write({0, camera.width - 1, 0, camera.height - 1}, {camera.width}, writer, statistics,
+             fault);
   if (fault.get()) fail(*fault.get(), map);
   return {std::move(map), statistics, {}};
 }
@@ -184,7 +208,8 @@ class LensImage {
         places_(places),
         memory_(memory),
         image_(camera.width, camera.height),
-        workers_([&] { return LensWorker(triangles, camera, writer, triangles.count()); }),
+        workers_([&] { return LensWorker(triangles, camera); }),
+        outputs_([&] { return LensOutput(writer, {camera.width}); }),
         progress_(context.progress, image_.count() * places.views().size()) {}
 
   void draw(const Places::View& view);
@@ -194,8 +219,7 @@ class LensImage {
   [[nodiscard]] const FirstFault& fault() const { return fault_; }
 
  private:
-  void draw_tile(std::uint32_t number, const Places::View& view, const Window& window,
-                 const WindowScene& scene, const DrawContext& context);
+  void draw_tile(std::uint32_t number, ViewDrawing& drawing, const WindowScene& scene);
 
   const TriangleSource& triangles_;
   const Camera& camera_;
@@ -205,42 +229,36 @@ class LensImage {
   RenderMemory::Parts& memory_;
   TileGrid image_;
   PerThread<LensWorker> workers_;
+  PerThread<LensOutput> outputs_;
   Progress progress_;
   FirstFault fault_;
   Rendered counted_;
 };
 
 void LensImage::draw(const Places::View& view) {
-  const Window window(camera_, view);
-  FastFrame frame(window.camera, options_, context_.kept != nullptr);
-  frame.by_area = true;  // samples lie anywhere in a window's pixels
-  frame.range = window.range;
-  const SceneRays rays(triangles_, window.camera);
-  FastWorkers workers([&] { return FastWorker(triangles_, window.camera, rays); });
+  ViewDrawing drawing(triangles_, camera_, options_, places_, view, context_.kept != nullptr);
   const ImageObjects objects =
-      image_objects(triangles_, window.camera, context_.kept ? &memory_.vertices : nullptr);
+      image_objects(triangles_, drawing.window.camera, context_.kept ? &memory_.vertices : nullptr);
   memory_.vertices.forget();
   const std::vector<Bins>& bins = memory_.bins =
       sort_into_tiles(objects, 0, static_cast<std::uint32_t>(triangles_.count()), parts_of_scene,
-                      frame, workers, std::move(memory_.bins));
-  const WindowScene scene{objects, bins, frame.grid, 0};
+                      drawing.frame, drawing.workers, std::move(memory_.bins));
+  const WindowScene scene{objects, bins, drawing.frame.grid, 0};
   parallel_for(std::uint32_t{0}, image_.count(), [&](std::uint32_t number) {
-    if (!view.boxes[number].is_empty())
-      draw_tile(number, view, window, scene, frame.context(workers.local()));
+    if (!view.boxes[number].is_empty()) draw_tile(number, drawing, scene);
     progress_.part_done();
   });
-  add_view(counted_, workers, triangles_, camera_);
+  add_view(counted_, drawing.workers, triangles_, camera_);
 }
 
-void LensImage::draw_tile(std::uint32_t number, const Places::View& view, const Window& window,
-                          const WindowScene& scene, const DrawContext& context) {
+void LensImage::draw_tile(std::uint32_t number, ViewDrawing& drawing, const WindowScene& scene) {
   LensWorker& worker = workers_.local();
-  const LensContext lens{context, worker.referee, places_.preimages(), window.axes};
-  const Places::OfTile of_tile = places_.of_tile(view, number, *worker.places);
-  LensTile& tile = *worker.tile;
-  tile.start(image_.area(number), of_tile, TileInWindow(window, of_tile));
-  draw_lens_tile(tile, scene, worker.taken, lens);
-  fault_.add(worker.output.write(tile, lens));
+  const DrawContext window = drawing.context();
+  const LensContext context = drawing.context_of(window, worker);
+  worker.samples->start(image_.area(number));
+  drawing.start(*worker.tile, *worker.samples, number, *worker.places);
+  draw_lens_tile(*worker.tile, scene, worker.taken, context);
+  fault_.add(outputs_.local().write(*worker.tile, context));
 }
 
 Rendered render_in_windows(const Scene& scene, const Camera& camera, const RenderOptions& options,
@@ -249,7 +267,8 @@ Rendered render_in_windows(const Scene& scene, const Camera& camera, const Rende
   const TriangleSource triangles(scene);
   DepthMap map = make_background(camera, options, context, std::move(before));
   ChannelWriter writer(map, triangles, camera, options);
-  write_valid(places, {camera.width, camera.height}, writer.values().valid);
+  const TileGrid grid(camera.width, camera.height);
+  write_valid(places, grid, 0, grid.count(), {camera.width}, writer.values().valid);
   LensImage image(triangles, camera, options, context, places, memory, writer);
   for (const Places::View& view : places.views()) image.draw(view);
   if (image.fault().get()) fail(*image.fault().get(), map);
@@ -279,13 +298,13 @@ constexpr std::uint32_t parts_of_chunk = 8;
 
 /// A tile of a lens that waits for further triangles.
 struct WaitingTile {
-  WaitingTile(const Window& window, const Places& places, const Places::View& view,
-              const TileGrid& image, std::uint32_t number) {
-    const Places::OfTile of_tile = places.of_tile(view, number, room);
-    tile.start(image.area(number), of_tile, TileInWindow(window, of_tile));
+  WaitingTile(const ViewDrawing& drawing, const TileGrid& image, std::uint32_t number) {
+    samples.start(image.area(number));
+    drawing.start(tile, samples, number, room);
   }
 
   Places::Room room;
+  Tile samples;
   LensTile tile;
 };
 constexpr std::uint64_t bytes_of_tile = sizeof(WaitingTile) + Tile::most_packed_bytes;
@@ -299,6 +318,7 @@ struct StreamedImage {
   const Places& places;
   TileGrid grid;
   PerThread<LensWorker>& workers;
+  PerThread<LensOutput>& outputs;
   FirstFault& fault;
 };
 
@@ -306,16 +326,7 @@ struct StreamedImage {
 class StreamedView {
  public:
   StreamedView(const StreamedImage& image, const Places::View& view)
-      : image_(image),
-        view_(view),
-        window_(image.camera, view),
-        frame_(window_.camera, image.options),
-        rays_(image.triangles, window_.camera),
-        workers_([this] { return FastWorker(image_.triangles, window_.camera, rays_); }),
-        sorting_again_([this] { return FastWorker(image_.triangles, window_.camera, rays_); }) {
-    frame_.by_area = true;  // samples lie anywhere in a window's pixels
-    frame_.range = window_.range;
-  }
+      : image_(image), drawing_(image.triangles, image.camera, image.options, image.places, view) {}
 
   /// Draws and writes rows [first_row, end_row) of tiles; the first of them counts triangles.
   void draw(std::uint32_t first_row, std::uint32_t end_row) {
@@ -323,49 +334,41 @@ class StreamedView {
     std::vector<std::unique_ptr<WaitingTile>> tiles((end_row - first_row) * image_.grid.columns);
     image_.triangles.for_each_part(
         image_.limits.triangles_at_once, [&](const TriangleSource::Part& part) {
-          draw_part(part, first, tiles, first_row == 0 ? workers_ : sorting_again_);
+          draw_part(part, first, tiles, first_row == 0 ? drawing_.workers : drawing_.sorting_again);
         });
     parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
       if (!tiles[i]) return;
-      const DrawContext context = frame_.context(workers_.local());
-      image_.fault.add(image_.workers.local().output.write(tiles[i]->tile, lens_of(context)));
+      const DrawContext context = drawing_.context();
+      image_.fault.add(image_.outputs.local().write(
+          tiles[i]->tile, drawing_.context_of(context, image_.workers.local())));
     });
   }
-  [[nodiscard]] const FastWorkers& workers() const { return workers_; }
+  [[nodiscard]] const FastWorkers& workers() const { return drawing_.workers; }
 
  private:
-  [[nodiscard]] LensContext lens_of(const DrawContext& context) const {
-    return {context, image_.workers.local().referee, image_.places.preimages(), window_.axes};
-  }
-
   void draw_part(const TriangleSource::Part& part, std::uint32_t first,
                  std::vector<std::unique_ptr<WaitingTile>>& tiles, FastWorkers& sorting) {
     ImageObjects objects;
-    objects.emplace_back(part.object, part.mesh, window_.camera, part.first_number);
-    const std::vector<Bins> bins = sort_into_tiles(
-        objects, part.first_number, objects.front().end_number(), parts_of_chunk, frame_, sorting);
-    const WindowScene scene{objects, bins, frame_.grid, part.first_number};
+    objects.emplace_back(part.object, part.mesh, drawing_.window.camera, part.first_number);
+    const std::vector<Bins> bins =
+        sort_into_tiles(objects, part.first_number, objects.front().end_number(), parts_of_chunk,
+                        drawing_.frame, sorting);
+    const WindowScene scene{objects, bins, drawing_.frame.grid, part.first_number};
     parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
       const std::uint32_t number = first + static_cast<std::uint32_t>(i);
-      if (view_.boxes[number].is_empty()) return;
-      if (!tiles[i])
-        tiles[i] =
-            std::make_unique<WaitingTile>(window_, image_.places, view_, image_.grid, number);
+      if (drawing_.view.boxes[number].is_empty()) return;
+      if (!tiles[i]) tiles[i] = std::make_unique<WaitingTile>(drawing_, image_.grid, number);
       LensTile& tile = tiles[i]->tile;
       if (!is_met(tile.where().area, scene)) return;
-      const DrawContext context = frame_.context(workers_.local());
-      draw_lens_tile(tile, scene, image_.workers.local().taken, lens_of(context));
+      const DrawContext context = drawing_.context();
+      LensWorker& worker = image_.workers.local();
+      draw_lens_tile(tile, scene, worker.taken, drawing_.context_of(context, worker));
       tile.tile().pack();
     });
   }
 
   const StreamedImage& image_;
-  const Places::View& view_;
-  Window window_;
-  FastFrame frame_;
-  SceneRays rays_;
-  /// Those of the second sort triangles again, which their statistics would count twice.
-  FastWorkers workers_, sorting_again_;
+  ViewDrawing drawing_;
 };
 
 /// Rows of tiles of a band: as many as fit into the memory, at least one.
@@ -386,11 +389,12 @@ Rendered render_lens_streamed(const StreamedScene& scene, const Camera& camera,
     return write_ray_by_ray(triangles, camera, options, std::move(map), places);
   ChannelWriter writer(map, triangles, camera, options);
   const TileGrid grid(camera.width, camera.height);
-  write_valid(places, grid, writer.values().valid);
-  PerThread<LensWorker> workers(
-      [&] { return LensWorker(triangles, camera, writer, limits.triangles_at_once); });
+  write_valid(places, grid, 0, grid.count(), {camera.width}, writer.values().valid);
+  PerThread<LensWorker> workers([&] { return LensWorker(triangles, camera); });
+  PerThread<LensOutput> outputs([&] { return LensOutput(writer, {camera.width}); });
   FirstFault fault;
-  const StreamedImage image{triangles, camera, options, limits, places, grid, workers, fault};
+  const StreamedImage image{triangles, camera,  options, limits, places,
+                            grid,      workers, outputs, fault};
   Progress progress(context.progress, grid.rows * places.views().size());
   Rendered rendered;
   for (const Places::View& each : places.views()) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "fathom/fast/channels/resolve.h"
 #include "fathom/fast/lenses/lens_output.h"
 #include "fathom/fast/lenses/lens_tile.h"
 #include "fathom/fast/lenses/places.h"
@@ -15,26 +16,49 @@
 #include "fathom/triangle/channels.h"
 #include "fathom/triangle/referee.h"
 
-/// What images of lenses are drawn with, whether their scene is in memory or in files.
+/// What images of lenses are drawn with, wherever their scenes are.
 namespace fathom::fast {
 
 /// A thread's tools for lenses; those for the window are its FastWorker.
 struct LensWorker {
-  /// For so many triangles at once.
-  LensWorker(const TriangleSource& triangles, const Camera& camera, triangle::ChannelWriter& writer,
-             std::uint64_t count)
+  LensWorker(const TriangleSource& triangles, const Camera& camera)
       : referee(triangles, camera),
+        samples(std::make_unique<Tile>()),
         tile(std::make_unique<LensTile>()),
-        places(std::make_unique<Places::Room>()),
-        output(writer, camera.width),
-        taken(count / 64 + 1, 0) {}
+        places(std::make_unique<Places::Room>()) {}
 
   triangle::RayReferee referee;
+  std::unique_ptr<Tile> samples;
   std::unique_ptr<LensTile> tile;
   std::unique_ptr<Places::Room> places;
-  LensOutput output;
   /// A bit for each triangle: whether it is among those of the tile.
   std::vector<std::uint64_t> taken;
+};
+
+/// What all threads draw one view of a lens with.
+struct ViewDrawing {
+  ViewDrawing(const TriangleSource& triangles, const Camera& camera, const RenderOptions& options,
+              const Places& places, const Places::View& view, bool keeps_memory = false);
+
+  /// The pixels of the window in which the samples of a tile of the image lie; nothing if the view
+  /// holds none of them.
+  [[nodiscard]] PixelBox area_of_tile(std::uint32_t tile) const;
+  [[nodiscard]] DrawContext context() { return frame.context(workers.local()); }
+  [[nodiscard]] LensContext context_of(const DrawContext& context_of_window,
+                                       LensWorker& worker) const {
+    return {context_of_window, worker.referee, places.preimages(), window.axes};
+  }
+  /// Has a tile of the image, which is empty or has been drawn into, drawn in this view. The places
+  /// are valid as long as the room is not used again.
+  void start(LensTile& lens_tile, Tile& tile, std::uint32_t number, Places::Room& room) const;
+
+  const Places& places;
+  const Places::View& view;
+  Window window;
+  FastFrame frame;
+  triangle::SceneRays rays;
+  /// Those of the second sort triangles again, which their statistics would count twice.
+  FastWorkers workers, sorting_again;
 };
 
 /// Triangles in the window, for all threads; the least of their numbers is `first_number`, or more.
@@ -53,8 +77,9 @@ void draw_lens_tile(LensTile& tile, const WindowScene& scene, std::vector<std::u
 /// Whether a triangle may meet an area of the window.
 bool is_met(const PixelBox& area, const WindowScene& scene);
 
-/// Writes which pixels have a ray, if `valid` is asked for.
-void write_valid(const Places& places, const TileGrid& image, std::uint32_t* valid);
+/// Writes which pixels of the tiles first ≤ tile < end have a ray, if `valid` is asked for.
+void write_valid(const Places& places, const TileGrid& image, std::uint32_t first,
+                 std::uint32_t end, const MapLayout& layout, std::uint32_t* valid);
 
 /// Adds the statistics and the doubtful pixels of a view. Triangles are counted in the first view
 /// only: they are the same in each.

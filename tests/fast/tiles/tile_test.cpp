@@ -218,7 +218,7 @@ TEST(Tile, PackedIsWithinItsPlaceWhereTheListIsFull) {
     tile.pack();
     EXPECT_LE(tile.bytes(), Tile::most_packed_bytes);
     files::Bytes saved;
-    save(tile, saved);
+    save(tile, SamplesLie::at_pixels, saved);
     EXPECT_LE(saved.size(), Tile::most_packed_bytes);
   }
 }
@@ -265,14 +265,14 @@ TEST(Tile, ComesBackFromAFileAsItWas) {
   EXPECT_GT(shown_once(tile), 100U);
   EXPECT_GT(tile.end_of_places(), shown_once(tile) + 100);
   files::Bytes saved;
-  save(tile, saved);
+  save(tile, SamplesLie::at_pixels, saved);
   Tile back;
   back.start(tile.area());
   restore(
       [&](std::uint64_t offset, std::span<std::byte> to) {
         std::ranges::copy(files::ByteView(saved).subspan(offset, to.size()), to.begin());
       },
-      back);
+      SamplesLie::at_pixels, back);
   EXPECT_EQ(back.end_of_places(), tile.end_of_places());
   EXPECT_EQ(back.end_of_front(), tile.end_of_front());
   for (std::size_t i = 0; i < Tile::samples; ++i) {

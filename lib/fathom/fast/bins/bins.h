@@ -7,6 +7,7 @@
 
 #include "fathom/fast/bins/boxes.h"
 #include "fathom/fast/bins/nearness.h"
+#include "fathom/fast/bins/tile_shape.h"
 #include "fathom/fast/vertices/vertex.h"
 #include "fathom/triangle/referee.h"
 
@@ -20,6 +21,15 @@ struct TileGrid {
   [[nodiscard]] PixelBox area(std::uint32_t tile) const;
   /// The tile of a pixel.
   [[nodiscard]] std::uint32_t tile_at(std::uint32_t column, std::uint32_t row) const;
+  /// Calls visit(number) for the tiles that an area meets.
+  template <class Visit>
+  void for_each_tile(const PixelBox& area, const Visit& visit) const {
+    if (area.is_empty()) return;
+    constexpr std::uint32_t size = TileShape::size;
+    for (std::uint32_t row = area.first_row / size; row <= area.last_row / size; ++row)
+      for (std::uint32_t k = area.first_column / size; k <= area.last_column / size; ++k)
+        visit(row * columns + k);
+  }
 
   std::uint32_t width, height;  // of the image
   std::uint32_t columns, rows;

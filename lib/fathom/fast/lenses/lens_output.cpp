@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "fathom/fast/channels/map_rows.h"
 #include "fathom/fast/lanes/each_bit.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/referee.h"
@@ -33,9 +32,9 @@ bool has_triangle_channels(const rendering::ChannelValues& values) {
 
 }  // namespace
 
-LensOutput::LensOutput(ChannelWriter& writer, std::uint32_t width)
+LensOutput::LensOutput(ChannelWriter& writer, const MapLayout& layout)
     : writer_(writer),
-      width_(width),
+      layout_(layout),
       needs_exact_rays_(need_exact_rays(writer.values())),
       along_rays_(writer.values()),
       others_(has_triangle_channels(writer.values())) {}
@@ -70,17 +69,22 @@ void LensOutput::write_depths(const PixelBox& area) const {
       const std::size_t i = Tile::index(column, row - area.first_row);
       std::copy_n(rounded_.depths.data() + i, Tile::cell, values.data() + column);
     }
-    MapRows().write(values, columns, depths + (std::size_t{row} * width_ + area.first_column));
+    MapRows().write(values, columns, depths + layout_.pixel(area.first_column, row));
   }
 }
 
+std::size_t LensOutput::pixel_of(const LensTile& tile, std::size_t i) const {
+  const PixelBox& area = tile.tile().area();
+  return layout_.pixel(area.first_column + Tile::column_of(i), area.first_row + Tile::row_of(i));
+}
+
 std::optional<EncodingFault> LensOutput::write_along_ray(const LensTile& tile, std::size_t i,
-                                                         std::size_t pixel,
                                                          const LensContext& context) const {
-  const auto ray = context.preimages.of_pixel(static_cast<std::uint32_t>(pixel % width_),
-                                              static_cast<std::uint32_t>(pixel / width_));
+  const PixelBox& area = tile.tile().area();
+  const auto ray = context.preimages.of_pixel(area.first_column + Tile::column_of(i),
+                                              area.first_row + Tile::row_of(i));
   const std::uint32_t number = tile.tile().surface_at(i).number();
-  return writer_.write(pixel, context.referee.projected(number), *ray);
+  return writer_.write(pixel_of(tile, i), context.referee.projected(number), *ray);
 }
 
 // The place (x, y) is the direction x·right + y·down + forward.
@@ -134,15 +138,14 @@ std::optional<EncodingFault> LensOutput::write(const LensTile& tile, const LensC
   for (std::size_t word = 0; word < rounded_.surface.size(); ++word) {
     for (const std::size_t k : EachBit(work_at(word, depths, statistics))) {
       const std::size_t i = 64 * word + k;
-      const std::size_t pixel = (std::size_t{area.first_row} + Tile::row_of(i)) * width_ +
-                                area.first_column + Tile::column_of(i);
+      const std::size_t pixel = pixel_of(tile, i);
       const bool from_q = depths == Depths::in_rows || depths == Depths::by_sample;
       const bool is_open = needs_exact_rays_ || (from_q && rounded_.is_open(i));
       if (is_open || (wanted.any() && !write_in_binary64(tile, i, pixel, wanted, context))) {
         ++statistics.rounding.exact;
         context.window.note_doubt(area.first_column + Tile::column_of(i),
                                   area.first_row + Tile::row_of(i));
-        auto found = write_along_ray(tile, i, pixel, context);
+        auto found = write_along_ray(tile, i, context);
         if (found && (!fault || found->pixel < fault->pixel)) fault = std::move(found);
       } else {
         ++statistics.rounding.interval;
@@ -177,23 +180,6 @@ std::uint64_t LensOutput::work_at(std::size_t word, Depths depths,
 
 namespace {
 
-/// The triangles that are kept; counts the others.
-std::vector<std::uint32_t> kept_triangles(const RayByRay& image, RenderStatistics& statistics) {
-  RayReferee referee(image.triangles, image.camera);
-  std::vector<std::uint32_t> kept;
-  for (std::uint32_t number = 0; number < image.triangles.count(); ++number) {
-    const ProjectedTriangle& t = referee.projected(number);
-    if (t.orientation == Sign::zero) {
-      ++statistics.degenerate_triangles;
-    } else if (!is_kept(t, image.cull)) {
-      ++statistics.culled_triangles;
-    } else {
-      kept.push_back(number);
-    }
-  }
-  return kept;
-}
-
 /// The visible triangle along a ray.
 std::optional<std::uint32_t> nearest_along(const lens::ExactDirection& d,
                                            const std::vector<std::uint32_t>& triangles,
@@ -211,19 +197,39 @@ std::optional<std::uint32_t> nearest_along(const lens::ExactDirection& d,
 
 }  // namespace
 
-void RayByRay::write(ChannelWriter& writer, RenderStatistics& statistics, FirstFault& fault) const {
-  const std::vector<std::uint32_t> kept = kept_triangles(*this, statistics);
-  std::vector<RenderStatistics> of_rows(camera.height);
-  parallel_for(std::uint32_t{0}, camera.height, [&](std::uint32_t row) {
-    RayReferee referee(triangles, camera);
-    for (std::uint32_t column = 0; column < camera.width; ++column) {
-      const std::size_t pixel = std::size_t{row} * camera.width + column;
-      const auto d = preimages.of_pixel(column, row);
+RayByRay::RayByRay(const TriangleSource& triangles, const Camera& camera, Cull cull,
+                   const lens::Preimages& preimages)
+    : triangles_(triangles), camera_(camera), preimages_(preimages) {
+  RayReferee referee(triangles, camera);
+  for (std::uint32_t number = 0; number < triangles.count(); ++number) {
+    const ProjectedTriangle& t = referee.projected(number);
+    if (t.orientation != Sign::zero && is_kept(t, cull)) kept_.push_back(number);
+  }
+}
+
+void RayByRay::count(std::span<const std::uint32_t> numbers, RenderStatistics& statistics) const {
+  RayReferee referee(triangles_, camera_);
+  for (const std::uint32_t number : numbers) {
+    if (std::ranges::binary_search(kept_, number)) continue;
+    const bool is_degenerate = referee.projected(number).orientation == Sign::zero;
+    ++(is_degenerate ? statistics.degenerate_triangles : statistics.culled_triangles);
+  }
+}
+
+void RayByRay::write(const PixelBox& area, const MapLayout& layout, ChannelWriter& writer,
+                     RenderStatistics& statistics, FirstFault& fault) const {
+  std::vector<RenderStatistics> of_rows(area.last_row - area.first_row + 1);
+  parallel_for(area.first_row, area.last_row + 1, [&](std::uint32_t row) {
+    RayReferee referee(triangles_, camera_);
+    RenderStatistics& of_row = of_rows[row - area.first_row];
+    for (std::uint32_t column = area.first_column; column <= area.last_column; ++column) {
+      const std::size_t pixel = layout.pixel(column, row);
+      const auto d = preimages_.of_pixel(column, row);
       if (std::uint32_t* const valid = writer.values().valid) valid[pixel] = d ? 1 : 0;
       if (!d) continue;
-      const auto nearest = nearest_along(*d, kept, referee, of_rows[row]);
+      const auto nearest = nearest_along(*d, kept_, referee, of_row);
       if (!nearest) continue;
-      ++of_rows[row].pixels_with_surface;
+      ++of_row.pixels_with_surface;
       fault.add(writer.write(pixel, referee.projected(*nearest), *d));
     }
   });

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "fathom/fast/channels/map_rows.h"
 #include "fathom/fast/channels/resolve.h"
 #include "fathom/fast/lenses/lens_tile.h"
 #include "fathom/lens/preimages.h"
@@ -16,7 +19,7 @@ namespace fathom::fast {
 /// Writes tiles of a lens to a map that has its background. One for each thread.
 class LensOutput {
  public:
-  LensOutput(triangle::ChannelWriter& writer, std::uint32_t width);
+  LensOutput(triangle::ChannelWriter& writer, const MapLayout& layout);
 
   /// Writes all that the tile shows but `valid`. Returns the fault of the first pixel in row order
   /// that has one.
@@ -26,8 +29,9 @@ class LensOutput {
   /// Writes the depths that are settled, and +∞ where there is no surface.
   void write_depths(const PixelBox& area) const;
   std::optional<triangle::EncodingFault> write_along_ray(const LensTile& tile, std::size_t i,
-                                                         std::size_t pixel,
                                                          const LensContext& context) const;
+  /// The pixel of the map that shows a sample of the tile.
+  [[nodiscard]] std::size_t pixel_of(const LensTile& tile, std::size_t i) const;
   /// How the depths of a tile are written.
   enum class Depths : std::uint8_t {
     none,
@@ -50,7 +54,7 @@ class LensOutput {
   void copy_triangle_channels(std::size_t from, std::size_t to) const;
 
   triangle::ChannelWriter& writer_;
-  std::uint32_t width_;
+  MapLayout layout_;
   bool needs_exact_rays_;
   triangle::RaySurface::Wanted along_rays_;
   /// Whether a channel is asked for that is the same wherever a surface is seen.
@@ -63,15 +67,25 @@ class LensOutput {
 };
 
 /// An image that no window holds, because its rays are too far from the axis for binary64 numbers.
-struct RayByRay {
-  const TriangleSource& triangles;
-  const Camera& camera;
-  Cull cull;
-  const lens::Preimages& preimages;
+/// Its pixels are written from exact numbers, looking at every triangle for each.
+class RayByRay {
+ public:
+  /// All arguments outlive it.
+  RayByRay(const TriangleSource& triangles, const Camera& camera, Cull cull,
+           const lens::Preimages& preimages);
 
-  /// Writes each pixel from exact numbers, looking at every triangle for each.
-  void write(triangle::ChannelWriter& writer, RenderStatistics& statistics,
-             FirstFault& fault) const;
+  /// Counts those of some triangles that no pixel shows, whatever its ray.
+  void count(std::span<const std::uint32_t> numbers, RenderStatistics& statistics) const;
+  /// Writes the pixels of an area.
+  void write(const PixelBox& area, const MapLayout& layout, triangle::ChannelWriter& writer,
+             RenderStatistics& statistics, FirstFault& fault) const;
+
+ private:
+  const TriangleSource& triangles_;
+  const Camera& camera_;
+  const lens::Preimages& preimages_;
+  /// The triangles that pixels may show.
+  std::vector<std::uint32_t> kept_;
 };
 
 }  // namespace fathom::fast

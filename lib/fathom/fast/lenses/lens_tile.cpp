@@ -9,7 +9,7 @@
 namespace fathom::fast {
 
 float LensTile::farthest() {
-  return *std::ranges::min_element(tile_.farthest());
+  return *std::ranges::min_element(tile_->farthest());
 }
 
 namespace {
@@ -49,12 +49,12 @@ void LensTile::settle(const TriangleSetup& setup, LaneTag tag, bool test_range, 
                       const LensContext& context) {
   if (std::isnan(places_.x[i])) return;  // no ray
   ++context.window.statistics.samples_in_binary64;
-  const std::uint32_t column = tile_.area().first_column + Tile::column_of(i);
-  const std::uint32_t row = tile_.area().first_row + Tile::row_of(i);
+  const std::uint32_t column = tile_->area().first_column + Tile::column_of(i);
+  const std::uint32_t row = tile_->area().first_row + Tile::row_of(i);
   context.window.note_doubt(column, row);
   const double x = where_.x(places_.x[i]), y = where_.y(places_.y[i]);
   settle_by(ExactRay(setup.number, column, row, context), {setup, tag, test_range, i, x, y, x, y},
-            tile_, context.window);
+            *tile_, context.window);
 }
 
 }  // namespace fathom::fast

@@ -35,11 +35,11 @@ struct Rectangles {
   alignas(64) Numbers bottom;
 };
 
-/// A tile whose samples lie anywhere in a window: the nearest surface so far at each, as in Tile.
+/// Draws in a tile whose samples lie anywhere in a window.
 class LensTile {
  public:
-  /// Empties the tile and moves it to an area of the image.
-  void start(const PixelBox& area, const Places::OfTile& places, const TileInWindow& where);
+  /// From now on draws in this tile, which is empty or has been drawn into at these places.
+  void start(Tile& tile, const Places::OfTile& places, const TileInWindow& where);
 
   /// Draws triangles of one object, by their numbers.
   void draw(const ImageObject& object, std::span<const std::uint32_t> numbers,
@@ -49,12 +49,12 @@ class LensTile {
   /// A number that is not greater than the exact q at any sample that has a ray; −∞: none is known.
   [[nodiscard]] float farthest();
 
-  [[nodiscard]] const Tile& tile() const { return tile_; }
+  [[nodiscard]] const Tile& tile() const { return *tile_; }
   [[nodiscard]] const TileInWindow& where() const { return where_; }
   [[nodiscard]] const Places::OfTile& places() const { return places_; }
 
   // For the vector code.
-  Tile& tile() { return tile_; }
+  Tile& tile() { return *tile_; }
   /// The samples in the window, from the tile's origin; 0 where there is no ray.
   std::array<float, TileShape::samples>& x() { return x_; }
   std::array<float, TileShape::samples>& y() { return y_; }
@@ -70,7 +70,7 @@ class LensTile {
               const LensContext& context);
 
  private:
-  Tile tile_;
+  Tile* tile_ = nullptr;
   Places::OfTile places_{};
   TileInWindow where_;
   alignas(64) std::array<float, TileShape::samples> x_;

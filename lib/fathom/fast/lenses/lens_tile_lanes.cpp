@@ -391,9 +391,8 @@ HWY_EXPORT(start_tile);
 HWY_EXPORT(draw_lens_triangles);
 HWY_EXPORT(find_farthest_of_blocks);
 
-void LensTile::start(const PixelBox& area, const Places::OfTile& places,
-                     const TileInWindow& where) {
-  tile_.start(area);
+void LensTile::start(Tile& tile, const Places::OfTile& places, const TileInWindow& where) {
+  tile_ = &tile;
   places_ = places;
   where_ = where;
   HWY_DYNAMIC_DISPATCH(start_tile)(*this, places, where);
@@ -405,8 +404,8 @@ void LensTile::draw(const ImageObject& object, std::span<const std::uint32_t> nu
 }
 
 void LensTile::begin_back_faces() {
-  tile_.begin_back_faces();
-  HWY_DYNAMIC_DISPATCH(find_farthest_of_blocks)(tile_);
+  tile_->begin_back_faces();
+  HWY_DYNAMIC_DISPATCH(find_farthest_of_blocks)(*tile_);
 }
 
 }  // namespace fathom::fast

@@ -18,22 +18,23 @@ bool is_of_sample(std::uint32_t sample) {
   return sample < Tile::samples;
 }
 
-/// The saved state in addition to samples and surfaces.
+/// Besides samples and surfaces.
 struct SavedState {
   std::uint32_t places, end_of_front, draws_back_faces;
 };
 
-/// A surface that a single sample shows is stored as its q at that sample, a constant, with the
-/// same bound on its error: no other value will be needed.
+/// Of a surface that one sample alone shows, q at that sample is all that will be asked for: a
+/// constant, with the same bound on its error. It is computed only for samples at pixels.
 struct SurfaceOfSample {
   double q;
   std::uint64_t tag;
 };
 
-/// For each place, the only sample that shows its surface; greater numbers if no sample or several
-/// samples do.
-std::vector<std::uint32_t> only_samples(const Tile& tile, std::uint32_t places) {
+/// For each place, the one sample at a pixel that shows its surface; greater numbers where none
+/// does, or several.
+std::vector<std::uint32_t> only_samples(const Tile& tile, SamplesLie lie, std::uint32_t places) {
   std::vector<std::uint32_t> samples(places, no_sample);
+  if (lie == SamplesLie::anywhere) return samples;
   for (std::uint32_t i = 0; i < Tile::samples; ++i) {
     std::uint32_t& sample = samples[Tile::place_of(tile.tags()[i])];
     sample = sample == no_sample ? i : several_samples;
@@ -43,8 +44,8 @@ std::vector<std::uint32_t> only_samples(const Tile& tile, std::uint32_t places) 
 
 }  // namespace
 
-// The data of blocks is left out, because it can be computed again.
-void save(const Tile& tile, files::Bytes& bytes) {
+// What is known of blocks is left out: it is found again.
+void save(const Tile& tile, SamplesLie samples, files::Bytes& bytes) {
   const std::uint32_t places = tile.end_of_places();
   const SavedState state{places, tile.end_of_front(), tile.draws_back_faces() ? 1U : 0U};
   files::append(bytes, std::as_bytes(std::span(&state, 1)));
@@ -52,7 +53,7 @@ void save(const Tile& tile, files::Bytes& bytes) {
   files::append(bytes, std::as_bytes(std::span(tile.tags(), Tile::samples)));
   std::vector<SurfaceOfSample> of_samples;
   std::vector<TileSurface> others;
-  const std::vector<std::uint32_t> only = only_samples(tile, places);
+  const std::vector<std::uint32_t> only = only_samples(tile, samples, places);
   for (std::uint32_t place = 0; place < places; ++place) {
     const TileSurface& surface = tile.surfaces()[place];
     const std::uint32_t sample = only[place];
@@ -66,7 +67,7 @@ void save(const Tile& tile, files::Bytes& bytes) {
   files::append(bytes, std::as_bytes(std::span(others)));
 }
 
-void restore(const ReadSaved& read, Tile& tile) {
+void restore(const ReadSaved& read, SamplesLie samples, Tile& tile) {
   std::uint64_t offset = 0;
   const auto take = [&]<class T>(std::span<T> list) {
     read(offset, std::as_writable_bytes(list));
@@ -76,7 +77,7 @@ void restore(const ReadSaved& read, Tile& tile) {
   take(std::span(&state, 1));
   take(std::span(tile.q(), Tile::samples));
   take(std::span(tile.tags(), Tile::samples));
-  const std::vector<std::uint32_t> only = only_samples(tile, state.places);
+  const std::vector<std::uint32_t> only = only_samples(tile, samples, state.places);
   const auto count = static_cast<std::size_t>(std::ranges::count_if(only, is_of_sample));
   std::vector<SurfaceOfSample> of_samples(count);
   std::vector<TileSurface> others(state.places - count);
@@ -98,7 +99,8 @@ void restore(const ReadSaved& read, Tile& tile) {
 
 namespace {
 
-/// The place of a stored tile: each tile has its own, which takes no space before it is written.
+/// Where a tile waits: each has a place of its own, of which nothing is taken before it is written
+/// to.
 std::uint64_t place_of(std::uint32_t number) {
   return std::uint64_t{number} * Tile::most_packed_bytes;
 }
@@ -120,7 +122,7 @@ Tile& TileStore::take(std::uint32_t number) {
   if (slot.waits) {
     restore([&](std::uint64_t offset,
                 std::span<std::byte> bytes) { file_->read(place_of(number) + offset, bytes); },
-            *slot.tile);
+            samples_, *slot.tile);
     slot.waits = false;
   }
   const std::lock_guard lock(mutex_);
@@ -128,9 +130,9 @@ Tile& TileStore::take(std::uint32_t number) {
   return *slot.tile;
 }
 
-// Tiles that were not taken since the last make_room() are finished or wait for longer: they are
-// packed first. Packing the others takes less time than writing any tile, but is useless if tiles
-// must be written anyway.
+// Tiles that were not taken since the last room was made are done with, or wait for longer: they
+// are packed first. To pack the others takes less time than to write any, but in vain where writing
+// cannot be helped.
 void TileStore::make_room() {
   std::erase_if(in_memory_, [&](std::uint32_t number) { return !slots_[number].tile; });
   const auto is_old = [&](std::uint32_t number) { return slots_[number].used < rooms_made_; };
@@ -178,7 +180,7 @@ void TileStore::pack(std::size_t end) {
   }
 }
 
-// Writes at most `count` tiles, all of which have been packed.
+// At most `count`, all of which have been packed.
 void TileStore::write_oldest(std::size_t count) {
   if (!is_too_much()) return;
   if (!file_) file_.emplace();
@@ -187,7 +189,7 @@ void TileStore::write_oldest(std::size_t count) {
   parallel_for(std::size_t{0}, end, [&](std::size_t i) {
     Slot& slot = slots_[in_memory_[i]];
     files::Bytes bytes;
-    save(*slot.tile, bytes);
+    save(*slot.tile, samples_, bytes);
     file_->write(place_of(in_memory_[i]), bytes);
     slot.tile.reset();
     slot.waits = true;
