@@ -48,6 +48,45 @@ void expect_signs_of_oracle(const ExactDirection& d, const Point& m, int offset,
   EXPECT_EQ(number_of(d.sign_of(cone)), value_of(cone, m).sign()) << offset;
 }
 
+ArbBall ball_of(const Certified<WordPair>& x) {
+  return ArbBall(x.value.hi) + ArbBall(x.value.lo);
+}
+
+// (X, Y, Z) with its bounds contains a multiple of (m, 1): |X − m_x·Z| ≤ E_x + |m_x|·E_z.
+TEST_P(Signs, DirectionsInDoubleWordsContainTheOracles) {
+  int rays = 0, found = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    std::mt19937_64 random(seed / 10 + 900);
+    const Lens lens = oracle::random_lens(random, GetParam(), 0.1);
+    const Projection camera = oracle::random_camera(random);
+    const Preimages preimages(camera, lens);
+    random.seed(seed);
+    const double u = static_cast<double>(random() % 1280) + 0.5;
+    const double v = static_cast<double>(random() % 720) + 0.5;
+    const auto d = preimages.of(u, v);
+    if (!d) continue;
+    const auto m = oracle::preimage(camera, oracle::NamedParameters(lens), u, v, preimages.disc());
+    ASSERT_TRUE(m.has_value());
+    ++rays;
+    const auto words = d->words();
+    if (!words) continue;
+    ++found;
+    const auto& [X, Y, Z] = *words;
+    const auto expect_contained = [&](const Certified<WordPair>& of_words, const ArbBall& exact) {
+      const ArbBall size = exact.sign() < 0 ? ArbBall(0.0) - exact : exact;
+      const ArbBall error = ball_of(of_words) - exact * ball_of(Z);
+      const ArbBall bound = ArbBall(of_words.error) + size * ArbBall(Z.error);
+      EXPECT_GT((bound * bound - error * error).sign(), 0);
+      EXPECT_LT(of_words.error, 0x1p-70 * (std::abs(of_words.value.hi) + Z.value.hi));
+    };
+    expect_contained(X, m->x);
+    expect_contained(Y, m->y);
+    EXPECT_LT(Z.error, 0x1p-70 * Z.value.hi);
+  }
+  EXPECT_GT(rays, 10);
+  EXPECT_GE(found, rays * 9 / 10);
+}
+
 TEST_P(Signs, AreThoseOfTheOracle) {
   for (std::uint64_t seed = 0; seed < 16 / testing::effort + 1; ++seed) {
     std::mt19937_64 random(seed);

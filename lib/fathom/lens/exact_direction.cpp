@@ -232,6 +232,10 @@ std::array<DyadicInterval, 3> PolynomialDirection::enclosure(long bits) const {
   }
 }
 
+std::optional<DirectionWords> PolynomialDirection::words() const {
+  return words_of_preimage(*stage_, y_, {enclose(q_.low).upper, enclose(q_.high).lower});
+}
+
 template <class Form>
 Sign PolynomialDirection::sign_of_form(const Form& form) const {
   DyadicInterval q = RootNarrowing(*stage_, y_, q_).to(first_bits);
@@ -346,6 +350,11 @@ Sign AngleDirection::sign_of(const QuadraticForm& form) const {
   return sign_at(m_, form);
 }
 
+std::optional<DirectionWords> AngleDirection::words() const {
+  constexpr long bits = 90;
+  return words_within(enclosure(bits));
+}
+
 std::array<DyadicInterval, 3> AngleDirection::enclosure(long bits) const {
   const auto [x, y, z] =
       Lifted(enclosure_of(m_, bits + bits_to_lose), bits + bits_to_lose).direction();
@@ -376,6 +385,11 @@ Sign ExactDirection::sign_of(const QuadraticForm& form) const {
 std::array<DyadicInterval, 3> ExactDirection::enclosure(long bits) const {
   const StandardArithmetic standard;
   return std::visit([bits](const auto& d) { return d.enclosure(bits); }, direction_);
+}
+
+std::optional<DirectionWords> ExactDirection::words() const {
+  const StandardArithmetic standard;
+  return std::visit([](const auto& d) { return d.words(); }, direction_);
 }
 
 const ExactVector3* ExactDirection::rational() const {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <variant>
 
+#include "fathom/lens/direction_words.h"
 #include "fathom/lens/polynomial_stage.h"
 #include "fathom/lens/sample_plane.h"
 #include "fathom/numeric/certified.h"
@@ -25,6 +26,8 @@ class RationalDirection {
   [[nodiscard]] Sign sign_of(const QuadraticForm& form) const { return form.at(vector_).sign(); }
   /// Encloses the components of d, each with a relative precision of about `bits`.
   [[nodiscard]] std::array<DyadicInterval, 3> enclosure(long bits) const;
+  /// d times a positive number, in double-words.
+  [[nodiscard]] std::optional<DirectionWords> words() const { return words_of(vector_); }
   /// Intervals that contain the components of d.
   [[nodiscard]] const std::array<Interval, 3>& box() const { return box_; }
 
@@ -51,6 +54,8 @@ class PolynomialDirection {
   [[nodiscard]] Sign sign_of(const QuadraticForm& form) const;
   /// Encloses (m, 1) with a relative precision of about `bits`; m relative to |m|.
   [[nodiscard]] std::array<DyadicInterval, 3> enclosure(long bits) const;
+  /// (m, 1) times a positive number, in double-words; nullopt if their bounds are too wide.
+  [[nodiscard]] std::optional<DirectionWords> words() const;
   /// Binary64 intervals that contain (m, 1).
   [[nodiscard]] const std::array<Interval, 3>& box() const { return box_; }
 
@@ -89,6 +94,8 @@ class AngleDirection {
   /// Encloses the components of d, with a precision of about `bits` relative to 1, of x and y
   /// relative to the greater of them.
   [[nodiscard]] std::array<DyadicInterval, 3> enclosure(long bits) const;
+  /// d in double-words, from an enclosure.
+  [[nodiscard]] std::optional<DirectionWords> words() const;
   /// Binary64 intervals that contain d.
   [[nodiscard]] const std::array<Interval, 3>& box() const { return box_; }
 
@@ -126,6 +133,10 @@ class ExactDirection {
   /// Encloses the same d as the box; its widths go to zero as `bits` grows. `bits` is about the
   /// precision relative to d, of x and y relative to the greater of them.
   [[nodiscard]] std::array<DyadicInterval, 3> enclosure(long bits) const;
+
+  /// d times a positive number, in double-words with bounds on the errors; nullopt if the bounds
+  /// are too wide.
+  [[nodiscard]] std::optional<DirectionWords> words() const;
 
   /// d times a positive number, if d is known to be rational; otherwise nullptr.
   [[nodiscard]] const ExactVector3* rational() const;

@@ -113,4 +113,25 @@ inline Sign certain_sign(const Certified<double>& x) {
   return x.value > 0 ? Sign::positive : Sign::negative;
 }
 
+/// The operators of double-words with bounds, for formulas over any arithmetic.
+template <bool fused>
+Certified<DoubleWord<fused>> operator-(const Certified<DoubleWord<fused>>& x) {
+  return {-x.value, x.error};
+}
+template <bool fused>
+Certified<DoubleWord<fused>> operator+(const Certified<DoubleWord<fused>>& x,
+                                       const Certified<DoubleWord<fused>>& y) {
+  return sum(x, y);
+}
+template <bool fused>
+Certified<DoubleWord<fused>> operator-(const Certified<DoubleWord<fused>>& x,
+                                       const Certified<DoubleWord<fused>>& y) {
+  return sum(x, -y);
+}
+template <bool fused>
+Certified<DoubleWord<fused>> operator*(const Certified<DoubleWord<fused>>& x,
+                                       const Certified<DoubleWord<fused>>& y) {
+  return product(x, y);
+}
+
 }  // namespace fathom
