@@ -96,8 +96,8 @@ NumberRows rows_of_npy(files::ByteView bytes, const std::string& name, const Fau
   return result;
 }
 
-/// Reads the rows of a file. The columns of a CSV file have the names of a set, and the columns of an
-/// NPY file have the order of the first set. `row` names a row in messages: "ray".
+/// Reads the rows of a file. The columns of a CSV file have the names of a set, and the columns of
+/// an NPY file have the order of the first set. `row` names a row in messages: "ray".
 NumberRows read_rows(const std::string& file, const char* row, std::span<const ColumnNames> sets,
                      const FaultOfRow& fault_of) {
   const files::InputFile input(file);

@@ -18,8 +18,8 @@ std::string in_csv_quotes(std::string_view text);
 /// The same for a name that comes from outside: what printable() makes of it.
 std::string csv_name(const std::string& text);
 
-/// Reads a CSV file line by line. Lines without a word are passed over. Fields have no blanks around
-/// them, and no field contains a line break.
+/// Reads a CSV file line by line. Lines without a word are passed over. Fields have no blanks
+/// around them, and no field contains a line break.
 ///
 ///   CsvReader csv(text, name);
 ///   while (csv.next_line()) use(csv.fields());
@@ -27,7 +27,7 @@ std::string csv_name(const std::string& text);
 /// Fails    InputError "NAME: line N: …".
 class CsvReader {
  public:
-  /// `name` is the file's, for messages. The reader needs the text and the name as long as it lives.
+  /// `name` is the file's, for messages. The text and the name must outlive the reader.
   CsvReader(std::string_view text, const std::string& name)
       : cursor_(text, name, {}), name_(name) {}
 
