@@ -109,6 +109,36 @@ def test_the_division_model_undistorts_by_division(model, params, k):
     np.testing.assert_allclose(points[:, :2] / points[:, 2:], undistorted, atol=1e-5)
 
 
+@pytest.mark.parametrize("distortion", [[0, 0, 0, 0], [0.05, -0.02, 0.003, -0.001]])
+def test_opencv_takes_the_points_of_a_fisheye_back_to_its_pixels(distortion):
+    params = [20.0, 21.0, 32.5, 23.25, *distortion]
+    camera = fathom.Camera(*size, pixel_centre=0, world_to_camera=pose, model="OPENCV_FISHEYE", params=params)
+
+    def project(points):
+        return cv2.fisheye.projectPoints(points[:, None], np.zeros(3), np.zeros(3),
+                                         np.array([[20.0, 0, 32.5], [0, 21.0, 23.25], [0, 0, 1]]),
+                                         np.array(distortion, float))[0][:, 0]
+    check(camera, project, 0)
+
+
+def test_an_equidistant_fisheye_sees_walls_before_and_behind_it():
+    """Z is that of the walls, ±1; the distance is 1/│cos θ│, where θ is the pixel's distance from the middle over f."""
+    f, side = 30.0, 160
+    scene = fathom.Scene()
+    for z in (-1.0, 1.0):
+        scene.add_mesh([(-1e4, -1e4, z), (1e4, -1e4, z), (0, 2e4, z)], [(0, 1, 2)])
+    camera = fathom.Camera(side, side, pixel_centre=0.5, model="SIMPLE_FISHEYE", params=[f, side / 2, side / 2])
+    maps = scene.render(camera, channels=("Z", "distance", "valid"))
+    v, u = np.mgrid[0:side, 0:side] + 0.5 - side / 2
+    angle = np.hypot(u, v) / f
+    np.testing.assert_array_equal(maps["valid"], angle < np.pi)
+    front, behind = angle < 1.57, (angle > 1.572) & (angle < np.pi)
+    assert front.sum() > 5000 and behind.sum() > 15000
+    np.testing.assert_array_equal(maps["Z"][front], 1)
+    np.testing.assert_array_equal(maps["Z"][behind], -1)
+    np.testing.assert_allclose(maps["distance"][front | behind], 1 / abs(np.cos(angle[front | behind])), rtol=1e-6)
+
+
 def test_lenses_are_kept():
     camera = fathom.Camera(*size, 52, 55, 32.5, 23.25, pixel_centre=0, world_to_camera=pose, model="OPENCV", skew=0.5,
                            distortion=opencv_distortions[0], max_radius=0.9, name="a.png", near=1, far=9)
