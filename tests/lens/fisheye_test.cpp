@@ -122,7 +122,8 @@ TEST(Fisheye, SeesInThePlaneOfItsAxis) {
   const Dyadic a = 0.75, b = 1.25, e = Dyadic(1.0).scaled(-3000);
   for (const Lens& lens :
        {Lens{LensModel::fisheye}, Lens{LensModel::opencv_fisheye, {0.1, -0.01}}}) {
-    const auto d = Preimages({}, lens).of(a, b);
+    const Preimages preimages({}, lens);
+    const auto d = preimages.of(a, b);
     ASSERT_TRUE(d.has_value());
     EXPECT_EQ(d->rational(), nullptr);
     EXPECT_EQ(d->sign_of(ExactVector3{b, -a, 0.0}), Sign::zero);
