@@ -58,6 +58,7 @@ void check(const Places& places, const Places::View& view, std::uint32_t tile, C
   const TileGrid grid(width, height);
   const auto room = std::make_unique<Places::Room>();
   const Places::OfTile of_tile = places.of_tile(view, tile, *room);
+  if (of_tile.box.is_empty()) return;  // of another view
   for (std::uint32_t row = 0; row < TileShape::size; ++row) {
     for (std::uint32_t column = 0; column < TileShape::size; ++column) {
       const std::size_t i = TileShape::index(column, row);
