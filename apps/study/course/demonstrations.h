@@ -11,7 +11,7 @@
 /// Too few samples in space, and in time.
 namespace fathom::studies {
 
-/// The outline of antialiasing/curve.h, evaluated for so many pixels: curve-48.obj; and as the
+/// The outline of antialiasing/coverage.h, evaluated for so many pixels: curve-48.obj; and as the
 /// pipeline draws it, one sample at each pixel's centre.
 struct DrawnCurve {
   SceneFiles files;
