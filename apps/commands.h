@@ -2,7 +2,7 @@
 
 #include "apps/shell/command.h"
 
-/// Commands of `fathom`. `render` is in render/render_arguments.h, `dataset` in
+/// Commands of `fathom` and `fathom-textbook`. `render` is in render/render_arguments.h, `dataset` in
 /// dataset/dataset_command.h.
 namespace fathom::app {
 
@@ -38,7 +38,7 @@ void add_depth(Command& program);
 /// `fathom camera look-at | orbit | import …`: makes camera files.
 void add_camera(Command& program);
 
-/// The algorithms of the textbooks, by themselves and as a pipeline.
+// The algorithms of the textbooks, by themselves and as a pipeline.
 
 void add_clip(Command& program);
 void add_scan(Command& program);

@@ -7,6 +7,7 @@
 
 #include "apps/bench/measurement.h"
 
+/// The reports of `fathom bench`, and the machine that they describe.
 namespace fathom::bench {
 
 /// The machine on which measurements were made.

@@ -10,6 +10,7 @@
 #include "apps/mpi/ranks.h"
 #include "apps/render/render_arguments.h"
 
+/// The arguments of `fathom-mpi render`, and how ranks divide the tiles of an image and their memory.
 namespace fathom::app {
 
 /// How the tiles of an image are dealt out to the ranks of a run. The map does not depend on it.

@@ -96,7 +96,7 @@ class SharedScene {
   std::vector<std::uint64_t> first_numbers_;
 };
 
-/// Both are called by all ranks.
+// Both are called by all ranks.
 
 /// Fails    as SharedScene; InputError where the ranks read different files.
 SharedScene open_scene(const Ranks& ranks, const RenderArguments& arguments,

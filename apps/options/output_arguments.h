@@ -8,7 +8,8 @@
 #include "fathom/camera/camera.h"
 #include "fathom/image/channel_table.h"
 
-/// What users call the contents of a map file: `-o NAME=FILE` and `--channels NAME` of `render`.
+/// The outputs of `render` as users name them: the contents of a file (`-o NAME=FILE`,
+/// `--channels NAME`) and the patterns of file names.
 namespace fathom::app {
 
 /// What a file contains: some channels, or a mask, whose channel shows where surfaces are.
@@ -29,7 +30,7 @@ std::string names_of_contents();
 /// `-o [NAMES=]FILE`: a file of each camera, and what it contains if that is said.
 struct OutputArgument {
   std::optional<Contents> contents;
-  /// Of file names (output_arguments.h).
+  /// Of file names, for names_of_outputs().
   std::string pattern;
 };
 

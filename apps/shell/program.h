@@ -11,6 +11,7 @@ namespace CLI {
 class App;
 }  // namespace CLI
 
+/// The main functions of programs, and messages about misspelt arguments.
 namespace fathom::app {
 
 /// The message for a command that does not exist, with the one of these that it resembles.

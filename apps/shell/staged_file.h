@@ -44,8 +44,6 @@ void remove_all_pending();
 /// each folder; what cannot be removed stays.
 void remove_stale_parts(const std::filesystem::path& folder);
 
-struct PendingFile;
-
 /// A file that is being written and has no place yet. Until it gets its place, only its owner can
 /// read it, and it disappears however the program ends:
 ///

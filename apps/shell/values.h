@@ -16,9 +16,9 @@
 
 namespace fathom::app {
 
-/// Parsers of texts on the command line.
-/// Exact    decimal text is rounded once, to binary64.
-/// Fails    UsageError: "'text' is not …".
+// Parsers of texts on the command line.
+// Exact    decimal text is rounded once, to binary64.
+// Fails    UsageError: "'text' is not …".
 
 /// A finite number.
 double parse_number(const std::string& text);

@@ -39,8 +39,8 @@ Scene ground(double size, double tile, double height);
 /// Narrow triangles around a point, all slopes of edges: a star of 2·`points` edges.
 Scene siemens_star(std::uint32_t points, double radius, double cx, double cy);
 
-/// What the pictures of the page are drawn from lies in files beside it, so that the commands of
-/// its captions draw them again.
+// What the pictures of the page are drawn from lies in files beside it, so that the commands of
+// its captions draw them again.
 
 /// A scene and its camera, and the files that hold them: NAME.obj and NAME.json. `view` is what has
 /// been read back from these files.

@@ -25,8 +25,8 @@ std::string png_bytes(const RgbImage& image);
 /// Fails    OutputError.
 StudyFile picture_file(const std::string& name, const RgbImage& image, std::uint32_t scale = 1);
 
-/// Plots, drawn by the program gnuplot: it is small and well maintained, writes PNG and SVG from
-/// one description without a display, and readers of a study can change its scripts.
+// Plots, drawn by the program gnuplot: it is small and well maintained, writes PNG and SVG from
+// one description without a display, and readers of a study can change its scripts.
 
 /// A line of a plot. Lines differ by colour, dashes and point marks, so that they can be
 /// distinguished in black and white too. A line that coincides with an earlier line is not drawn;

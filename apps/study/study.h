@@ -57,7 +57,7 @@ const std::vector<Study>& all_studies();
 /// Fails    UsageError, naming those that exist.
 const Study& study_named(const std::string& name);
 
-/// The studies that study.cpp lists: the question of each, and its defaults.
+// The studies that study.cpp lists: the question of each, and its defaults.
 
 /// Coverage by samples against the exact area `A`: the error of every pattern, and how many of the
 /// pixels that an edge crosses 1, 2, 4 and 8 samples see as partly covered. Default: a wheel.

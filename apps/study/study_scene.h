@@ -9,7 +9,7 @@
 #include "fathom/render.h"
 #include "fathom/scene/scene.h"
 
-/// Scenes that studies look at: one that was given, or one of their own.
+/// Scenes of studies, given by the user or made here, and exact pictures of them.
 namespace fathom::studies {
 
 /// Panels at twelve distances from 1 to 400 along the view, tilted, each with a decal 0.01 in front

@@ -41,7 +41,7 @@ struct ValidateArguments {
   [[nodiscard]] int time_limit() const;
 };
 
-/// Input files of a comparison; no output may overwrite them.
+// Input files of a comparison; no output may overwrite them.
 
 /// The single camera of --camera, or the camera of a path that is called as `map`, the file of
 /// --map; empty: there is no such file. Warnings go to the console.
@@ -64,7 +64,7 @@ struct SceneToMake {
 /// Fails    UsageError if --scene names an unknown scene.
 std::vector<SceneToMake> scenes_of(const ValidateArguments& arguments, const Console& console);
 
-/// What `fathom validate` does by its options, one source for each.
+// What `fathom validate` does by its options, one source for each.
 
 /// `validate --against`: has renderers draw scenes and compares every map with the truth. Returns
 /// the exit status, as ValidationReport::finish().

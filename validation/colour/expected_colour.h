@@ -92,16 +92,16 @@ inline Range3 direction(const Range3& a) {
   return {clamped(a[0] / l, -1, 1), clamped(a[1] / l, -1, 1), clamped(a[2] / l, -1, 1)};
 }
 
-/// The 8-bit colours that a renderer may draw, computed by the formulas of the textbooks in
-/// interval arithmetic. Only the precision of its steps is taken from the renderer.
-///
-/// A renderer moves every corner in the window a little: to its subpixel grid, and by rounding the
-/// transform. The weights λ of a pixel's centre p in the moved triangle are the weights of a point
-/// p' in the true triangle. |p' − p| is at most the greatest move in either axis, because p' − p is
-/// the mean of the moves with the weights λ. Attributes over w are affine in the window, so they
-/// differ from the attributes at p by at most this distance times the sum of their slopes. If the
-/// renderer interpolates before it snaps, p' = p. The roundings of the interpolation are added; see
-/// `rounding`.
+// The 8-bit colours that a renderer may draw, computed by the formulas of the textbooks in
+// interval arithmetic. Only the precision of its steps is taken from the renderer.
+//
+// A renderer moves every corner in the window a little: to its subpixel grid, and by rounding the
+// transform. The weights λ of a pixel's centre p in the moved triangle are the weights of a point
+// p' in the true triangle. |p' − p| is at most the greatest move in either axis, because p' − p is
+// the mean of the moves with the weights λ. Attributes over w are affine in the window, so they
+// differ from the attributes at p by at most this distance times the sum of their slopes. If the
+// renderer interpolates before it snaps, p' = p. The roundings of the interpolation are added; see
+// `rounding`.
 
 /// Where light is computed, and with which normal.
 enum class LightModel {

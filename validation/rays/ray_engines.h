@@ -36,8 +36,8 @@ struct EngineAnswers {
 EngineAnswers trace(RayEngine engine, const attribution::WorldMesh& mesh,
                     std::span<const Ray> rays);
 
-/// trace() of each engine.
-/// Fails    InputError if Embree is not built in, or fails.
+// trace() of each engine.
+// Fails    InputError if Embree is not built in, or fails.
 
 EngineAnswers trace_by_embree(const attribution::WorldMesh& mesh, std::span<const Ray> rays,
                               bool robust);

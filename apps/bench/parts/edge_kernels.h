@@ -67,9 +67,9 @@ void for_each_block(const EdgeSetup& s, const Visit& visit) {
       visit(look_at_block(s, column, row));
 }
 
-/// The textbook's rasterizer, three edge functions over a bounding box, with several pixels of a
-/// row at once. All of it is compiled for each kind of vector instructions, and runs with the best
-/// that the processor has; a number of lanes that is more than one vector takes several.
+// The textbook's rasterizer, three edge functions over a bounding box, with several pixels of a
+// row at once. All of it is compiled for each kind of vector instructions, and runs with the best
+// that the processor has; a number of lanes that is more than one vector takes several.
 
 /// A number for each pixel, with room at the right for the rest of a vector.
 template <class Number>

@@ -111,8 +111,8 @@ const std::vector<std::string>& idea_names();
 std::vector<Idea> ideas_named(const std::string& name, const PartsScene& scene,
                               const std::vector<int>& thread_counts);
 
-/// Variants that draw with the pipeline and the fast engine; the picture of the latter is channel
-/// Z.
+// Variants that draw with the pipeline and the fast engine; the picture of the latter is channel
+// Z.
 
 /// The options of the pipeline's variants: without shading, so that no picture is made.
 pipeline::PipelineOptions plain_pipeline();

@@ -51,7 +51,7 @@ DepthMap exact_coverage(const SceneView& view);
 CoverageBySamples measure_coverage_by_samples(const SceneView& view, const DepthMap& exact,
                                               const std::function<void(double)>& tick);
 
-/// A filled outline of cubic Bézier curves: a bitmap that is enlarged, or the curve drawn anew.
+// A filled outline of cubic Bézier curves: a bitmap that is enlarged, or the curve drawn anew.
 
 /// A heart in the unit square, of four curves; it runs clockwise as seen with y down.
 std::vector<pipeline::CubicBezier> heart();

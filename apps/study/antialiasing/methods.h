@@ -36,7 +36,7 @@ Judged checkered_wall();
 /// Letters whose every dot is one pixel: a picture that is right as it is.
 Judged text();
 
-/// Pictures by every kind of antialiasing that the pipeline has, against exact areas.
+// Pictures by every kind of antialiasing that the pipeline has, against exact areas.
 
 /// How far a picture is from the exact one: differences of colour, 1 from black to white, as means
 /// of the three components.

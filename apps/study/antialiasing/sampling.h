@@ -49,7 +49,7 @@ double white_part(double frequency, double x);
 /// The highest frequency up to which every grating of the table is seen as it is.
 double nyquist_limit(const std::vector<GratingSeen>& gratings);
 
-/// Too few samples in time, and what helps: scenes that move, drawn by the pipeline.
+// Too few samples in time, and what helps: scenes that move, drawn by the pipeline.
 
 /// A wheel of 12 spokes that turns by so many degrees a picture.
 struct WheelSeen {

@@ -32,8 +32,8 @@ std::vector<RgbImage> wheel_at_instants();
 /// The same with the shutter open until the time of the next picture: means of 16.
 std::vector<RgbImage> wheel_with_open_shutter();
 
-/// Interpolation along edges, then along scan lines: on a quadrangle its values depend on how the
-/// quadrangle is turned, on triangles they do not.
+// Interpolation along edges, then along scan lines: on a quadrangle its values depend on how the
+// quadrangle is turned, on triangles they do not.
 
 /// A square whose corners have the values 0, 1, 0, 0, and the same cut into two triangles along the
 /// diagonal whose ends have 0; turned about its middle, the centre of pixel (30, 30) of 61 × 61.
@@ -51,7 +51,7 @@ std::vector<TurnedSquare> turned_squares();
 /// The same as cases for `fathom scan`: squares.jsonl, a line each, and triangles.jsonl, two each.
 std::vector<StudyFile> square_files();
 
-/// Meshes in every shading.
+// Meshes in every shading.
 
 /// A mesh of data/meshes, its file, and the camera that frames it: that of
 /// `fathom render FILE --view … --size 212x212`.

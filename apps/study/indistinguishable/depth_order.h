@@ -53,8 +53,8 @@ OrderCount count_order(const PipelineModel& model, std::optional<Storage> storag
 /// The same for the exact depths of the vertices: the control.
 OrderCount count_vertex_order(const View& view, const std::vector<double>& depths);
 
-/// Which neighbours of many depths come out of a pipeline as equal or swapped: every way through
-/// it.
+// Which neighbours of many depths come out of a pipeline as equal or swapped: every way through
+// it.
 
 inline constexpr Mapping projections[] = {Mapping::standard, Mapping::infinite, Mapping::reversed,
                                           Mapping::reversed_infinite, Mapping::opengl};

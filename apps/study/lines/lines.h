@@ -36,7 +36,7 @@ struct DecidedLine {
 };
 std::vector<DecidedLine> decided_lines();
 
-/// What a step of a line costs without the call that receives the pixel.
+// What a step of a line costs without the call that receives the pixel.
 
 /// Nanoseconds a pixel of a long line, here, the least of several runs. Coordinates are rounded by
 /// truncation of y + ½, the cheapest way, so that little else than the arithmetic is measured.

@@ -44,8 +44,8 @@ double least_safe_separation(const DepthFormat& format, const CoplanarPair& pair
 /// of the patch, scaled to the middle; the greatest of the three.
 double predicted_safe_separation(const DepthFormat& format, const CoplanarPair& pair);
 
-/// The parts of the study `z-fighting` in which the distance is swept, of two surfaces that are
-/// tilted by 30 degrees, and the angle.
+// The parts of the study `z-fighting` in which the distance is swept, of two surfaces that are
+// tilted by 30 degrees, and the angle.
 
 /// Two parallel surfaces between near and far, as many samples of each patch.
 struct SurfacePair {

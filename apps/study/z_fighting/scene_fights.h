@@ -64,7 +64,7 @@ struct OffsetCount {
 /// The depth test with polygon offset (depth_bias.h), ideal model, mapping standard, perspective.
 OffsetCount count_with_offset(const OffsetLayers& layers, const DepthBias& bias);
 
-/// Z-fighting over the image of a scene, ideal model.
+// Z-fighting over the image of a scene, ideal model.
 
 struct SceneFights {
   DepthFormat format;

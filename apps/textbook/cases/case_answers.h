@@ -12,8 +12,10 @@
 #include "fathom/failures/errors.h"
 #include "fathom/threads/interruption.h"
 
-/// What one case may cost: a line of input is answered in seconds, or refused before the work.
+/// Answers to cases: their cost, and their JSON.
 namespace fathom::app::cases {
+
+// A line of input is answered in seconds, or refused before the work.
 
 /// Steps, crossings, tests: what an algorithm does for each pixel, row or corner. Exact numbers
 /// take about a microsecond for one.
@@ -29,7 +31,7 @@ void check_effort(double count, const char* what, const char* advice) {
       fmt::format("{:.0f} {}, more than {:.0f}; {}", count, what, most_operations<Number>, advice));
 }
 
-/// Writing the answers to cases.
+// Writing the answers to cases.
 
 using Json = nlohmann::ordered_json;
 

@@ -13,7 +13,8 @@
 #include "fathom/pipeline/options.h"
 #include "fathom/pipeline/output/output_merger.h"
 
-/// The output merger's work in JSON, of `pipeline trace` and `pipeline run output-merger`.
+/// JSON of the pipeline: the output merger's work in `pipeline trace` and `pipeline run
+/// output-merger`, and the entry of a map in `render --engine pipeline --stats`.
 namespace fathom::app {
 
 /// A stored depth: {"code", "value"} where it is a code, else {"bits", "value"}; the value is the

@@ -46,7 +46,7 @@ MapChange ray_distances();
 double to_window(double depth, double near, double far);
 double from_window(double window, double near, double far);
 
-/// Changed scenes and cameras that a renderer draws for the catalogue of faults.
+// Changed scenes and cameras that a renderer draws for the catalogue of faults.
 
 using CameraChange = std::function<void(Camera& camera, double size)>;
 using SceneChange = std::function<ValidationScene(const ValidationScene& scene, double size)>;

@@ -54,7 +54,7 @@ struct FaultResult {
 FaultResult judged(const Fault& fault, const FaultSubject& subject,
                    const attribution::OtherMap& map, double size);
 
-/// Verdicts on the catalogue's faults, as tables.
+// Verdicts on the catalogue's faults, as tables.
 
 /// A fault of one size in one renderer's map of one scene.
 struct FaultCase {

@@ -15,7 +15,7 @@ namespace fathom::validation {
 std::optional<double> vtk_image_difference(const std::vector<std::uint8_t>& a,
                                            const std::vector<std::uint8_t>& b, std::uint32_t width);
 
-/// The usual substitute for a truth: an earlier picture and a chosen tolerance.
+// The usual substitute for a truth: an earlier picture and a chosen tolerance.
 
 /// Whether a comparison sees that a map is not the earlier one.
 struct GoldenVerdicts {

@@ -31,7 +31,7 @@ std::string xml_text(std::string_view text);
 /// An element in a line of its own, those within it below it, indented.
 std::string to_xml(const XmlElement& element, int depth = 0);
 
-/// The forms in which `fathom validate` writes its results.
+// The forms in which `fathom validate` writes its results.
 
 /// report.json, explained in docs/validation.md: {"fathom": version, "format": report_format,
 /// "verdict": verdict_of(cases), "results": [ … ]}, one result for each case. Ends with a newline.

@@ -66,9 +66,9 @@ std::string verdict_of(const std::vector<ValidationCase>& cases);
 /// As attribution::pixel_text().
 std::string pixel_text(const ValidationCase& validated, std::size_t pixel);
 
-/// How reports speak of z-fighting. Where a map has no numbers of triangles, a wrong surface with
-/// the depth of the right one cannot be seen: the pixels of the class are then the least number
-/// that fight, and not their number.
+// How reports speak of z-fighting. Where a map has no numbers of triangles, a wrong surface with
+// the depth of the right one cannot be seen: the pixels of the class are then the least number
+// that fight, and not their number.
 
 /// "2874", "at least 3: no triangle numbers were read", "unknown: no triangle numbers were read".
 std::string z_fight_count_text(const ValidationCase& c);

@@ -34,7 +34,7 @@ class TerrainHeights {
   std::array<Cell, octaves> cells_;
 };
 
-/// Scenes of any number of triangles, which are made as they are drawn (generated_stream.h).
+// Scenes of any number of triangles, which are made as they are drawn (generated_stream.h).
 
 enum class GeneratedKind { terrain, soup };
 

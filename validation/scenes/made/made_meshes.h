@@ -43,7 +43,7 @@ void add_tube(Mesh& mesh, const Vector3& from, double from_radius, const Vector3
 /// A convex polygon of the last `corners` vertices of the mesh, as a fan from the first of them.
 void add_fan(Mesh& mesh, std::uint32_t corners);
 
-/// Large meshes of the kinds that cities, scanners, trees, fonts and CAD programs make.
+// Large meshes of the kinds that cities, scanners, trees, fonts and CAD programs make.
 
 /// Metres between the middles of two streets. Streets lie along x and z at all multiples of it.
 inline constexpr double street_spacing = 60;
