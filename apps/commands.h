@@ -13,7 +13,7 @@ void add_preview(Command& program);
 void add_compare(Command& program);
 void add_convert(Command& program);
 
-// Commands that ask which surface is visible where, and how far surfaces are apart.
+// Commands about visible surfaces and distances between surfaces.
 
 void add_probe(Command& program);
 void add_evaluate(Command& program);

@@ -12,7 +12,7 @@ namespace fathom::bench {
 
 /// The machine on which measurements were made.
 struct Machine {
-  /// "AMD EPYC 9R14"; "unknown" if the system does not say.
+  /// "AMD EPYC 9R14"; "unknown" if the system does not report it.
   std::string processor;
   int processors = 0;
   std::uint64_t memory_bytes = 0;
@@ -44,9 +44,9 @@ struct Comparison {
   std::vector<Measurement> measurements;
 };
 
-/// A line that says what is compared, then a table with a row for each renderer: times in
-/// milliseconds, the median also as a multiple of fast's, peak memory in MiB, and the resulting
-/// triangles and pixels of the image per second. Ends with an empty line.
+/// A heading line, then a table with a row for each renderer: times in milliseconds, the median
+/// also as a multiple of the fast engine's, peak memory in MiB, and the resulting triangles and
+/// pixels of the image per second. Ends with an empty line.
 std::string table(const Comparison& comparison);
 
 /// {"machine": …, "results": [ … ]}, explained in docs/performance.md. Ends without a newline.

@@ -16,27 +16,27 @@ namespace fathom::app {
 struct Contents {
   std::vector<Channel> channels;
   bool is_mask = false;
-  /// The mask is that of one object.
+  /// The object whose mask it is, if it is the mask of one object.
   std::optional<std::uint32_t> object = {};
 };
 
 /// "Z,N", "depth" or "mask", which stands alone.
-/// Fails    UsageError where a name does not exist or a channel stands twice.
+/// Fails    UsageError if a name does not exist or a channel occurs twice.
 Contents parse_contents(const std::string& list);
 
 /// "depth (Z), normal (N), …"
 std::string names_of_contents();
 
-/// `-o [NAMES=]FILE`: a file of each camera, and what it contains if that is said.
+/// `-o [NAMES=]FILE`: a file for each camera, and its contents if NAMES are given.
 struct OutputArgument {
   std::optional<Contents> contents;
   /// Of file names, for names_of_outputs().
   std::string pattern;
 };
 
-/// "depth=z/{stem}.png". A text whose part before the first "=" is no list of names is a pattern,
-/// and so is one with a "/" or "." there, such as "./depth=1.png".
-/// Fails    UsageError where a name is misspelt.
+/// "depth=z/{stem}.png". A text is only a pattern if its part before the first "=" is not a list of
+/// names, or contains a "/" or ".", as in "./depth=1.png".
+/// Fails    UsageError if a name is misspelt.
 OutputArgument parse_output(const std::string& text);
 
 /// The outputs with a mask for each of the scene's objects in place of each mask whose pattern has
@@ -47,14 +47,14 @@ std::vector<OutputArgument> with_objects(const std::vector<OutputArgument>& outp
 /// The name of a file for each camera, by a pattern: {index} is the camera's number from 0 on,
 /// {index:04} the same with leading zeros, {name} its name, {stem} the last part of its name
 /// without the suffix; {{ and }} are braces. A pattern without a field is for a single camera.
-/// Fails    UsageError, naming the option, where the pattern has another field or a single brace,
-///          or two cameras would share a name;
-///          InputError where a camera has no name, or {name} would leave the folder.
+/// Fails    UsageError, naming the option, if the pattern has another field or a single brace, or
+///          if two cameras would share a name; InputError if a camera has no name, or {name} would
+///          leave the folder.
 std::vector<std::string> names_of_outputs(const char* option, const std::string& pattern,
                                           const std::vector<Camera>& cameras);
 
 /// A name as a place below a folder: "images/1.jpg". Fails with InputError, beginning with `where`,
-/// where it is absolute, has a part "..", or has none that names a file.
+/// if it is absolute, has a part "..", or does not end with the name of a file.
 std::string require_within_folder(const std::string& where, const std::string& name);
 
 }  // namespace fathom::app

@@ -16,7 +16,8 @@
 
 namespace fathom::app {
 
-/// A column of a table, or several that belong together: an array of NPZ, of shape N or N×parts.
+/// A column of a table, or several columns that belong together. In NPZ it is an array of shape N
+/// or N×parts.
 struct Column {
   std::string name;
   /// Names of the parts, as X, Y and Z of P; empty for a single number in each row.
@@ -29,7 +30,7 @@ struct Column {
 };
 
 /// CSV with a heading, in which parts are named as P.X. All columns have the same number of rows.
-/// Numbers are the shortest decimals that are read back as the same numbers; "inf" and "nan".
+/// Numbers are the shortest decimals that are read back as the same numbers, or "inf" and "nan".
 std::string csv_of(const std::vector<Column>& columns);
 
 /// An NPZ with an array NAME.npy for each column, little-endian; `name` is the file's, for
@@ -37,7 +38,7 @@ std::string csv_of(const std::vector<Column>& columns);
 /// Fails    OutputError beyond 4 GiB.
 files::Bytes npz_of(const std::vector<Column>& columns, const std::string& name);
 
-/// The file, CSV or NPZ by its name, that a table is written to.
+/// The file to which a table is written, CSV or NPZ by its name.
 class ColumnOutput {
  public:
   /// Fails    UsageError for a name that ends in neither .csv nor .npz, before any work.
@@ -55,15 +56,15 @@ class ColumnOutput {
 /// 0, 1, …, count − 1
 std::vector<std::uint64_t> numbers_up_to(std::size_t count);
 
-/// What can be asked of a hit (specification, section 11).
+/// The channels of a hit (specification, section 11).
 enum class HitChannel { t, id, distance, P, bary, N, object, face };
 inline constexpr std::array all_hit_channels{
     HitChannel::t,    HitChannel::id, HitChannel::distance, HitChannel::P,
     HitChannel::bary, HitChannel::N,  HitChannel::object,   HitChannel::face};
 std::string_view name_of(HitChannel channel);
 
-/// The channels of hits, in their order; hit i is one of the ray rays[ray_of_hit[i]].
-/// distance, P, bary and N take exact numbers, about 10 µs for each hit.
+/// The values of the channels, in their order. Hit i belongs to the ray rays[ray_of_hit[i]].
+/// distance, P, bary and N are computed with exact numbers, which takes about 10 µs for each hit.
 std::vector<Column> columns_of(const TriangleSource& triangles, std::span<const Ray> rays,
                                std::span<const std::uint64_t> ray_of_hit,
                                std::span<const RayHit> hits,

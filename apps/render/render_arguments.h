@@ -50,7 +50,7 @@ struct RenderArguments {
   std::optional<std::vector<Channel>> channels;
   /// Whether the map is written as the mask of its one channel.
   bool is_mask = false;
-  /// The mask is that of one object.
+  /// The object whose mask it is, if it is the mask of one object.
   std::optional<std::uint32_t> object;
   std::optional<SamplePattern> samples;
   std::optional<std::uint64_t> verified_pixels;

@@ -38,7 +38,7 @@ struct MapPlan {
   RenderOptions rendering;
   /// Whether the file is the mask of the map.
   bool is_mask = false;
-  /// The mask is that of one object.
+  /// The object whose mask it is, if it is the mask of one object.
   std::optional<std::uint32_t> object;
   /// Whether no channels were requested, so that the channels depend on the camera.
   bool channels_by_default = false;

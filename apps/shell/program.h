@@ -14,18 +14,18 @@ class App;
 /// The main functions of programs, and messages about misspelt arguments.
 namespace fathom::app {
 
-/// The message for a command that does not exist, with the one of these that it resembles.
+/// The message for a command that does not exist, with the existing command that it resembles.
 std::string unknown_command(const std::string& name, const std::vector<std::string>& existing);
 
-/// The names of the commands below one.
+/// The names of the commands below a command.
 std::vector<std::string> commands_below(const CLI::App& command);
 
 /// Message about the first argument that no command accepts: a misspelt option or command, or an
 /// argument too many. Empty if every argument is accepted.
 std::string unexpected_argument(const CLI::App& program);
 
-/// A long option with one dash, "-output", would be taken for -o with the value "utput". The
-/// message where one of the arguments is that; empty where none is.
+/// A long option with one dash, "-output", would be read as -o with the value "utput". Returns the
+/// message if an argument is such an option, else an empty text.
 std::string missing_dash(const CLI::App& program, const std::vector<std::string>& arguments);
 
 /// The innermost command that the arguments name. Options may stand between the names, but not

@@ -12,15 +12,14 @@
 
 namespace fathom::app {
 
-/// The name of an output that has no other yet: ".fathom-", 16 hexadecimal digits that no other
-/// process has drawn, ".part".
+/// A temporary name for an output: ".fathom-", 16 random hexadecimal digits, ".part".
 std::string new_part_name();
 
-/// Whether a file's name is one of these.
+/// Whether a file has such a name.
 bool is_part_name(std::string_view name);
 
-/// A temporary file that has to go when the program is interrupted. Kept in a list that a signal
-/// handler can walk: nodes are never freed, their names have a fixed place.
+/// A temporary file that is removed when the program is interrupted. It is kept in a list that a
+/// signal handler can walk: nodes are never freed and names do not move.
 struct PendingFile {
   std::atomic<bool> active{false};
   char path[PATH_MAX] = {};
@@ -31,7 +30,7 @@ struct PendingFile {
 
 /// Notes a path; called before the file is created. Fails with OutputError if it is too long.
 PendingFile* note_pending(const std::filesystem::path& path);
-/// The file has been renamed or is removed already.
+/// Called when the file has been renamed or removed.
 void forget_pending(PendingFile* file);
 /// Removes the file and forgets it.
 void remove_pending(PendingFile* file);
@@ -39,26 +38,26 @@ void remove_pending(PendingFile* file);
 /// Removes every noted file of this process. Async-signal-safe.
 void remove_all_pending();
 
-/// Removes from a folder what programs that were killed have left of their outputs: regular files
-/// of this user that have the name of a part and that no living process holds a lock on. Once for
-/// each folder; what cannot be removed stays.
+/// Removes partial outputs of killed programs from a folder: regular files of this user that have
+/// the name of a part and that no living process has locked. Does so once for each folder. Files
+/// that cannot be removed stay.
 void remove_stale_parts(const std::filesystem::path& folder);
 
-/// A file that is being written and has no place yet. Until it gets its place, only its owner can
-/// read it, and it disappears however the program ends:
+/// A file that is being written and has not been put in its place yet. Until then only its owner
+/// can read it, and it disappears however the program ends:
 ///
-///   where the system can    it has no name at all (O_TMPFILE)
-///   elsewhere               its name is .fathom-XXXXXXXXXXXXXXXX.part. The next program that
+///   if the system supports it it has no name at all (O_TMPFILE) elsewhere its name is
+///   .fathom-XXXXXXXXXXXXXXXX.part. The next program that
 ///                           writes to the folder removes parts of killed programs: parts of
 ///                           running programs are locked, and a lock ends with its process.
 ///
 /// Fails    std::system_error with the reason.
 class StagedFile {
  public:
-  /// A file that is to be put into this folder.
+  /// A file that will be put into this folder.
   static StagedFile in_folder(const std::filesystem::path& folder);
-  /// A file whose content goes elsewhere, in the folder for temporary files or, without one, in
-  /// memory.
+  /// A file whose content will be copied elsewhere: in the folder for temporary files or, without
+  /// such a folder, in memory.
   static StagedFile nowhere();
   StagedFile(StagedFile&& other) noexcept;
   StagedFile& operator=(StagedFile&&) = delete;
@@ -72,18 +71,19 @@ class StagedFile {
   /// The permissions that an ordinary new file would have in its folder.
   [[nodiscard]] mode_t ordinary_mode() const { return ordinary_mode_; }
 
-  /// Takes the memory that putting it at `place` needs.
+  /// Allocates the memory that putting it at `place` needs.
   void prepare_for(const std::filesystem::path& place);
-  /// Puts it at `place` in its folder, instead of what may be there; until then that is untouched.
+  /// Puts it at `place` in its folder and replaces an existing file, which is untouched until then.
   void put_at(const std::filesystem::path& place);
-  /// The same, but what was there is kept until this object ends, so that take_back_from() can
-  /// restore it (unless the file system cannot let two files change places).
+  /// The same, but an existing file is kept until this object ends, so that take_back_from() can
+  /// restore it (unless the file system cannot exchange two files).
   void put_for_now_at(const std::filesystem::path& place);
-  /// Restores what was at `place` before put_for_now_at(), or that nothing was, if it can.
+  /// Restores the state of `place` before put_for_now_at(), an earlier file or no file, if
+  /// possible.
   void take_back_from(const std::filesystem::path& place) noexcept;
 
  private:
-  /// What stood at the place before this file did.
+  /// The fate of the file that was at the place before this file.
   enum class Earlier { nothing, kept, lost };
 
   StagedFile() = default;

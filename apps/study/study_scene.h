@@ -25,23 +25,24 @@ SceneView wheel();
 /// Fails    UsageError for a camera that means nothing.
 SceneView scene_or_wheel(const StudyOptions& options);
 
-/// The camera with a range for a depth buffer: options first, then what the camera has, then the
-/// powers of ten that leave a factor of 20 before and of 2 behind what is visible.
-/// Fails    UsageError where options and scene leave nothing visible.
+/// The camera with a range for a depth buffer, from the options, else from the camera, else the
+/// powers of ten that leave a factor of 20 in front of the visible surfaces and a factor of 2
+/// behind them.
+/// Fails    UsageError if nothing is visible with these options.
 Camera with_range(const SceneView& view, const StudyOptions& options);
 
-/// What is visible: channels Z and id.
+/// The exact map of the view, with channels Z and id.
 DepthMap visible_map(const SceneView& view);
 
 /// NAME.png: a channel with its colour bar.
 StudyFile picture(const std::string& name, const DepthMap& map, const PreviewOptions& options);
 
-/// What a picture should be, by the exact engine: in each pixel the colours of the triangles that
-/// are visible there, each weighted by its exact visible area (render_deep), and the background by
-/// what they leave. Of the pipeline nothing is used: no grid, no transform, no depth buffer.
-/// A triangle has the colour of its corners, or is white if its mesh has no colours.
+/// The correct picture, by the exact engine. The colour of a pixel is the mean of the colours of
+/// its visible triangles, each weighted by its exact visible area (render_deep), and of the
+/// background in the remaining area. It uses nothing of the pipeline: no grid, no transform, no
+/// depth buffer. A triangle has the colour of its corners, or is white if its mesh has no colours.
 /// Exact    areas, each rounded once to binary32, so a colour is off by less than 2⁻²⁴.
-/// Fails    InputError where a triangle's corners differ in colour; as render_deep().
+/// Fails    InputError if a triangle's corners differ in colour; as render_deep().
 pipeline::ColourImage exact_picture(const Scene& scene, const Camera& camera,
                                     const pipeline::Colour& background = {0, 0, 0});
 

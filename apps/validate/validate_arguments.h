@@ -27,7 +27,7 @@ struct ValidateArguments {
   std::string map, camera, model, channel, baseline, junit;
   std::string against, scene_names, variants, render, rays, output;
   bool colour = false, faults = false, for_ctest = false;
-  /// Codes per scene unit of a map of integers that does not say it itself.
+  /// Codes per scene unit of a map of integers that does not contain its scale.
   std::optional<double> png_scale;
   ReadLimits limits;
   Size size{320, 240};
@@ -53,7 +53,7 @@ Camera read_camera(const std::string& file, const std::string& map, const Consol
 Scene read_files(const std::vector<std::string>& files, const ReadLimits& limits,
                  const Console& console);
 
-/// How each scene is made; every process that draws a scene makes it again.
+/// A scene and the function that makes it. Every process that draws the scene makes it again.
 struct SceneToMake {
   std::string name;
   std::function<validation::ValidationScene()> make;
@@ -64,7 +64,7 @@ struct SceneToMake {
 /// Fails    UsageError if --scene names an unknown scene.
 std::vector<SceneToMake> scenes_of(const ValidateArguments& arguments, const Console& console);
 
-// What `fathom validate` does by its options, one source for each.
+// The modes of `fathom validate`, by its options.
 
 /// `validate --against`: has renderers draw scenes and compares every map with the truth. Returns
 /// the exit status, as ValidationReport::finish().

@@ -11,7 +11,7 @@
 /// Other programs' answers to rays.
 namespace fathom::validation {
 
-/// - embree: Embree as it is by default
+/// - embree: Embree with its default settings
 /// - embree-robust: with RTC_SCENE_FLAG_ROBUST
 /// - cgal: CGAL's AABB_tree over its kernel of exact numbers
 enum class RayEngine { embree, embree_robust, cgal };
@@ -25,13 +25,13 @@ std::string version_of(RayEngine engine);
 
 /// For each ray, in their order.
 struct EngineAnswers {
-  /// The nearest hit. t counts lengths of the direction; +∞ where there is no hit.
+  /// The nearest hit. t is in lengths of the direction; +∞ if there is no hit.
   std::vector<RayHit> nearest;
-  /// How many triangles the engine says that the ray meets.
+  /// How many triangles the ray meets, as reported by the engine.
   std::vector<std::uint32_t> counts;
 };
 
-/// By one thread, ray by ray, without a hint that rays belong together.
+/// Traces the rays one by one in one thread, without a hint that they are coherent.
 /// Needs    a mesh and rays of binary32 numbers.
 EngineAnswers trace(RayEngine engine, const attribution::WorldMesh& mesh,
                     std::span<const Ray> rays);

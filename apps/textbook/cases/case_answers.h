@@ -23,7 +23,8 @@ template <class Number>
 inline constexpr double most_operations =
     std::is_same_v<Number, clipping::Rational> ? 1 << 22 : 1 << 26;
 
-/// Refuses a case that takes `count` operations, which are `what`; `advice` says what limits them.
+/// Refuses a case that takes too many operations. `what` names the operations, and `advice` how to
+/// limit them.
 template <class Number>
 void check_effort(double count, const char* what, const char* advice) {
   if (count <= most_operations<Number>) return;

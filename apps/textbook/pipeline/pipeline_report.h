@@ -17,7 +17,7 @@
 /// output-merger`, and the entry of a map in `render --engine pipeline --stats`.
 namespace fathom::app {
 
-/// A stored depth: {"code", "value"} where it is a code, else {"bits", "value"}; the value is the
+/// A stored depth: {"code", "value"} if it is a code, else {"bits", "value"}. The value is the
 /// number in [0, 1] that it represents, rounded once.
 nlohmann::ordered_json stored_json(Storage storage, StoredDepth stored);
 
@@ -36,7 +36,7 @@ std::optional<Comparison> comparison_named(std::string_view name);
 /// "passed", "depth test failed" or "stencil test failed"
 const char* outcome_name(pipeline::Outcome outcome);
 
-/// What `render --engine pipeline --stats` says of a map.
+/// The entry of a map in `render --engine pipeline --stats`.
 struct PipelineReport {
   std::string map;  ///< the name of the file
   std::uint32_t width = 0, height = 0;
@@ -47,7 +47,8 @@ struct PipelineReport {
 /// An object for a single map, a list for several.
 std::string as_json(const std::vector<PipelineReport>& maps);
 
-/// Warns of a viewport that stretches the picture, and of windows that leave nothing of the image.
+/// Warns about a viewport that stretches the picture, and about windows that contain no pixel of
+/// the image.
 void warn_of_windows(const Camera& camera, const pipeline::PipelineOptions& stages,
                      const Console& console);
 
