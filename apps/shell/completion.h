@@ -7,7 +7,7 @@
 
 namespace fathom::app {
 
-/// What can stand in a place of the command line.
+/// The accepted values at a place of the command line.
 struct CompletedValue {
   enum class Files { none, all, folders };
 
@@ -31,14 +31,14 @@ struct CompletedCommand {
   std::vector<CompletedOption> options;
 };
 
-/// A command, and all those below it after it.
+/// A command, followed by all commands below it.
 using CompletionTable = std::vector<CompletedCommand>;
 
 /// Completion data of an option, derived from its help: a value or an argument called FILE, MAP or
 /// similar is a file. `words` are the words that its parser accepts.
 CompletedOption completed(const OptionText& option, std::vector<std::string> words, bool is_list);
 
-/// The table as lines of text, in which a companion hands it over, and back.
+/// The table as lines of text, which a companion prints, and back.
 std::string to_lines(const CompletionTable& table);
 CompletionTable table_from_lines(const std::string& lines);
 
@@ -53,8 +53,8 @@ CompletionTable table_from_lines(const std::string& lines);
 /// are offered, because each shell matches the typed text in its own way.
 std::string offers_for(const CompletionTable& table, const std::vector<std::string>& words);
 
-/// Scripts that are sourced, or installed where the shell looks for them: they call
-/// `fathom complete -- WORDS` when the user presses Tab.
+/// Scripts for the user to source, or to install where the shell finds them. They call `fathom
+/// complete -- WORDS` when the user presses Tab.
 extern const char* const bash_completion;
 extern const char* const zsh_completion;
 extern const char* const fish_completion;

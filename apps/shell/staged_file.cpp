@@ -35,17 +35,18 @@ constexpr std::string_view part_start = ".fathom-", part_end = ".part";
 std::uint64_t drawn() {
   std::uint64_t number = 0;
   if (::getrandom(&number, sizeof number, GRND_NONBLOCK) == sizeof number) return number;
-  // Names need to differ, not to be secret.
+  // Names must be unique, not secret.
   static std::atomic<std::uint64_t> count{0};
   const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
   return (static_cast<std::uint64_t>(::getpid()) << 40U) ^ static_cast<std::uint64_t>(now) ^
          (++count << 20U);
 }
 
-// Global, as a signal handler reaches nothing else.
+// Global, because a signal handler reaches nothing else.
 std::atomic<PendingFile*> first_pending{nullptr};
 
-/// A folder with more entries is not searched to its end: that would take longer than a map.
+/// A folder with more entries is not searched completely, because that would take longer than
+/// rendering a map.
 constexpr int most_entries = 10000;
 
 struct CloseFolder {
@@ -138,13 +139,13 @@ std::string path_of(int descriptor) {
   return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
-/// False where the file system cannot.
+/// Returns false if the file system does not support this.
 bool change_places(const char* one, const fs::path& other) {
   return ::renameat2(AT_FDCWD, one, AT_FDCWD, other.c_str(), RENAME_EXCHANGE) == 0;
 }
 
-/// Each output that waits for its place takes a descriptor; where these run short, as many as the
-/// system allows.
+/// Each output that waits for its place uses a descriptor. Raises the limit to the hard limit when
+/// descriptors run short.
 void make_room_for_more(int descriptor) {
   constexpr rlim_t spare = 64;
   rlimit limit{};

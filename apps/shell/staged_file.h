@@ -12,7 +12,8 @@
 
 namespace fathom::app {
 
-/// A temporary name for an output: ".fathom-", 16 random hexadecimal digits, ".part".
+/// A temporary name for an output: ".fathom-", 16 hexadecimal digits that no other process uses,
+/// ".part".
 std::string new_part_name();
 
 /// Whether a file has such a name.

@@ -13,26 +13,26 @@ namespace fathom::studies {
 /// Text between tags.
 std::string escaped_html(const std::string& text);
 
-/// In paragraphs and captions what stands between a pair of ` is code.
+/// In paragraphs and captions, text between two ` is code.
 std::string html_heading(int level, const std::string& text);
 std::string html_paragraph(const std::string& text);
 /// The plot NAME.png, linked to NAME.svg, with the command that draws it.
 std::string html_plot(const std::string& name, const std::string& caption);
-/// The picture NAME.png, `width` wide in the page; 0: as wide as it has pixels.
+/// The picture NAME.png, `width` wide in the page; 0: its width in pixels.
 struct ShownPicture {
   std::string name;
   std::uint32_t width = 0;
 };
-/// Pictures of one caption, their pixels kept sharp. Single ones, and texts, stand side by side
-/// where there is room; several of one caption have a row of their own.
+/// Pictures with a common caption, their pixels kept sharp. Single pictures, and texts, are placed
+/// side by side if there is room; several pictures with a common caption have a separate row.
 std::string html_pictures(const std::vector<ShownPicture>& pictures, const std::string& caption);
-/// Text as it is, every character of the same width.
+/// Text unchanged, in a font of fixed width.
 std::string html_text(const std::string& text, const std::string& caption);
 
-/// A page of these.
+/// A page with this body.
 std::string html_document(const std::string& title, const std::string& body);
 
-/// The page of a study: a little Markdown, and what is there for its placeholders.
+/// The page of a study: a subset of Markdown, and the contents of its placeholders.
 ///
 ///   # Title                     the first block; blocks are separated by empty lines
 ///   ## Heading
@@ -53,18 +53,18 @@ class Page {
   explicit Page(std::string_view markdown) : markdown_(markdown) {}
 
   void add_value(const std::string& name, const std::string& text) { values_[name] = text; }
-  /// Every plot, table and text that is added has to have its place.
+  /// Every plot, table and text that is added must have a placeholder.
   void add_plot(const std::string& name, bool is_drawn);
   void add_table(const std::string& name, const Table& table);
   void add_text(const std::string& name, const std::string& text);
-  /// A picture may have none. `width`: in the page; 0: as it is.
+  /// A picture needs no placeholder. `width`: in the page; 0: its width in pixels.
   void add_picture(const std::string& name, std::uint32_t width = 0) {
     parts_["picture:" + name] = name;
     widths_[name] = width;
   }
 
-  /// The page, and at its end, where given, a section with this heading and paragraph.
-  /// Fails    std::logic_error where page and parts do not belong together.
+  /// The page as HTML; at its end, if given, a section with this heading and paragraph.
+  /// Fails    std::logic_error if placeholders and parts do not match.
   [[nodiscard]] std::string html(const std::string& last_heading = "",
                                  const std::string& last_paragraph = "") const;
 
@@ -73,7 +73,7 @@ class Page {
   [[nodiscard]] std::string block(const std::string& block) const;
   [[nodiscard]] std::string with_values(const std::string& text) const;
   [[nodiscard]] const std::string& part(const std::string& placeholder) const;
-  /// The pictures of a list with commas.
+  /// The pictures in a list of names with commas.
   [[nodiscard]] std::vector<ShownPicture> pictures(const std::string& names) const;
   [[nodiscard]] bool has(const std::string& placeholder) const;
 
@@ -87,7 +87,7 @@ class Page {
 
 }  // namespace fathom::studies
 
-/// The pages' Markdown, from the .md files beside the studies (CMakeLists.txt).
+/// The pages' Markdown, from the .md files next to the studies (CMakeLists.txt).
 namespace fathom::studies::page_texts {
 
 extern const std::string_view antialiasing, blending, clipping, course, depth_resolution,

@@ -15,7 +15,7 @@ namespace fathom::studies {
 
 Scene scene_of(std::vector<MeshPoint> vertices, std::vector<CornerIndices> triangles);
 
-/// In binary64, on a grid so fine that snapping has next to no say, and without shading.
+/// In binary64, without shading, and on so fine a grid that snapping has almost no effect.
 pipeline::PipelineOptions precise_options();
 
 /// At the origin, looking along +z with y down; the focal length is the width.
@@ -24,10 +24,10 @@ Camera front_camera(std::uint32_t width, std::uint32_t height, double near, doub
 /// Orthographic: the world's x and y are pixels.
 Camera window_camera(std::uint32_t width, std::uint32_t height);
 
-/// Gives each triangle a colour of its own, its corners copied.
+/// Gives each triangle a different colour, and its own copies of its corners.
 void paint_each_triangle(Scene& scene);
 
-/// Three long triangles in a ring, each before one and behind the other.
+/// Three long triangles in a ring, each in front of one of the others and behind the other.
 Scene cyclic_overlap();
 /// Two triangles that go through each other.
 Scene penetration();
@@ -39,11 +39,11 @@ Scene ground(double size, double tile, double height);
 /// Narrow triangles around a point, all slopes of edges: a star of 2·`points` edges.
 Scene siemens_star(std::uint32_t points, double radius, double cx, double cy);
 
-// What the pictures of the page are drawn from lies in files beside it, so that the commands of
-// its captions draw them again.
+// Scenes and cameras of the page's pictures are files next to the page, so that the commands in its
+// captions draw the pictures again.
 
-/// A scene and its camera, and the files that hold them: NAME.obj and NAME.json. `view` is what has
-/// been read back from these files.
+/// A scene and its camera, and their files: NAME.obj and NAME.json. `view` has been read back from
+/// these files.
 struct SceneFiles {
   SceneView view;
   std::vector<StudyFile> files;
@@ -51,13 +51,13 @@ struct SceneFiles {
 /// `scene` has one mesh, and attributes for each vertex if any.
 SceneFiles scene_files(const std::string& name, const Scene& scene, const Camera& camera);
 
-/// The OBJ file of a scene of one mesh; numbers come back as they were.
+/// The OBJ file of a scene of one mesh. Reading it returns the same numbers.
 std::string obj_of(const Scene& scene);
 
-/// What `fathom render FILE` reads.
+/// The scene that `fathom render FILE` reads.
 Scene scene_in(const StudyFile& file);
 
-/// What `fathom render --engine pipeline --image` draws.
+/// The picture that `fathom render --engine pipeline --image` draws.
 RgbImage pipeline_picture(const SceneView& view, const pipeline::PipelineOptions& options);
 
 }  // namespace fathom::studies

@@ -13,8 +13,8 @@
 
 namespace fathom::app {
 
-/// Names for the columns that are copied from a file of lights, none of which is `taken`: those
-/// that are begin with "light_".
+/// Names for the columns that are copied from a file of lights. A name that is `taken` gets
+/// "light_" in front.
 inline std::vector<std::string> free_names(const std::vector<std::string>& headings,
                                            const std::vector<std::string>& taken) {
   std::vector<std::string> names;
@@ -33,9 +33,9 @@ inline std::vector<std::string> free_names(const std::vector<std::string>& headi
 
 enum class TableFormat { csv, json, npz };
 
-/// The format of a table by the suffix of its file: .csv, .npz and .json. Other names are names of
-/// CSV, or of JSON if that is asked for.
-/// Fails    UsageError: another suffix, or .csv or .npz where JSON is asked for.
+/// The format of a table by the suffix of its file: .csv, .npz and .json. Other names mean CSV, or
+/// JSON if requested.
+/// Fails    UsageError: another suffix, or .csv or .npz if JSON is requested.
 TableFormat table_format_of(const std::string& file, bool wants_json);
 
 /// A table of areas as text: a row for each light and each item. The rows of the lights follow one
@@ -48,13 +48,14 @@ class AreaTable {
     /// Leaves out items of which nothing is visible.
     bool nonzero = false;
   };
-  /// `list` has no light where cameras are the lights.
+  /// `list` has no light if cameras are the lights.
   AreaTable(const Form& form, const AreaItems& items, const LightList& list);
 
   [[nodiscard]] std::string beginning() const;
-  /// Each row begins with a line feed in JSON, and all but the first of the table with a comma.
+  /// In JSON each row begins with a line feed, and each row except the first of the table with a
+  /// comma.
   [[nodiscard]] std::string rows(std::size_t light, const std::vector<LitArea>& areas) const;
-  /// `rows` as it follows the beginning, or other rows.
+  /// `rows` in the form in which they follow the beginning, or other rows.
   [[nodiscard]] std::string_view after(std::string_view rows, bool is_first) const;
   [[nodiscard]] std::string end() const;
 
@@ -67,7 +68,7 @@ class AreaTable {
   Form form_;
   const AreaItems& items_;
   const LightList& list_;
-  /// The names that the columns of the lights' file have in the table.
+  /// The names in the table of the columns of the lights' file.
   std::vector<std::string> columns_;
 };
 
@@ -85,7 +86,7 @@ class AreaArrays {
              std::size_t light_count);
 
   [[nodiscard]] const std::vector<NpzRows::Array>& arrays() const { return arrays_; }
-  /// The bytes of a light for the arrays that have rows of lights, which come first.
+  /// The bytes of a light for the arrays that have a row for each light. These arrays come first.
   [[nodiscard]] std::vector<files::Bytes> rows(const std::vector<LitArea>& areas) const;
   /// Appends the arrays that do not depend on areas.
   void append_others(NpzRows& file) const;

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-/// Algorithms that draw lines: how far they drift from the exact line, and what a step costs.
+/// Algorithms that draw lines: their drift from the exact line, and the cost of a step.
 namespace fathom::studies {
 
-/// What one algorithm did to lines of one length.
+/// Results of an algorithm for lines of one length.
 struct LineDrift {
   std::string algorithm;
   std::int64_t length = 0;
@@ -23,12 +23,13 @@ std::vector<LineDrift> measure_drift(std::int64_t length, std::uint32_t slopes);
 
 struct LineCost {
   const char* algorithm;
-  const char* step;    ///< what is computed in each
-  double nanoseconds;  ///< for a pixel of a long line, here, the least of five runs
+  const char* step;    ///< the computation in each step
+  double nanoseconds;  ///< for a pixel of a long line on this machine, the least of five runs
 };
 std::vector<LineCost> line_costs();
 
-/// (0,0)-(8,3) by an algorithm: the row of the pixel in each column, and what it decided by.
+/// The line (0,0)-(8,3) by an algorithm: the row of the pixel in each column, and the values that
+/// decided it.
 struct DecidedLine {
   std::string algorithm;
   std::vector<double> rows;
@@ -36,22 +37,23 @@ struct DecidedLine {
 };
 std::vector<DecidedLine> decided_lines();
 
-// What a step of a line costs without the call that receives the pixel.
+// The cost of a step of a line, without the call that receives the pixel.
 
-/// Nanoseconds a pixel of a long line, here, the least of several runs. Coordinates are rounded by
-/// truncation of y + ½, the cheapest way, so that little else than the arithmetic is measured.
+/// Nanoseconds per pixel of a long line on this machine, the least of several runs. Coordinates are
+/// rounded by truncation of y + ½, the cheapest way, so that almost only the arithmetic is
+/// measured.
 struct StepCost {
   const char* step;
   double binary32_ns, binary64_ns;
 };
 
 /// The explicit equation, whose products do not wait for each other; DDA, where each sum waits for
-/// the one before; and four DDAs in turns, a quarter of the line each, whose sums wait for those
-/// four steps before: the same additions.
+/// the previous sum; and four DDAs in turns, each for a quarter of the line, where each sum waits
+/// for the sum four steps earlier: the same additions.
 std::vector<StepCost> step_costs();
 
-/// The sum of the rows of all pixels, which each of them computes: m from 0 to 1, row 0 at first.
-/// `steps` is a multiple of 4.
+/// The sum of the rows of all pixels, the result of each algorithm: m from 0 to 1, beginning in row
+/// 0. `steps` is a multiple of 4.
 template <class Number>
 std::int64_t rows_by_products(std::int64_t steps, Number m);
 template <class Number>

@@ -8,8 +8,8 @@
 #include "fathom/depth_format/depth_format.h"
 #include "fathom/depth_format/pipeline_model.h"
 
-/// Two parallel surfaces, one a little behind the other, seen over a patch of the image as wide as
-/// it is distant: what lets the wrong one win.
+/// Z-fighting of two parallel surfaces, one a little behind the other, over a patch of the image
+/// that is as wide as it is distant.
 namespace fathom::studies {
 
 /// The front surface is tilted: over the patch, 1/D goes from (1 + τ/2)/d to (1 − τ/2)/d, for a
@@ -23,31 +23,31 @@ struct CoplanarPair {
 
 /// The depth of the front surface at the share t of the way across the patch; exact.
 Ratio front_depth(const CoplanarPair& pair, const Ratio& t);
-/// That of the back surface.
+/// The depth of the back surface there; exact.
 Ratio back_depth(const CoplanarPair& pair, const Ratio& t);
 
-/// The share of `samples` samples of the patch, spread at random but always the same, at which the
-/// back surface wins, being drawn first: its code is not strictly farther. Ideal model. Depths
-/// beyond near or far are taken as these.
+/// The share of samples at which the back surface wins, in the ideal model. The back surface is
+/// drawn first, so it wins if its code is not strictly farther. The `samples` samples of the patch
+/// are random but always the same. Depths beyond near or far are clamped.
 double fighting_share(const DepthFormat& format, const CoplanarPair& pair, int samples);
 
-/// The same in the pipeline model. Vertices are rounded to binary32 first, and the exact answer is
-/// that of the rounded ones; where it has the back surface in front, that is who should win.
+/// The same in the pipeline model. Vertices are rounded to binary32 first, and the correct answer
+/// is the exact answer for the rounded vertices, even if the back surface is in front then.
 double fighting_share_in_pipeline(const PipelineModel& model, const View& view,
                                   const CoplanarPair& pair, int samples);
 
-/// The least separation at which no sample fights: the greatest, over the samples, of what the
-/// format needs behind the front surface there. +∞ where no separation will do before far.
+/// The least separation at which no sample fights: the greatest separation, over the samples, that
+/// the format needs behind the front surface. +∞ if no separation before far is enough.
 double least_safe_separation(const DepthFormat& format, const CoplanarPair& pair, int samples);
 
-/// A rule of thumb for it: the width of the bins of the format at the start, the middle and the end
-/// of the patch, scaled to the middle; the greatest of the three.
+/// A rule of thumb for least_safe_separation(): the greatest of the widths of the format's bins at
+/// the start, the middle and the end of the patch, scaled to the middle.
 double predicted_safe_separation(const DepthFormat& format, const CoplanarPair& pair);
 
-// The parts of the study `z-fighting` in which the distance is swept, of two surfaces that are
-// tilted by 30 degrees, and the angle.
+// Sweeps of the study `z-fighting`: over the distance, for surfaces tilted by 30 degrees, and over
+// the angle.
 
-/// Two parallel surfaces between near and far, as many samples of each patch.
+/// Two parallel surfaces between near and far, and the number of samples of each patch.
 struct SurfacePair {
   double near, far, separation;
   int samples;
@@ -90,7 +90,7 @@ struct FightByAngle {
 struct AngleSweep {
   double near, far, separation;
   int samples;
-  /// At each of which every angle is measured.
+  /// Every angle is measured at each distance.
   std::vector<double> distances;
 };
 

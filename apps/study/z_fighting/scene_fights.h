@@ -9,10 +9,10 @@
 #include "fathom/depth_format/certified_format.h"
 #include "fathom/depth_format/depth_bias.h"
 
-/// All surfaces behind the samples of an image, and what a depth buffer makes of them.
+/// All surfaces behind the samples of an image, and their depths in a depth buffer.
 namespace fathom::studies {
 
-/// A triangle that counts at a sample, with its exact depth there and that depth rounded.
+/// A triangle that counts at a sample, with its depth there, exact and rounded.
 struct Layer {
   std::uint32_t number;
   Ratio depth;
@@ -32,18 +32,18 @@ std::vector<LayeredSample> layered_samples(const SceneView& view);
 /// The stored value of a layer: by bounds from the rounded depth, or else from the exact one.
 StoredDepth encode_layer(const CertifiedFormat& format, const Layer& layer);
 
-/// How a format does where one surface lies behind another, over pairs of the visible one and
-/// another whose visible one lies in a class of distances.
+/// Results of a format for surfaces behind other surfaces, over pairs of a visible surface in a
+/// class of distances and another surface.
 struct LostSeparation {
   double distance;       ///< upper end of the class, a factor of √2 beyond the last
-  double greatest_lost;  ///< greatest separation of a pair that is not told apart; 0: all are
+  double greatest_lost;  ///< greatest separation of a pair that is stored as equal; or 0
   /// The width of the bin at the upper end: no lost separation is greater.
   double predicted;
 };
 std::vector<LostSeparation> lost_separations(const std::vector<LayeredSample>& samples,
                                              const DepthFormat& format);
 
-/// Offsets for triangles whose number is `first` or greater, the others have none.
+/// Offsets for triangles whose number is `first` or greater.
 struct OffsetLayers {
   const SceneView& view;
   const std::vector<LayeredSample>& samples;
@@ -57,8 +57,8 @@ struct OffsetLayers {
 };
 struct OffsetCount {
   DepthBias bias;
-  /// Samples at which another triangle than the visible one wins: an offset triangle that should
-  /// be hidden, or any other way.
+  /// Samples at which a wrong triangle wins: an offset triangle that should be hidden, or any other
+  /// triangle.
   std::size_t shows_through = 0, fights = 0;
 };
 /// The depth test with polygon offset (depth_bias.h), ideal model, mapping standard, perspective.
@@ -78,7 +78,7 @@ struct SceneFights {
   }
 };
 
-/// What a format makes of what is visible; `map` has Z and id.
+/// The visible surfaces in a format; `visible` has Z and id.
 struct BufferedScene {
   SceneFights fights;
   /// With the channels of depth_buffer.h.
@@ -92,7 +92,7 @@ struct FightPicture {
   StudyFile png;
   std::string command;
 };
-/// fights-NAME: where it fights; error-NAME: how far decoded depths are off. The commands read
+/// fights-NAME: the fighting pixels; error-NAME: the errors of decoded depths. The commands read
 /// these files of the scene and its camera.
 std::vector<FightPicture> pictures_of(const std::string& name, const BufferedScene& buffered,
                                       const std::string& scene, const std::string& camera);

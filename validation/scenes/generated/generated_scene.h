@@ -11,17 +11,17 @@
 
 namespace fathom::bench {
 
-/// A landscape over the unit square: heights within ±greatest_height, a sum of random values at the
-/// points of five lattices, blended between them. The same on every machine: sums and products of
-/// binary64 numbers, no library function.
+/// A landscape over the unit square. Heights are within ±greatest_height: sums of random values at
+/// the points of five lattices, interpolated between the points. They are the same on every
+/// machine, because they use only sums and products of binary64 numbers and no library function.
 inline constexpr double greatest_height = 0.125;
 
-/// The heights along a line of one z, in [0, 1]. Along x they cost little, since what a lattice has
-/// between two of its points is kept.
+/// The heights along a line of constant z, in [0, 1]. Walking along x costs little, because the
+/// values between two points of a lattice are kept.
 class TerrainHeights {
  public:
   explicit TerrainHeights(double z);
-  /// At x in [0, 1]. It does not depend on where one has been before.
+  /// The height at x in [0, 1]. It does not depend on earlier calls.
   double at(double x);
 
  private:
@@ -34,14 +34,15 @@ class TerrainHeights {
   std::array<Cell, octaves> cells_;
 };
 
-// Scenes of any number of triangles, which are made as they are drawn (generated_stream.h).
+// Scenes with any number of triangles, which are generated while they are drawn
+// (generated_stream.h).
 
 enum class GeneratedKind { terrain, soup };
 
 /// The name by which programs know it.
 const char* name_of(GeneratedKind kind);
 
-/// What is asked of a scene that is generated.
+/// The options of a generated scene.
 struct GeneratedArguments {
   GeneratedKind kind = GeneratedKind::terrain;
   /// At most 2³² − 2.
@@ -52,12 +53,11 @@ struct GeneratedArguments {
 };
 
 /// A scene of one object. Its source is called "generated:terrain:1000000".
-/// Fails    UsageError where the edge is not above 0, or above 1; InputError for too many
-///          triangles.
+/// Fails    UsageError if the edge is not above 0, or above 1; InputError for too many triangles.
 StreamedScene generated_scene(const GeneratedArguments& arguments);
 
-/// A camera that looks obliquely down on such a scene, which fills its image: about half of the
-/// triangles are outside of it.
+/// A camera that looks obliquely down on such a scene. The scene fills the image, and about half of
+/// the triangles are outside it.
 Camera camera_of(GeneratedKind kind, const ImageSize& size);
 
 }  // namespace fathom::bench
