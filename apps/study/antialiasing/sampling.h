@@ -54,7 +54,7 @@ double nyquist_limit(const std::vector<GratingSeen>& gratings);
 /// A wheel of 12 spokes that turns by `rate` degrees per picture.
 struct WheelSeen {
   double rate;
-  /// The apparent turn, measured from pairs of pictures, from −15 to 15 degrees; empty if the
+  /// The apparent turn, measured from pairs of pictures, from −15 to 15 degrees; NaN if the
   /// pictures show no spokes.
   double apparent;
   double alias;  ///< the rate less the nearest multiple of 30
