@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "fathom/attribution/world_mesh.h"
+#include "fathom/attribution/model/renderer_input.h"
 #include "fathom/rays/cast.h"
 #include "fathom/threads/threads.h"
 #include "validation/embree/embree_mesh.h"

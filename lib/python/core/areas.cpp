@@ -15,7 +15,6 @@
 #include "bindings.h"
 #include "fathom/rendering/options.h"
 #include "fathom/threads/threads.h"
-#include "options.h"
 #include "running.h"
 #include "values.h"
 

@@ -16,7 +16,6 @@
 #include "fathom/image/directions.h"
 #include "fathom/scene/framing.h"
 #include "fathom/threads/threads.h"
-#include "options.h"
 #include "running.h"
 #include "values.h"
 

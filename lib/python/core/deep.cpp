@@ -11,7 +11,6 @@
 #include "fathom/image/deep_map.h"
 #include "fathom/image/map_files.h"
 #include "fathom/render.h"
-#include "options.h"
 #include "running.h"
 #include "values.h"
 

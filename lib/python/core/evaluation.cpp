@@ -5,7 +5,6 @@
 #include "bindings.h"
 #include "fathom/evaluate.h"
 #include "fathom/rendering/options.h"
-#include "options.h"
 #include "running.h"
 #include "values.h"
 

@@ -23,7 +23,6 @@
 #include "fathom/image/preview.h"
 #include "fathom/image/surface.h"
 #include "fathom/rendering/options.h"
-#include "options.h"
 #include "running.h"
 #include "values.h"
 

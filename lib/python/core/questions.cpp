@@ -11,7 +11,6 @@
 #include "fathom/reference/verify.h"
 #include "fathom/render.h"
 #include "fathom/rendering/options.h"
-#include "options.h"
 #include "running.h"
 #include "values.h"
 

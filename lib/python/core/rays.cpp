@@ -15,7 +15,6 @@
 #include "fathom/rays/hit_values.h"
 #include "fathom/rays/sight.h"
 #include "fathom/rendering/options.h"
-#include "options.h"
 #include "running.h"
 #include "values.h"
 

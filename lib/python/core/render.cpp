@@ -15,7 +15,6 @@
 #include "fathom/scene/view_warnings.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
-#include "options.h"
 #include "running.h"
 #include "values.h"
 
