@@ -35,22 +35,22 @@
 namespace fathom::app {
 namespace {
 
-/// A mask, 1 or 0 for each pixel, row by row from the top, with what BOP counts of it.
+/// A mask, 1 or 0 for each pixel, row by row from the top, with BOP's figures.
 struct CountedMask {
   std::vector<std::uint8_t> mask;
   std::uint64_t count = 0;
   /// Of the pixels that it has.
   long first_column = 0, first_row = 0, last_column = -1, last_row = -1;
 
-  /// x, y, and the differences of the last and the first column and row, as BOP has boxes, in an
-  /// image whose corner is at this column and row.
+  /// A box of BOP: x, y, and the differences of the last and the first column and row, in an image
+  /// whose corner is at this column and row.
   [[nodiscard]] std::array<long, 4> box(long column, long row) const {
     return {first_column - column, first_row - row, last_column - first_column,
             last_row - first_row};
   }
 };
 
-/// Where an object is seen, or, without one, any surface.
+/// The pixels that show an object, or without an object any surface.
 CountedMask mask_of(const Samples<std::uint32_t>& objects, std::uint32_t width,
                     std::optional<std::uint32_t> object) {
   CountedMask result;
@@ -67,7 +67,7 @@ CountedMask mask_of(const Samples<std::uint32_t>& objects, std::uint32_t width,
   return result;
 }
 
-/// The middle ninth of a mask three times as wide and as high as this.
+/// The middle ninth of a mask that is three times as wide and as high.
 std::vector<std::uint8_t> middle_of(const std::vector<std::uint8_t>& mask, std::uint32_t width,
                                     std::uint32_t height) {
   std::vector<std::uint8_t> middle;
@@ -82,9 +82,10 @@ std::vector<std::uint8_t> middle_of(const std::vector<std::uint8_t>& mask, std::
 using Json = nlohmann::ordered_json;
 using Mask = std::vector<std::uint8_t>;
 
-/// The camera of an image three times as wide and as high, in whose middle the image is, of a
-/// camera in whose frame the world is. Exact: binary64 need not hold cx + width, so the width is
-/// added by the matrix, U = fx·x + skew·y + width·z + cx'·z, which carries the focal lengths, too.
+/// The camera of an image three times as wide and as high, with the image of `camera` in its
+/// middle. The world is the frame of `camera`. Exact: cx + width need not be a binary64 number, so
+/// the matrix adds the width, U = fx·x + skew·y + width·z + cx'·z, and also contains the focal
+/// lengths.
 Camera around(const Camera& camera) {
   if (std::max(camera.width, camera.height) > std::numeric_limits<std::uint32_t>::max() / 3)
     throw InputError(fmt::format("image {}: an image of {}x{} pixels is too large for masks",
@@ -105,7 +106,7 @@ double fraction(double part, double whole) {
   return whole == 0 ? 0 : part / whole;
 }
 
-/// The pixels of a mask whose codes stand for a depth.
+/// The number of pixels of a mask whose codes stand for a depth.
 std::size_t count_with_depth(const Mask& mask, const Samples<std::uint16_t>& codes) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < mask.size(); ++i) count += mask[i] != 0 && codes[i] != 0 ? 1 : 0;
@@ -142,7 +143,7 @@ struct BopImageOptions {
   bool beyond_is_none = false;
 };
 
-/// Makes the files of images, and as facts what scene_gt_info.json has of each instance:
+/// Makes the files of images, and as facts the entries of scene_gt_info.json for each instance:
 ///   px_count_all     pixels of its silhouette alone, in an image three times as wide and as high
 ///                    around the image, as bop_toolkit's calc_gt_info.py has it
 ///   px_count_valid   those of them within the image at which the depth image has a depth
@@ -160,10 +161,10 @@ class BopImageMaker {
  public:
   BopImageMaker(BopModels& models, BopImageOptions options) : models_(models), options_(options) {}
 
-  /// Fails    OutputError where a depth does not fit 16 bits of the image's depth_scale, unless
-  ///          those beyond are none.
+  /// Fails    OutputError if a depth does not fit 16 bits of the image's depth_scale, unless
+  ///          `beyond_is_none`.
   [[nodiscard]] Result make(const BopImage& image, const std::filesystem::path& folder);
-  /// Warns of depths that lie beyond their codes, in the images that have been made.
+  /// Warns about depths beyond their codes in the images that have been made.
   void warn(const Console& console) const { codes_beyond_.tell(console); }
 
  private:
@@ -269,7 +270,7 @@ struct BopArguments : DatasetArguments {
   }
 };
 
-/// All that the files of an image depend on.
+/// All inputs of the files of an image.
 std::string inputs_of(const BopImage& image, const BopModels& models, const BopArguments& a) {
   std::string text =
       fmt::format("bop 2 areas {} cull {} scale {:a}{}\n", a.areas, static_cast<int>(a.render.cull),

@@ -38,7 +38,7 @@ void reduce_all(std::span<T> values, MPI_Datatype type, MPI_Op how) {
   }
 }
 
-/// What of a message of `size` bytes goes in a round.
+/// The part of a message of `size` bytes that is sent in a round.
 struct Piece {
   std::size_t offset = 0;
   int count = 0;
@@ -55,7 +55,7 @@ MPI_Comm ranks_on_this_machine() {
   return machine;
 }
 
-/// A number in memory that is shared with the ranks on this machine, 0 at first; it stays until the
+/// A number in memory that the ranks on this machine share. It is 0 at first and exists until the
 /// end.
 std::atomic<int>* shared_number() {
   using Number = std::atomic<int>;
@@ -77,7 +77,7 @@ std::atomic<int>* shared_number() {
 
 }  // namespace
 
-// A folder of the run's own, that is removed with it.
+// A folder of the run, which is removed with the run.
 bool share_last_word_of_run() {
   const char* const folder = std::getenv("PMIX_SERVER_TMPDIR");
   if (folder == nullptr) return false;
@@ -150,7 +150,7 @@ std::vector<Bytes> Ranks::exchange(std::vector<Bytes> messages, std::size_t most
   }
   MPI_Alltoall(sizes.data(), 1, MPI_UINT64_T, sizes_to_come.data(), 1, MPI_UINT64_T,
                MPI_COMM_WORLD);
-  // Places in what goes and comes in a round are ints, too.
+  // Offsets within the sent and received data of a round are ints, too.
   const std::size_t most =
       std::max<std::size_t>(1, std::min(most_in_a_round, most_at_once) / ranks);
   const std::size_t rounds = (greatest(longest) + most - 1) / most;
@@ -209,12 +209,12 @@ void Ranks::abort(int status) const {
 
 // How to read this file: end() is the proof that nothing is lost. A send is synchronous: it
 // completes when the other rank has begun to receive it. A rank enters the barrier when all its
-// sends have completed, so when all have entered, whatever was sent is among what ranks have begun
-// to receive.
+// sends have completed. So when all ranks have entered, ranks have begun to receive everything that
+// was sent.
 
 namespace {
 
-/// ranks.cpp has 0.
+/// Ranks uses tag 0.
 constexpr int message_tag = 1, given_up_tag = 2;
 
 }  // namespace
@@ -262,7 +262,8 @@ void SparseExchange::State::start_sending(int to, int tag, Bytes message) {
              MPI_COMM_WORLD, &now.request);
 }
 
-/// Whether any has arrived; so below: whether anything has happened.
+/// Returns whether any message has arrived. The functions below also return whether anything has
+/// happened.
 bool SparseExchange::State::finish_sending() {
   const std::size_t before = sent.size();
   std::erase_if(sent, [&](OnTheWay& each) {
@@ -309,7 +310,7 @@ bool SparseExchange::State::step() {
   return finish_receiving() || has_sent || has_begun;
 }
 
-/// Leaves the processor to others while nothing happens: there may be more ranks than processors.
+/// Yields the processor while nothing happens, because there may be more ranks than processors.
 template <class Condition>
 void SparseExchange::State::step_until(const Condition& condition) {
   constexpr std::chrono::microseconds pause(50);

@@ -15,20 +15,20 @@
 
 namespace fathom::app {
 
-/// The folder that a file's name puts it in: "." where it names none.
+/// The folder in the name of a file; "." if the name has no folder.
 std::filesystem::path folder_of(const std::filesystem::path& file);
 
 /// The destination that the name of an output leads to.
 struct OutputPlace {
-  /// The file that is meant, which need not exist: symbolic links are followed.
+  /// The named file after following symbolic links; it need not exist.
   std::filesystem::path path;
   /// The number of this process's open file that it names: 1 for /dev/stdout.
   std::optional<int> open_file;
-  /// It lies in /proc, where nothing can be put.
+  /// Whether it lies in /proc, where no file can be put.
   bool is_foreign = false;
 };
 
-/// Fails    OutputError where links lead in a circle.
+/// Fails    OutputError if links form a circle.
 OutputPlace place_of(const std::filesystem::path& target);
 
 /// Whether writes to this name go directly into a device, a pipe or an open file, whose name needs
@@ -42,12 +42,12 @@ std::string parse_png_name(const std::string& text);
 /// Makes a folder unless it exists. Fails with OutputError.
 void make_folder(const std::filesystem::path& folder);
 
-/// The folder itself, or the nearest one above it that exists. Files move between the two: a folder
-/// that is yet to be made lies in the same file system.
+/// The folder itself, or the nearest existing folder above it. Files can be moved between the two,
+/// because a folder that is made later lies in the same file system.
 std::filesystem::path nearest_existing(const std::filesystem::path& folder);
 
-/// Folders that are made for outputs. Unless these are kept, they go again with this object, except
-/// where something else has been put into them meanwhile.
+/// Folders that are made for outputs. Unless they are kept, this object removes them at its end,
+/// except folders that other programs have put files into meanwhile.
 class NewFolders {
  public:
   NewFolders() = default;
@@ -55,7 +55,7 @@ class NewFolders {
   NewFolders& operator=(const NewFolders&) = delete;
   ~NewFolders();
 
-  /// Makes the folder and those above it, where they do not exist.
+  /// Makes the folder and its parents, if they do not exist.
   /// Fails    std::system_error.
   void make(const std::filesystem::path& folder);
   void keep() { made_.clear(); }
@@ -90,20 +90,20 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile() = default;
 
-  /// Runs `writer` on the staged file, which exists and is empty. Where it fails with an Error, the
-  /// message names the output as the user does.
+  /// Runs `writer` on the staged file, which exists and is empty. If it fails with an Error, the
+  /// message has the user's name for the output.
   void write(const std::function<void(const std::filesystem::path&)>& writer) const;
   void write(files::ByteView bytes) const;
   void write(const std::string& text) const { write(std::as_bytes(std::span(text))); }
 
   /// Puts the output in its place.
   void commit() { commit_together({this}); }
-  /// Puts outputs in their places: only when all of them are on the disk or written through does
-  /// the first appear. Where one cannot take its place, those before it give theirs back.
+  /// Puts outputs in their places. The first output appears only when all of them are on the disk
+  /// or written through. If an output cannot take its place, the previous outputs are undone.
   static void commit_together(const std::vector<OutputFile*>& outputs);
 
  private:
-  /// What there is at the place of an output already.
+  /// The existing file at the place of an output.
   struct Existing {
     mode_t mode;
     uid_t owner;
@@ -121,7 +121,7 @@ class OutputFile {
   static void take_places(const std::vector<OutputFile*>& outputs);
 
   std::filesystem::path target_;
-  /// `target_` with symbolic links followed; empty where it is written through.
+  /// `target_` after following symbolic links; empty if it is written through.
   std::filesystem::path place_;
   std::optional<Existing> existing_;
   /// The device, pipe or file that is already open for writing.
@@ -132,15 +132,15 @@ class OutputFile {
 /// A text for a file, for standard output ("-"), or for nothing (""). Opened before the work.
 class TextOutput {
  public:
-  /// Fails    OutputError, as OutputFile, or where standard output is closed.
+  /// Fails    OutputError, as OutputFile, or if standard output is closed.
   explicit TextOutput(const std::string& name);
 
   void write(const std::string& text);
   /// The file to commit; nullptr if the output is written through.
   [[nodiscard]] OutputFile* file() { return file_ ? &*file_ : nullptr; }
-  /// Prints what goes to standard output.
+  /// Prints the text if it is for standard output.
   void print() const;
-  /// All of it, where this is the only output.
+  /// Writes and commits the text, if this is the only output.
   void finish(const std::string& text);
 
  private:

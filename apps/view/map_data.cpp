@@ -32,7 +32,7 @@ std::array<std::uint32_t, 5> words_of(const DeepSample& sample) {
           sample.id};
 }
 
-/// Where the samples of each pixel begin, and at last where all of them end.
+/// The places where the samples of each pixel begin, followed by the end of all samples.
 std::vector<std::size_t> begins_of(const DeepMap& deep) {
   std::vector<std::size_t> begins(deep.counts.size() + 1);
   std::inclusive_scan(deep.counts.begin(), deep.counts.end(), begins.begin() + 1, std::plus<>(),
@@ -191,13 +191,13 @@ const char* word_of(ChannelKind kind) {
   return "quantity";
 }
 
-/// What a channel of ours means, for people; of "N.X" what N means.
+/// The meaning of one of our channels, for readers; for "N.X" the meaning of N.
 std::string meaning_of(const std::string& name) {
   const auto ours = channel_named(name.substr(0, name.find('.')));
   return ours ? std::string(description_of(*ours).meaning) : std::string();
 }
 
-/// The least and the greatest finite value where there is a surface; null without any.
+/// The least and the greatest finite value at surfaces, or null.
 Json range_of(const ImageChannel& channel, const Mask& mask) {
   return std::visit(
       [&](const auto& values) -> Json {
@@ -218,7 +218,7 @@ Json range_of(const ImageChannel& channel, const Mask& mask) {
 /// Masks of a map, each once.
 class Masks {
  public:
-  /// The number of a mask; -1 where every pixel shows a surface.
+  /// The number of a mask; -1 if every pixel shows a surface.
   int number_of(Mask mask) {
     if (std::ranges::find(mask, 0) == mask.end()) return -1;
     auto found = std::ranges::find(masks_, mask);
@@ -246,7 +246,8 @@ Json describe_channel(const DepthMap& map, const ImageChannel& channel, Masks& m
   return told;
 }
 
-/// What a pixel's place in the world is computed from, as point_at() and camera_to_world() do.
+/// The numbers from which the page computes a pixel's place in the world, like point_at() and
+/// camera_to_world().
 Json describe_camera(const Camera& camera) {
   const Projection& projection = camera.projection;
   return {{"orthographic", is_orthographic(projection)},

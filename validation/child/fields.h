@@ -14,8 +14,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/text/parse_json.h"
 
-/// What one process hands to another are structs with named fields: here are the names. Values go
-/// by fields.h and come by fields.h.
+/// Messages between processes: structs with named fields as bytes (CBOR), and back.
 namespace fathom::validation {
 
 /// The names of a struct's fields, given once for both directions. Specialised with
@@ -26,7 +25,7 @@ namespace fathom::validation {
 ///     visit("second", second);
 ///   }
 ///
-/// where the structured binding makes a field that was forgotten an error of compilation.
+/// where the structured binding makes a forgotten field a compilation error.
 template <class Struct>
 struct Fields;
 
@@ -38,7 +37,7 @@ struct Enumerators;
 template <class Variant>
 struct Alternatives;
 
-/// What was handed over is not what was expected.
+/// The bytes are not the expected value.
 class ForeignAnswer : public InputError {
  public:
   using InputError::InputError;
@@ -72,7 +71,7 @@ Json written_list(const std::vector<T>& values) {
   }
 }
 
-/// An object whose only field is called as the alternative.
+/// An object whose only field has the name of the alternative.
 template <class Variant>
 Json written_variant(const Variant& variant) {
   Json json;
@@ -115,7 +114,8 @@ Json written(const T& value) {
 }  // namespace fields_detail
 
 /// A value as bytes (CBOR): numbers, texts, enumerations, optionals, vectors, arrays, variants and
-/// structs of these; vectors of numbers as they lie in memory. Exact, infinities and NaN included.
+/// structs of these; vectors of numbers have the layout of memory. Exact, also for infinities and
+/// NaN.
 template <class T>
 std::string to_bytes(const T& value) {
   std::string bytes;
@@ -242,7 +242,7 @@ void read(const Json& json, T& value, const std::string& where) {
 
 }  // namespace fields_detail
 
-/// The value that was given to to_bytes().
+/// The value that was passed to to_bytes().
 /// Fails    ForeignAnswer, in one line, unless the bytes are exactly such a value.
 template <class T>
 T from_bytes(const std::string& bytes) {

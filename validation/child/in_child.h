@@ -21,7 +21,7 @@ struct Enumerators<Ending> {
   }
 };
 
-/// What comes back: a result where the work is done, else why it is not.
+/// The answer of the process: a result if the work is done, else the reason.
 template <class Result>
 struct Answer {
   Ending ending = Ending::done;
@@ -40,7 +40,7 @@ struct Fields<Answer<Result>> {
   }
 };
 
-/// What `work` returns or throws, as an answer.
+/// The result or the exception of `work` as an answer.
 template <class Work, class Result = std::invoke_result_t<Work>>
 Answer<Result> answer_of(const Work& work) {
   try {

@@ -23,12 +23,12 @@
 namespace fathom::validation {
 namespace {
 
-/// A mesh that OpenGL holds: positions in binary32 as the model says, each vertex multiplied by the
-/// model's matrix, the number of the triangle as its colour. It goes with its context.
+/// A mesh in OpenGL: positions in binary32 as in the model, each vertex multiplied by the model's
+/// matrix, with the number of the triangle as its colour. It is destroyed with its context.
 class DrawnMesh {
  public:
   /// Needs    a model with a matrix.
-  /// Fails    InputError where the driver does not take the shaders.
+  /// Fails    InputError if the driver refuses the shaders.
   DrawnMesh(const GlFunctions& gl, const attribution::WorldMesh& mesh,
             const attribution::RasterModel& model);
 
@@ -68,10 +68,10 @@ void hand_over(const GlFunctions& gl, const std::vector<T>& values) {
                 GL_STATIC_DRAW);
 }
 
-/// The corners of the triangles, three for each, as what the next draw takes. Corners are not
-/// shared, so that each can hold the number of its triangle. Drivers do not all know it: where a
-/// shader asks for gl_PrimitiveID, softpipe draws nothing, and its gl_VertexID starts anew within a
-/// mesh.
+/// Passes the corners of the triangles, three for each, to the next draw. Corners are not shared,
+/// so that each can have the number of its triangle. Shaders cannot get this number from all
+/// drivers: softpipe draws nothing if a shader uses gl_PrimitiveID, and its gl_VertexID restarts
+/// within a mesh.
 void hand_over(const GlFunctions& gl, const WorldMesh& mesh, const RasterModel& model) {
   std::vector<GLfloat> held;
   std::vector<GLuint> numbers;
@@ -146,9 +146,9 @@ OtherMap read_back(const GlFunctions& gl, const Camera& camera, const RasterMode
   return map;
 }
 
-/// What the driver makes of glPolygonOffset: OpenGL leaves to it how much a unit is
-/// ([GL46] 14.6.5). The mesh is drawn without and with it; where most pixels agree on the
-/// difference, that is it.
+/// Measures the driver's glPolygonOffset: OpenGL lets the driver choose the size of a unit ([GL46]
+/// 14.6.5). The mesh is drawn without and with the offset, and the difference in most pixels is the
+/// result.
 void measure_offset(const GlFunctions& gl, const DrawnMesh& mesh, const Camera& camera,
                     const OpenGlVariant& variant, RasterModel& model) {
   const auto windows = [&](int units) {
@@ -169,7 +169,7 @@ void measure_offset(const GlFunctions& gl, const DrawnMesh& mesh, const Camera& 
   model.bias_error = 2 * unit_roundoff<float>;  // added in binary32, and stored
 }
 
-/// Where positions are held from: the eye, so that nothing is lost near it, or where there is none,
+/// The origin of the held positions: the eye, so that nothing is lost near it, or without an eye
 /// the middle of the mesh.
 std::array<double, 3> held_from(const WorldMesh& mesh, const Camera& camera) {
   if (is_perspective(camera.projection)) return camera_rays(camera).origin.at_corner;
@@ -180,7 +180,7 @@ std::array<double, 3> held_from(const WorldMesh& mesh, const Camera& camera) {
   return middle;
 }
 
-/// Where in the pixel the sample lies that is read back; OpenGL's rows run from the bottom.
+/// Position within the pixel of the sample that is read back. OpenGL's rows run from the bottom.
 SamplePosition sample_position(const GlFunctions& gl) {
   std::array<GLfloat, 2> position{};
   gl.GetMultisamplefv(GL_SAMPLE_POSITION, 0, position.data());

@@ -55,7 +55,8 @@ std::vector<Variant> by_the_loop(const PartsScene& scene, int lanes,
   return {std::move(box), std::move(by_blocks)};
 }
 
-/// Its statistics count blocks, and fragments; not pixels that are tested and not covered.
+/// The pipeline's statistics count blocks and fragments, but not pixels that are tested and not
+/// covered.
 std::vector<Variant> by_the_pipeline(const PartsScene& scene) {
   const auto counts = [](const pipeline::PipelineStatistics& s) -> Counts {
     return {{"outside", static_cast<double>(s.blocks_skipped)},
@@ -122,9 +123,9 @@ Counts fragment_counts(const pipeline::PipelineStatistics& s) {
           {"shaded", static_cast<double>(s.shaded)}};
 }
 
-/// Of every order with the test after shading and before it: the depths have to be those of the
-/// first, and the colours of the two those of each other. (Equally near surfaces of different
-/// colours are the only ones whose order shows.)
+/// For every order, the test after shading and the test before it. All depths must equal the depths
+/// of the first variant, and the two pictures of an order must have equal colours. (Only equally
+/// near surfaces of different colours can show the order.)
 Idea by_fragments(const PartsScene& scene) {
   Idea idea{"early rejection, pipeline", {}, "Phong's shading; the time contains sorting"};
   std::shared_ptr<const Picture> first;
@@ -153,8 +154,8 @@ Idea by_fragments(const PartsScene& scene) {
   return idea;
 }
 
-/// The scene with its triangles in the pipeline's order, those that it does not draw last; nothing
-/// for a scene of several objects, which are drawn one after another.
+/// The scene with its triangles in the pipeline's order, and at the end the triangles that it does
+/// not draw; nullopt for a scene of several objects, which are drawn one after another.
 std::optional<BenchScene> in_order(const BenchScene& bench, DrawOrder order) {
   if (bench.scene.objects.size() != 1 || bench.scene.meshes.size() != 1) return std::nullopt;
   pipeline::PipelineOptions options = plain_pipeline();
@@ -185,7 +186,8 @@ std::optional<BenchScene> in_order(const BenchScene& bench, DrawOrder order) {
   return result;
 }
 
-/// The fast engine leaves out blocks of 8 × 8 samples that are behind all that is drawn in them.
+/// The fast engine leaves out blocks of 8 × 8 samples in which a triangle is behind everything
+/// already drawn.
 std::optional<Idea> by_blocks_behind(const PartsScene& scene) {
   Idea idea{"early rejection, fast engine", {}, "one thread; sorting is not timed"};
   std::vector<Variant> group;
@@ -223,7 +225,7 @@ double percent(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// The share is that of the triangles whose facing is asked for: with an area, in the window.
+/// The share refers to the triangles whose facing is tested: triangles with an area, in the window.
 Counts pipeline_counts(const pipeline::PipelineStatistics& s) {
   return {
       {"culled", static_cast<double>(s.culled)},
@@ -253,7 +255,7 @@ std::vector<Idea> culling(const PartsScene& scene) {
   options.culling = pipeline::Culling::back;
   by_pipeline.push_back(
       pipeline_variant("pipeline, front faces", scene.bench, options, pipeline_counts));
-  // Rounded depths of two faces that meet in an outline may come out in either order.
+  // Rounded depths of two faces that meet in an outline may have either order.
   by_pipeline.back().may_differ = true;
 
   Idea idea{"culling", {}, ""};

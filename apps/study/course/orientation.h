@@ -41,9 +41,9 @@ std::vector<EdgeOnCount> count_edge_on();
 SceneFiles open_box_files();
 RgbImage open_box(pipeline::FrontFace front_face, pipeline::Culling culling);
 
-/// A mesh of narrow triangles on the subpixel grid: how often its samples are covered. Every
-/// triangle is asked about every sample, by what the pipeline decides with (subpixel_grid.h): the
-/// pipeline's pictures show only one triangle at each.
+/// How often the samples of a mesh of narrow triangles on the subpixel grid are covered. Every
+/// triangle is tested at every sample with the pipeline's functions (subpixel_grid.h), because the
+/// pipeline's pictures show only one triangle at each sample.
 struct SharedEdges {
   int bits = 0;
   std::uint64_t triangles = 0, turned_over = 0, without_area = 0;
@@ -56,10 +56,10 @@ struct SharedEdges {
 };
 SharedEdges count_shared_edges(int bits);
 
-/// The mesh that was snapped, a pixel for each of its samples: triangles that were turned over come
-/// first, in red, and hide those behind them that are at the same depth; the others are blue.
+/// The snapped mesh, with a pixel for each of its samples. Triangles that were turned over are red;
+/// they come first and so hide other triangles at the same depth. All other triangles are blue.
 SceneFiles shared_edges_files(int bits);
-/// As the pipeline draws it.
+/// The pipeline's picture of it.
 RgbImage shared_edges_picture(int bits);
 
 }  // namespace fathom::studies

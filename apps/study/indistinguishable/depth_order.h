@@ -8,18 +8,18 @@
 #include "fathom/depth_format/depth_format.h"
 #include "fathom/depth_format/pipeline_model.h"
 
-/// The experiment behind the study `indistinguishable`: depths that lie in order on a line of sight
-/// go through a pipeline; neighbours come out in order, equal or swapped.
+/// The experiment behind the study `indistinguishable`. Depths that lie in order on a line of sight
+/// go through a pipeline, and neighbours are in order, equal or swapped afterwards.
 namespace fathom::studies {
 
-/// A camera: where the eye is, the direction in which it looks, and the view row that these make.
+/// A camera: its eye, its direction, and the view row computed from both.
 struct View {
   std::array<double, 3> eye, direction;
   ViewRow row;
 };
 View view_from(const std::array<double, 3>& eye, const std::array<double, 3>& towards);
-/// The view that studies take unless they take others: turned, and moved by 375 times near, so that
-/// it is the same experiment at every scale; for near 0.1 the eye is at (10, 20, 30).
+/// The default view of studies: turned, and moved by 375 times near, so that the experiment is the
+/// same at every scale. For near 0.1 the eye is at (10, 20, 30).
 View default_view(double near);
 /// A view drawn at random: any direction, the eye up to 100 times near from the origin on each
 /// axis.
@@ -29,11 +29,11 @@ View random_view(std::uint64_t seed, double near);
 /// buffer. Its exact depth is that of the rounded vertex.
 Vertex vertex_at(const View& view, double depth);
 
-/// Which steps round, by the name under which a study shows them.
+/// The steps that round, with their name in studies.
 struct Sources {
   const char* name;
   PipelineRounding rounding;
-  /// Samples on surfaces that reach from half to twice their depth, instead of on vertices.
+  /// Takes samples on surfaces that reach from half to twice their depth, instead of on vertices.
   bool interpolates = false;
 };
 const std::vector<Sources>& all_sources();
@@ -45,15 +45,15 @@ std::vector<Ratio> window_depths(const PipelineModel& model, const View& view,
 struct OrderCount {
   std::size_t pairs = 0, equal = 0, swapped = 0;
 };
-/// Neighbours of the list that are equal, or not in the order that the mapping gives them; after
-/// storage, or of the window depths themselves where there is none.
+/// Counts neighbours of the list that are equal, or not in the order of the mapping, after storage,
+/// or as window depths without a storage.
 OrderCount count_order(const PipelineModel& model, std::optional<Storage> storage,
                        const std::vector<Ratio>& window_depths);
 
 /// The same for the exact depths of the vertices: the control.
 OrderCount count_vertex_order(const View& view, const std::vector<double>& depths);
 
-// Which neighbours of many depths come out of a pipeline as equal or swapped: every way through
+// Neighbours among many depths that are equal or swapped after a pipeline, for every way through
 // it.
 
 inline constexpr Mapping projections[] = {Mapping::standard, Mapping::infinite, Mapping::reversed,
@@ -70,9 +70,9 @@ struct Way {
   Mapping mapping;
   bool premultiplied;
   const Sources* sources;          ///< of rounding
-  std::optional<Storage> storage;  ///< none: the window depths themselves
+  std::optional<Storage> storage;  ///< nullopt: the window depths themselves
 };
-/// What becomes of the depths on it.
+/// The order of the depths after this way.
 struct LostOrder {
   Way way;
   OrderCount counts;

@@ -8,25 +8,25 @@
 
 #include "fathom/clipping/points.h"
 
-/// Reading the cases of `fathom clip` and `fathom scan`: a JSON object a line.
-/// Fails    InputError in words that name the ring and the corner.
+/// Reads the cases of `fathom clip` and `fathom scan`: a JSON object per line.
+/// Fails    InputError, naming the ring and the corner.
 namespace fathom::app::cases {
 
 using Json = nlohmann::ordered_json;
 
 /// A line as an object. A number beyond binary64, NaN and Infinity are refused as not finite.
-/// `name` becomes the member "name", also where the rest cannot be read if it stands in front.
+/// `name` gets the member "name", even if the text after it cannot be read.
 Json parse_case(std::string_view line, Json& name);
 
-/// Refuses keys that are none of `known`; "name" is known everywhere. `taker` is what takes the
-/// others.
+/// Refuses keys that are not in `known`; "name" is always known. `taker` names in messages what
+/// takes the known keys.
 void expect_only(const Json& object, std::initializer_list<std::string_view> known,
                  std::string_view taker = "this algorithm");
 
-/// A member that has to be there.
+/// A required member.
 const Json& member(const Json& object, std::string_view key);
 
-/// A member that is one of some words; the first where it is missing.
+/// A member with one of these words; the first word if the member is missing.
 std::string word(const Json& object, const std::string& key,
                  std::initializer_list<std::string_view> words);
 
@@ -46,8 +46,8 @@ clipping::Rings<double> rings(const Json& object, const std::string& key);
 std::vector<std::vector<double>> points(const Json& object, const std::string& key,
                                         std::size_t least, std::size_t most);
 
-/// The member "attributes": for each of `corners` corners a list, all of one length; empty lists
-/// where it is missing.
+/// The member "attributes": a list for each of `corners` corners, all of one length; empty lists if
+/// it is missing.
 std::vector<std::vector<double>> attributes(const Json& object, std::size_t corners);
 
 }  // namespace fathom::app::cases

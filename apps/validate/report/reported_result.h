@@ -9,12 +9,11 @@
 #include "apps/validate/report/validation_case.h"
 #include "fathom/attribution/attribution.h"
 
-/// What a report.json tells of its results, without maps and pixels: all that two runs are compared
-/// by.
+/// The results in a report.json, without maps and pixels: all data by which two runs are compared.
 namespace fathom::validation {
 
-/// The layout of report.json that is written, and the only one that is read. A report without a
-/// number has this layout. It grows where something that is read changes its name or meaning.
+/// The layout of report.json that is written, and the only layout that is read. A report without a
+/// number has this layout. The number grows if something that is read changes its name or meaning.
 inline constexpr int report_format = 1;
 
 /// One renderer in one of its variants on one scene. Without a map (`failure`), all that follows
@@ -25,8 +24,8 @@ struct ReportedResult {
   std::uint32_t width = 0, height = 0;
   std::uint64_t triangles = 0;
   std::array<std::uint64_t, attribution::pixel_class_count> counts{};
-  /// Errors of depth, relative to the exact one; the bound's width likewise, NaN where there is
-  /// none.
+  /// Errors of depth relative to the exact depth, and the width of the bound likewise; NaN without
+  /// a bound.
   double median_error = 0, greatest_error = 0, median_bound = 0;
   std::vector<attribution::Finding> findings;
 
@@ -53,8 +52,8 @@ inline std::string title_of(const ValidationCase& c) {
 Report reported(const std::vector<ValidationCase>& cases);
 
 /// The report.json of an earlier run.
-/// Fails    InputError where the file is none, is cut off, or has another layout: one line, with
-///          what to do about it.
+/// Fails    InputError if the file is not a report, is truncated, or has another layout: one line
+///          with a remedy.
 Report read_report(const std::filesystem::path& file);
 
 }  // namespace fathom::validation

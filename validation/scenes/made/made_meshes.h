@@ -5,7 +5,7 @@
 
 #include "fathom/mesh/mesh.h"
 
-/// What meshes are put together from.
+/// Parts of meshes.
 namespace fathom::bench {
 
 using Vector3 = std::array<double, 3>;
@@ -35,8 +35,8 @@ void add_parallelogram(Mesh& mesh, const Vector3& corner, const Vector3& a, cons
 void add_box(Mesh& mesh, const Vector3& corner, const Vector3& a, const Vector3& b,
              const Vector3& c);
 
-/// The side of a prism or frustum from one circle to another, `sides` quads as long as it, facing
-/// outwards.
+/// The side of a prism or frustum from one circle to another: `sides` quads of its whole length,
+/// facing outwards.
 void add_tube(Mesh& mesh, const Vector3& from, double from_radius, const Vector3& to,
               double to_radius, std::uint32_t sides);
 
@@ -60,10 +60,10 @@ Mesh city(std::uint32_t blocks);
 /// fillets of narrow strips. The middle of the plate is the origin.
 Mesh machine_part(std::uint32_t rows);
 
-/// What a scanner makes of a boulder about the origin, of radius 0.7 to 1.3: a surface with bumps
-/// of all sizes, shaken by the scanner's noise; triangles that are up to ten times as large in one
-/// place as in another; patches and single triangles that it did not see. About 97 % of `triangles`
-/// are left; vertices of those that are gone remain.
+/// A scan of a boulder around the origin, of radius 0.7 to 1.3: a surface with bumps of all sizes
+/// and the noise of a scanner; triangles that are up to ten times as large in one place as in
+/// another; missing patches and single triangles. About 97 % of `triangles` are left; vertices of
+/// missing triangles remain.
 Mesh scan(std::uint64_t triangles);
 
 /// A page of text in the plane z = 0, x to the right, y up, with its top left corner at the origin,
@@ -73,7 +73,7 @@ Mesh scan(std::uint64_t triangles);
 /// triangles are slivers.
 Mesh text_page(std::uint32_t lines);
 
-/// The width of a page, and the height of one of so many lines.
+/// The width of a page, and the height of a page with this many lines.
 inline constexpr double page_width = 70;
 inline double page_height(std::uint32_t lines) {
   return 1.3 * lines;
