@@ -15,8 +15,8 @@ struct TilePlace {
   std::uint32_t step = 1;
 };
 
-/// The values of a tile: letters that hold seven bits each, the lowest bits first, of the zlib
-/// format of
+/// The values of a tile: letters that hold seven bits each, the lowest bits first and xor 0x55, of
+/// the zlib format of
 ///   a byte     what a value is predicted from: 0, its left neighbour; 1, left + upper − upper
 ///              left; 2, the other two parts of the unit vector. Plus 4: the tile is a row with
 ///              one value for each of its Segments

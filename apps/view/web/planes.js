@@ -3,7 +3,7 @@
 async function inflated(text) {
   const bytes = new Uint8Array(text.length * 7 >> 3);
   for (let k = 0, at = 0, bits = 0, count = 0; k < text.length; ++k) {
-    bits |= (text.charCodeAt(k) & 127) << count;
+    bits |= ((text.charCodeAt(k) ^ 0x55) & 127) << count;
     count += 7;
     if (count >= 8) { bytes[at++] = bits; bits >>>= 8; count -= 8; }
   }
