@@ -5,9 +5,11 @@
 #include "fathom/evaluation/box_tree.h"
 #include "fathom/fast/channels/resolve_bounds.h"
 #include "fathom/fast/coverage/square_edges.h"
+#include "fathom/fast/lenses/plane_places.h"
 #include "fathom/fast/lenses/window.h"
 #include "fathom/fast/setup/setup_bounds.h"
 #include "fathom/fast/vertices/vertex.h"
+#include "fathom/lens/stage.h"
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/certified_value.h"
 #include "fathom/numeric/double_word.h"
@@ -39,6 +41,30 @@ int main() {
   print("lane_error", fast::setup_bounds::lane_error);
   print("lane_room", fast::setup_bounds::lane_room);
   print("lane_extent", fast::lens_bounds::lane_extent);
+  print("window_rounding", fast::lens_bounds::window_rounding);
+  print("range_room", fast::lens_bounds::range_room);
+  print("place_room", fast::lens_bounds::place_room);
+  print("greatest_place_error", fast::lens_bounds::greatest_error);
+  print("rectangle_margin", fast::lens_bounds::rectangle_margin);
+  print("rectangle_rounding", fast::lens_bounds::rectangle_rounding);
+  print("plane_rounding", fast::place_arithmetic::plane_rounding);
+  print("plane_quotient", fast::place_arithmetic::plane_quotient);
+  print("ball_share", fast::place_arithmetic::ball_share);
+  print("disc_room", fast::place_arithmetic::disc_room);
+  print("beyond_room", fast::place_arithmetic::beyond_room);
+  print("lift_rounding", fast::place_arithmetic::lift_rounding);
+  print("end_of_series", fast::place_arithmetic::end_of_series);
+  print("square_rounding", fast::place_arithmetic::square_rounding);
+  print("bend_rounding", fast::place_arithmetic::bend_rounding);
+  print("place_rounding", fast::place_arithmetic::place_rounding);
+  print("loose_error", fast::place_arithmetic::loose_error);
+  print("angle_of_error", fast::place_arithmetic::angle_of_error);
+  print("angle_rounding", fast::place_arithmetic::angle_rounding);
+  print("lens_up", lens::bounds::up);
+  print("of_degree", lens::bounds::of_degree * unit_roundoff<double>);
+  print("of_stage", lens::bounds::of_stage * unit_roundoff<double>);
+  print("most_growth", lens::bounds::most_growth);
+  print("interval_room", lens::bounds::interval_room);
   print("tile_q_error", fast::setup_bounds::tile_q_error);
   print("exact_edge_error", fast::setup_bounds::exact_edge_error);
   print("exact_q_error", fast::setup_bounds::exact_q_error);

@@ -70,10 +70,9 @@ bool is_identity(const StageNumbers<double>& n) {
   return n.numerator.size() == 1 && n.denominator.size() == 1 && is_radial(n);
 }
 
-namespace {
+using namespace bounds;
 
-/// Covers the roundings of a few operations of binary64 on positive numbers.
-constexpr double up = 1 + 0x1p-40;
+namespace {
 
 /// An interval in binary64. After each operation the ends are moved outwards by more than they were
 /// rounded; what is not a number at an end stays so, and no comparison holds for it.
@@ -83,8 +82,8 @@ struct Range {
   Range() = default;
   Range(double x) : low(x), high(x) {}
   Range(double a, double b)
-      : low(a - (std::abs(a) * unit_roundoff<double> * 2 + std::numeric_limits<double>::min())),
-        high(b + (std::abs(b) * unit_roundoff<double> * 2 + std::numeric_limits<double>::min())) {}
+      : low(a - (std::abs(a) * interval_room + std::numeric_limits<double>::min())),
+        high(b + (std::abs(b) * interval_room + std::numeric_limits<double>::min())) {}
 };
 
 Range operator+(const Range& a, const Range& b) {
@@ -140,11 +139,12 @@ StageBounds bounds_on_box(const StageNumbers<double>& stage, const std::array<In
   // The same product as in stage_jacobian(), which divides by this D.
   const Range D = horner(numbers.denominator, x * x + y * y);
   if (!(D.low > 0 && D.high < std::numeric_limits<double>::infinity())) return {};
+  const double X = greatest_size(x.low, x.high), Y = greatest_size(y.low, y.high);
+  if (!(denominator_magnitude(stage, X, Y) <= D.low * most_growth)) return {};
   const double degree =
       static_cast<double>(std::max(stage.numerator.size(), stage.denominator.size()) - 1);
-  return {least_growth(stage_jacobian(numbers, x, y)),
-          greatest_terms(stage, greatest_size(x.low, x.high), greatest_size(y.low, y.high), D.low),
-          8 * degree + 16};
+  return {least_growth(stage_jacobian(numbers, x, y)), greatest_terms(stage, X, Y, D.low),
+          of_degree * degree + of_stage};
 }
 
 // With p = (p2, p1), S(m) = L·m + q·p + 2(m·p)·m + q·(s1 + s2·q, s3 + s4·q).

@@ -8,6 +8,7 @@
 #include "fathom/camera/lens.h"
 #include "fathom/numeric/exact_polynomial.h"
 #include "fathom/numeric/interval.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 /// The stage S of the specification (section 2), over any arithmetic T:
 ///   (x, y) ↦ (x·L + 2p1·xy + p2·(q + 2x²) + s1·q + s2·q²,
@@ -95,6 +96,16 @@ StageJacobian<T> stage_jacobian(const StageNumbers<T>& n, const T& x, const T& y
   return {A + x2 * (gx + bx), x2 * gy + y2 * bx, y2 * gx + x2 * by, A + y2 * (gy + by)};
 }
 
+/// The terms of D with their magnitudes.
+template <class T>
+T denominator_magnitude(const StageNumbers<T>& n, const T& x, const T& y) {
+  using std::abs;
+  std::vector<T> sizes;
+  sizes.reserve(n.denominator.size());
+  for (const T& number : n.denominator) sizes.push_back(abs(number));
+  return horner(sizes, x * x + y * y);
+}
+
 /// The terms of stage_value() with their magnitudes: the result of binary64 arithmetic errs by at
 /// most a small number of units of roundoff times these. |D| is at least `least_D` there. T is a
 /// type with abs().
@@ -102,7 +113,7 @@ template <class T>
 StagePoint<T> stage_magnitudes(const StageNumbers<T>& n, const T& x, const T& y, const T& least_D) {
   using std::abs;
   const StageNumbers<T> sizes = n.in([](const T& number) -> T { return abs(number); });
-  const T growth = horner(sizes.denominator, x * x + y * y) / least_D;  // how much of D cancels
+  const T growth = denominator_magnitude(n, x, y) / least_D;  // how much of D cancels
   StageNumbers<T> without_denominator = sizes;
   without_denominator.denominator = {least_D / growth};
   return stage_value<T>(without_denominator, abs(x), abs(y));
@@ -112,6 +123,20 @@ StagePoint<T> stage_magnitudes(const StageNumbers<T>& n, const T& x, const T& y)
   using std::abs;
   return stage_magnitudes<T>(n, x, y, abs(horner(n.denominator, x * x + y * y)));
 }
+
+// Constants of the bounds below; validation/proofs/lenses/ proves each, in the file that is named
+// beside it.
+namespace bounds {
+/// Covers the roundings of a few operations of binary64 on positive numbers (lens_room).
+inline constexpr double up = 1 + 0x1p-40;
+/// The error of stage_value() in units of roundoff: for each degree of N or D (lens_polynomial,
+/// lens_factor), and what else there is (lens_stage), if the magnitudes of the terms of D add up to
+/// at most so many times D (lens_factor).
+inline constexpr double of_degree = 8, of_stage = 16;
+inline constexpr double most_growth = 0x1p42;
+/// Ends of intervals are moved outwards by so much of themselves (lens_interval).
+inline constexpr double interval_room = 2 * unit_roundoff<double>;
+}  // namespace bounds
 
 /// What is known of a stage S on a box of the plane, for certificates in binary64.
 struct StageBounds {

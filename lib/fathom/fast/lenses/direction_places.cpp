@@ -22,8 +22,6 @@ namespace {
 constexpr double underflow = std::numeric_limits<double>::min();
 /// Coordinates of a tile that is in one view: up to 76° from its axis.
 constexpr double most_in_one_view = 4;
-/// Places that err by more of their greater coordinate are found from the exact direction.
-constexpr double loose_error = 0x1p-30;
 
 double division_term(const Lens& lens) {
   return lens.model == LensModel::fisheye_stereographic ? -0.25 : lens.distortion[0];
@@ -39,9 +37,6 @@ double alternating_series(double q) {
   return sum;
 }
 
-/// Less than 10 is what lifted() needs of |m|².
-constexpr double end_of_series = 10;
-
 /// (m·sin θ/θ, cos θ) with θ = |m|; the error is that of the arithmetic.
 ///
 /// With q = θ²: cos θ = s_1 and s_k = 1 − r_k·s_{k+1}, r_k = q/((2k−1)·2k). From k = 2 on r_k < 1,
@@ -55,7 +50,7 @@ constexpr double end_of_series = 10;
 ApproximateDirection lifted(double x, double y) {
   const double q = x * x + y * y;
   const double sine_over_angle = alternating_series<1>(q);
-  return {{x * sine_over_angle, y * sine_over_angle, alternating_series<0>(q)}, 68 * u};
+  return {{x * sine_over_angle, y * sine_over_angle, alternating_series<0>(q)}, lift_rounding};
 }
 
 /// The same direction, scaled by a power of two so that its greatest component is about 1; smaller
@@ -80,8 +75,9 @@ std::optional<bool> AngleLimit::keeps(const ApproximateDirection& direction) con
   const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
   const double cosine = cosine_->lower / 2 + cosine_->upper / 2;
   const double value = d[2] - length * cosine;
-  const double doubt =
-      (3 * error + length * (cosine_->upper - cosine_->lower) + 8 * u * (length + 1)) * up;
+  const double doubt = (angle_of_error * error + length * (cosine_->upper - cosine_->lower) +
+                        angle_rounding * (length + 1)) *
+                       up;
   if (value > doubt) return true;
   if (value < -doubt) return false;
   return std::nullopt;
@@ -157,8 +153,9 @@ std::optional<ApproximateDirection> DirectionModel::divided(std::uint32_t column
   const double squared = x * x + y * y;
   const double bend = k_ * squared;
   const double of_squared =
-      2 * e * (std::abs(x) + std::abs(y)) + 2 * e * e + 4 * u * squared + underflow;
-  const double of_z = (std::abs(k_) * of_squared + 2 * u * (1 + std::abs(bend)) + underflow) * up;
+      2 * e * (std::abs(x) + std::abs(y)) + 2 * e * e + square_rounding * squared + underflow;
+  const double of_z =
+      (std::abs(k_) * of_squared + bend_rounding * (1 + std::abs(bend)) + underflow) * up;
   if (bend - of_z > 1) return std::nullopt;
   if (!(bend + of_z < 1)) return exactly_at(column, row);
   const ApproximateDirection direction{{x, y, 1 + bend}, std::max(e, of_z)};
@@ -214,7 +211,7 @@ Place place_in(const ViewAxes& view, const ApproximateDirection& direction) {
   if (!(least > 0)) return place;
   const double size = greatest_size(place.x, place.y);
   const double by_components = direction.error == 0 ? 0 : direction.error * (1 + size) / least;
-  place.error = (by_components + u * size) * up + underflow;
+  place.error = (by_components + place_rounding * size) * up + underflow;
   return place;
 }
 

@@ -48,8 +48,10 @@ CertifiedPlane::CertifiedPlane(const lens::Preimages& preimages, const Projectio
   const double least_z = lanes_.is_affine ? 1 : (2 - terms[2]) / up;
   if (!(least_z > 0x1p-10)) return;
   const double n = std::max(terms[0], terms[1]);
-  error_ = (6 * u * (n + n / least_z * terms[2]) / least_z + u * n / least_z) * up +
-           std::numeric_limits<double>::min();
+  error_ =
+      (plane_rounding * (n + n / least_z * terms[2]) / least_z + plane_quotient * n / least_z) *
+          up +
+      std::numeric_limits<double>::min();
 }
 
 using lens::PolynomialStage;
@@ -109,7 +111,7 @@ class TileSearch {
 
   /// Whether a sample with |y| of at least that has no ray; the error of the plane is covered.
   [[nodiscard]] bool is_beyond_disc(double size) const {
-    return size / up > greatest_image_ + 8 * plane_.error();
+    return size / up > greatest_image_ + beyond_room * plane_.error();
   }
   [[nodiscard]] bool is_beyond_disc(double first_column, double first_row) const;
   void search(const PolynomialStage& stage);
@@ -233,7 +235,7 @@ TileSearch::Certificate TileSearch::certificate_in(const PolynomialStage& stage,
   // Between these sizes neither residuals nor products of places underflow or overflow.
   const double size = box.size();
   if (!(size > 0x1p-400 && size < 0x1p400)) return {};
-  const double radius = 0x1p-28 * size;
+  const double radius = ball_share * size;
   const StageBounds bounds =
       bounds_on_box(stage.numbers, {Interval{box.left - radius * up, box.right + radius * up},
                                     Interval{box.top - radius * up, box.bottom + radius * up}});
@@ -282,7 +284,7 @@ void TileSearch::certify_samples(const PolynomialStage& stage, double limit, std
 void TileSearch::search(const PolynomialStage& stage) {
   residuals_.fill(no_number);
   search_blocks(stage);
-  const double limit = stage.limit ? enclose(*stage.limit).lower * (1 - 0x1p-20)
+  const double limit = stage.limit ? enclose(*stage.limit).lower * (1 - disc_room)
                                    : std::numeric_limits<double>::infinity();
   PlaneBox box;
   for (std::uint32_t number = 0; number < TileShape::blocks; ++number) {

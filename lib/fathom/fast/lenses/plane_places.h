@@ -19,8 +19,37 @@
 namespace fathom::fast::place_arithmetic {
 
 inline constexpr double u = unit_roundoff<double>;
-/// Covers the roundings of a few operations on positive numbers.
-inline constexpr double up = 1 + 0x1p-40;
+using lens::bounds::up;
+
+// Constants of the bounds of places; their derivations are where they are used.
+// validation/proofs/lenses/ proves each, in the file that is named beside it.
+
+/// CertifiedPlane: of the terms of a component (lens_plane), and of the quotient where the sensor
+/// is tilted (lens_plane_quotient).
+inline constexpr double plane_rounding = 6 * u;
+inline constexpr double plane_quotient = u;
+/// The ball in which a certificate finds a sample: its radius is so much of the greatest coordinate
+/// of the places around it. Places are in the disc with so much of |m|² to spare (lens_disc).
+inline constexpr double ball_share = 0x1p-28;
+inline constexpr double disc_room = 0x1p-20;
+/// So many errors of the plane lie between blocks that are beyond the disc and the disc
+/// (lens_beyond).
+inline constexpr double beyond_room = 8;
+/// The direction of a fisheye's m, where |m|² is less than the second (lens_cosine, lens_sine).
+inline constexpr double lift_rounding = 68 * u;
+inline constexpr double end_of_series = 10;
+/// 1 + k·r²: of x² + y², and of both terms (lens_bend).
+inline constexpr double square_rounding = 4 * u;
+inline constexpr double bend_rounding = 2 * u;
+/// The quotient of two components: of the greater coordinate (lens_place). Places that err by more
+/// of it than the second are found from the exact direction (lens_range).
+inline constexpr double place_rounding = u;
+inline constexpr double loose_error = 0x1p-30;
+/// The side of max_radius on which a direction lies: of the error of the components, and of the
+/// length and 1 (lens_angle).
+inline constexpr double angle_of_error = 3;
+inline constexpr double angle_rounding = 8 * u;
+
 /// The place of a sample without a ray.
 inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 

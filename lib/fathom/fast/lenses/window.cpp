@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "fathom/fast/lenses/plane_places.h"
-#include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::fast {
 using place_arithmetic::up;
@@ -17,9 +16,10 @@ constexpr double most_pixels = 16384;
 /// Beside the samples: more than their errors.
 constexpr double margin = 2;
 
-/// Coordinates from the camera's axis are below this: the errors of places, which are below 2⁻²⁸ of
-/// them (places.cpp), are then less than the margin.
+/// Coordinates from the camera's axis are below this: the errors of places, which are below
+/// ball_share of them (plane_places.cpp), are then less than the margin.
 constexpr double most_shift = 0x1p26;
+static_assert(most_shift * place_arithmetic::ball_share < margin);
 
 /// The power of two next to a focal length, in its sign; less where the window would be too large
 /// or, with places up to `size`, too far from the camera's axis.
@@ -79,8 +79,7 @@ Pose pose_in(const ViewAxes& axes, const Pose& world_to_camera) {
 DepthRange distance_range(const Camera& camera, const PlaneBox& box) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double down = 1 - 0x1p-40;
-  constexpr double error_of_places = 0x1p-29;  // of the greatest coordinate; more than they have
-  const double size = box.size() * (1 + error_of_places);
+  const double size = box.size() * (1 + lens_bounds::range_room);
   const double longest = std::sqrt(1 + 2 * size * size) * up;
   DepthRange range{-infinity, infinity, -infinity, infinity};
   if (camera.far < infinity) {
@@ -130,7 +129,7 @@ TileInWindow::TileInWindow(const Window& window, const Places::OfTile& places) {
   const auto columns = ends(p.fx, p.cx, places.box.left, places.box.right, window.camera.width);
   const auto rows = ends(p.fy, p.cy, places.box.top, places.box.bottom, window.camera.height);
   error = places.error * std::max(std::abs(scale_x), std::abs(scale_y)) * (1 + 0x1p-40) +
-          0x1p15 * unit_roundoff<double>;
+          lens_bounds::window_rounding;
   is_certain = error <= lens_bounds::greatest_error;
   area = {0, window.camera.width - 1, 0, window.camera.height - 1};
   if (is_certain) area = {columns.first, columns.second, rows.first, rows.second};

@@ -5,21 +5,27 @@
 #include "fathom/fast/lenses/places.h"
 #include "fathom/fast/setup/setup.h"
 #include "fathom/geometry/frames.h"
+#include "fathom/numeric/standard_arithmetic.h"
 
 // Constants of the bounds of samples that lie anywhere in a window; their derivations are where
-// they are used. validation/proofs/ proves the first, in the file that is named beside it.
+// they are used. validation/proofs/ proves each, in the file that is named beside it.
 namespace fathom::fast::lens_bounds {
 
 /// The extent of a tile is taken to be so much greater in setup_bounds::lane_error, because places
 /// are rounded to binary32, too (lens_value).
 inline constexpr double lane_extent = 1.25;
-/// Errors of places are multiplied by that, which covers the roundings of later bounds.
+/// What the sum of a place and a shift may err by (lens_window).
+inline constexpr double window_rounding = 0x1p15 * unit_roundoff<double>;
+/// A view's box of places is greater by so much of its coordinates than the exact one (lens_range).
+inline constexpr double range_room = 0x1p-29;
+/// Errors of places are multiplied by that, which covers the roundings of later bounds
+/// (lens_moved_q).
 inline constexpr double place_room = 1 + 0x1p-10;
 /// Errors of places beyond it are too great for the bounds of triangles, for the margin of a tile's
 /// area and for that of rectangles.
 inline constexpr double greatest_error = 0x1p-12;
 /// Rectangles around triangles are greater by that and by so much of their coordinates: samples and
-/// corners are rounded to binary32.
+/// corners are rounded to binary32 (lens_rectangle).
 inline constexpr double rectangle_margin = 0x1p-9, rectangle_rounding = 0x1p-20;
 
 }  // namespace fathom::fast::lens_bounds
