@@ -2,6 +2,7 @@
 #include "fathom/fast/render_lens.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <memory>
 #include <numeric>
@@ -25,6 +26,40 @@ using namespace triangle;
 
 namespace {
 
+/// Which triangles of a tile of the window may meet an area of it, by the blocks of their boxes.
+class BlocksMet {
+ public:
+  BlocksMet(const PixelBox& area, std::uint32_t column, std::uint32_t row) {
+    const auto [left, right] = blocks_of(area.first_column, area.last_column, column);
+    const auto [top, bottom] = blocks_of(area.first_row, area.last_row, row);
+    for (const std::size_t more : {0, 1}) {
+      // A box has up to two, or up to four, blocks in a row and in a column, from its first one on.
+      const std::uint32_t others = more == 0 ? 1 : 3;
+      for (std::uint32_t y = top - std::min(top, others); y <= bottom; ++y)
+        for (std::uint32_t x = left - std::min(left, others); x <= right; ++x)
+          first_blocks_[more] |= std::uint64_t{1} << (y * Tile::blocks_of_row + x);
+    }
+  }
+
+  /// Triangles that are drawn from exact numbers may be anywhere.
+  [[nodiscard]] bool may_hold(Nearness n) const {
+    const std::uint64_t first_blocks = first_blocks_[meets_more_than_two_blocks(n) ? 1 : 0];
+    return (first_blocks >> block_of(n) & 1) != 0 || (n & nearness_of_q) == never_hidden;
+  }
+
+ private:
+  /// The first and the last block of a tile, of this number in its row or column, in a range of
+  /// pixels that meets it.
+  static std::pair<std::uint32_t, std::uint32_t> blocks_of(std::uint32_t first, std::uint32_t last,
+                                                           std::uint32_t tile) {
+    const std::uint32_t begin = tile * Tile::size;
+    return {(std::max(first, begin) - begin) / Tile::block,
+            std::min(last - begin, Tile::size - 1) / Tile::block};
+  }
+
+  std::array<std::uint64_t, 2> first_blocks_{};
+};
+
 /// The triangles of one side in tiles of the window, each once.
 class Gathered {
  public:
@@ -39,9 +74,10 @@ class Gathered {
   Gathered(const Gathered&) = delete;
   Gathered& operator=(const Gathered&) = delete;
 
-  void add(const std::vector<Bins>& all_bins, std::uint32_t tile, Side side) {
+  void add(const std::vector<Bins>& all_bins, std::uint32_t tile, Side side, const BlocksMet& met) {
     for (const Bins& bins : all_bins) {
       for (const TileEntry& entry : bins.in_tile(tile, side)) {
+        if (!met.may_hold(entry.nearness)) continue;
         const std::uint64_t bit = std::uint64_t{1} << (entry.number - first_number_) % 64;
         if (word_of(entry) & bit) continue;
         word_of(entry) |= bit;
@@ -73,8 +109,11 @@ void draw_side(LensTile& tile, Side side, const WindowScene& scene,
                std::vector<std::uint64_t>& taken, const LensContext& context) {
   const DrawContext& window = context.window;
   Gathered gathered(window.visible.entries(), taken, scene.first_number);
-  scene.grid.for_each_tile(tile.where().area,
-                           [&](std::uint32_t number) { gathered.add(scene.bins, number, side); });
+  const PixelBox& area = tile.where().area;
+  scene.grid.for_each_tile(area, [&](std::uint32_t number) {
+    const BlocksMet met(area, number % scene.grid.columns, number / scene.grid.columns);
+    gathered.add(scene.bins, number, side, met);
+  });
   if (side == Side::back && window.switches.early_rejection)
     gathered.leave_out_behind(tile.farthest());
   window.visible.for_each_part(tile.tile(), false, [&](std::span<const std::uint32_t> numbers) {
