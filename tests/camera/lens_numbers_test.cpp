@@ -13,6 +13,7 @@
 namespace fathom {
 namespace {
 
+using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
 
 std::string fault(std::string_view model, const std::vector<double>& numbers,
@@ -38,6 +39,54 @@ TEST(LensNumbers, EveryModelTakesItsOwnCount) {
     EXPECT_EQ(distortion_count_fault(entry, numbers.size()), std::nullopt) << entry.name;
     EXPECT_NE(distortion_count_fault(entry, numbers.size() + 1), std::nullopt) << entry.name;
     EXPECT_EQ(distortion_count_fault(entry, numbers.size() + 4, 4), std::nullopt) << entry.name;
+  }
+}
+
+// As the specification has them; files, importers and C take keys and lists from the same table.
+TEST(LensModels, HaveTheirParametersInOrder) {
+  const std::array<std::string, 18> rows{
+      "SIMPLE_PINHOLE f cx cy",
+      "PINHOLE fx fy cx cy",
+      "SIMPLE_RADIAL f cx cy k",
+      "RADIAL f cx cy k1 k2",
+      "OPENCV fx fy cx cy k1 k2 p1 p2",
+      "FULL_OPENCV fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6",
+      "OPENCV_14 fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4 tauX tauY",
+      "BROWN fx fy cx cy k1 k2 k3 k4 p1 p2",
+      "SIMPLE_DIVISION f cx cy k",
+      "DIVISION fx fy cx cy k",
+      "FISHEYE_STEREOGRAPHIC fx fy cx cy",
+      "SIMPLE_FISHEYE f cx cy",
+      "FISHEYE fx fy cx cy",
+      "SIMPLE_RADIAL_FISHEYE f cx cy k",
+      "RADIAL_FISHEYE f cx cy k1 k2",
+      "OPENCV_FISHEYE fx fy cx cy k1 k2 k3 k4",
+      "THIN_PRISM_FISHEYE fx fy cx cy k1 k2 p1 p2 k3 k4 sx1 sy1",
+      "TABLE"};
+  std::vector<std::string> found;
+  for (const LensModelEntry& entry : lens_models()) {
+    std::string& row = found.emplace_back(entry.name);
+    for (const auto& names : {entry.intrinsics, entry.distortion})
+      for (const std::string_view name : names) row += ' ' + std::string(name);
+  }
+  EXPECT_THAT(found, ElementsAreArray(rows));
+}
+
+TEST(LensModels, OfThePlaneHaveNearAndFarOfZ) {
+  for (const LensModelEntry& entry : lens_models()) {
+    EXPECT_EQ(is_plane(entry.model), entry.model < LensModel::simple_division) << entry.name;
+    EXPECT_EQ(lens_model_named(entry.name), entry.model);
+  }
+}
+
+TEST(LensModels, OpencvHasListsOfFourLengthsMore) {
+  for (const LensModelEntry& entry : lens_models()) {
+    std::vector<std::size_t> counts;
+    for (std::size_t count = 0; count < 20; ++count)
+      if (!distortion_count_fault(entry, count)) counts.push_back(count);
+    const std::vector<std::size_t> own{entry.distortion.size()};
+    const bool is_opencv_14 = entry.model == LensModel::opencv_14;
+    EXPECT_EQ(counts, is_opencv_14 ? std::vector<std::size_t>{4, 5, 8, 12, 14} : own) << entry.name;
   }
 }
 
