@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fathom/camera/lens.h"
+#include "fathom/camera_directions.h"
 #include "fathom/failures/errors.h"
 #include "fathom/failures/unknown_name.h"
 #include "fathom/render.h"
@@ -20,10 +23,11 @@
 /// or with --keep render_into(), reusing the previous map and its memory:
 ///   engine_bench [SCENE…] [--size WxH] [--threads N] [--repeat N] [--engine fast|reference]
 ///                [--channels Z,id,…] [--depths binary32|binary64|scaled_unorm16] [--cull
-///                back|front|none] [--lens OPENCV,-0.25,0.05,…] [--without
+///                back|front|none] [--lens OPENCV,-0.25,0.05,…] [--table] [--without
 ///                avx-512,simd,hierarchy,early-rejection] [--tiers] [--keep]
-/// Scenes are named in scenes.h, or are mesh files. The first run of each is not counted. --tiers
-/// counts how many decisions and values each arithmetic settled.
+/// Scenes are named in scenes.h, or are mesh files. The first run of each is not counted. --table
+/// takes the directions of the pixels as numbers. --tiers counts how many decisions and values each
+/// arithmetic settled.
 namespace {
 
 using namespace fathom;
@@ -33,7 +37,7 @@ struct Arguments {
   std::vector<std::string> scenes;
   unsigned width = 1920, height = 1080;
   int repeat = 9;
-  bool tiers = false, keep = false;
+  bool tiers = false, keep = false, table = false;
   RenderOptions options{.engine = Engine::fast};
   std::optional<Lens> lens;
 };
@@ -108,12 +112,18 @@ void leave_out(const std::string& list, FastSwitches& switches) {
   }
 }
 
+bool* flag_named(const std::string& name, Arguments& arguments) {
+  if (name == "--tiers") return &arguments.tiers;
+  if (name == "--keep") return &arguments.keep;
+  return name == "--table" ? &arguments.table : nullptr;
+}
+
 Arguments parse(int argc, char** argv) {
   Arguments arguments;
   for (int i = 1; i < argc; ++i) {
     const std::string name = argv[i];
-    if (name == "--tiers" || name == "--keep") {
-      (name == "--tiers" ? arguments.tiers : arguments.keep) = true;
+    if (bool* const flag = flag_named(name, arguments)) {
+      *flag = true;
       continue;
     }
     if (!name.starts_with("--")) {
@@ -172,9 +182,17 @@ void print_tiers(const RenderStatistics& s) {
         s.areas_with_exact_ends - std::min(areas.exact, s.areas_with_exact_ends), areas.exact});
 }
 
+/// Gives the directions of its pixels to the camera, in place of its lens.
+void see_as_table(Camera& camera) {
+  Lens table{LensModel::table};
+  table.directions = std::make_shared<const DirectionTable>(directions_of(camera));
+  camera.projection = Projection{.lens = std::move(table)};
+}
+
 void time_scene(const std::string& name, const Arguments& arguments) {
   bench::BenchScene bench = bench::make_scene(name, arguments.width, arguments.height);
   bench.camera.projection.lens = arguments.lens;
+  if (arguments.table) see_as_table(bench.camera);
   std::vector<double> milliseconds;
   std::size_t covered = 0;
   RenderMemory memory;
