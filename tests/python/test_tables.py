@@ -195,7 +195,7 @@ def test_texts_of_maps_are_in_the_page():
 
 def test_texts_of_files_have_one_spelling():
     """Nothing in the library or the programs spells a key itself, but the two headers that list the keys."""
-    lists = [source / "lib/fathom/image" / header for header in ("depth_map.h", "files/code_texts.h")]
+    lists = [source / "lib/fathom/image" / header for header in ("depth_map.h", "files/file_texts.h")]
     keys = [key for header in lists for key in
             re.findall(r'"(fathom[.:][a-z_-]+)"', header.read_text(encoding="utf-8"))]
     assert len(keys) >= 14
