@@ -14,6 +14,7 @@
 
 #include "fathom/vtk/explain_depth.h"
 #include "validation/opengl/egl_context.h"
+#include "validation/vtk/surfaceless_window.h"
 #include "validation/vtk/vtk_renderer.h"
 
 namespace fathom::vtk {

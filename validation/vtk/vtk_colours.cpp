@@ -26,6 +26,7 @@
 #include "fathom/failures/errors.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/vtk/drawn_by_vtk.h"
+#include "validation/vtk/surfaceless_window.h"
 #include "validation/vtk/vtk_renderer.h"
 
 namespace fathom::validation {

@@ -1,15 +1,11 @@
 #include "validation/vtk/vtk_renderer.h"
 
-#include <fcntl.h>
-#include <unistd.h>
 #include <vtkActor.h>
-#include <vtkAutoInit.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -22,70 +18,15 @@
 #include <vtkVersion.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "fathom/failures/errors.h"
 #include "validation/opengl/egl_context.h"
 #include "validation/opengl/gl_functions.h"
 #include "validation/vtk/peeling.h"
+#include "validation/vtk/surfaceless_window.h"
 #include "validation/vtk/triangle_numbers.h"
 
-VTK_MODULE_INIT(vtkRenderingOpenGL2)
 namespace fathom::validation {
-namespace {
-
-/// Discards what this process writes to standard error while it lives. For libraries that write
-/// there and cannot be told not to.
-class QuietStderr {
- public:
-  QuietStderr();
-  ~QuietStderr();
-  QuietStderr(const QuietStderr&) = delete;
-  QuietStderr& operator=(const QuietStderr&) = delete;
-
- private:
-  int kept_ = -1;
-};
-
-QuietStderr::QuietStderr() : kept_(::dup(STDERR_FILENO)) {
-  std::fflush(stderr);
-  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  if (nowhere < 0) return;
-  ::dup2(nowhere, STDERR_FILENO);
-  ::close(nowhere);
-}
-
-QuietStderr::~QuietStderr() {
-  if (kept_ < 0) return;
-  std::fflush(stderr);
-  ::dup2(kept_, STDERR_FILENO);
-  ::close(kept_);
-}
-
-}  // namespace
-
-vtkStandardNewMacro(SurfacelessWindow);
-
-SurfacelessWindow::SurfacelessWindow() {
-  SetOwnContext(0);
-  SetIsDirect(1);
-  SetSupportsOpenGL(1);
-  SetIsCurrent(true);
-  SetReadyForRendering(true);
-  SetMultiSamples(0);
-  SetFrameBlitModeToNoBlit();
-  GlFunctions().DepthFunc(GL_LEQUAL);
-}
-
-void SurfacelessWindow::OpenGLInitContext() {
-  if (prepared_) return;
-  const QuietStderr quiet;
-  Superclass::OpenGLInitContext();
-  Initialized = true;
-  GlewInitValid = true;
-  prepared_ = true;
-}
-
 namespace {
 
 using attribution::clip_from_eye;
