@@ -104,8 +104,8 @@ std::string quoted(const std::string& text) {
 }
 
 /// Colours that are told apart by the colour-blind (Okabe and Ito), darkest first.
-constexpr const char* colours[] = {"#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                   "#56B4E9", "#E69F00", "#7F7F7F", "#8B4513"};
+constexpr const char* series_colours[] = {"#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                          "#56B4E9", "#E69F00", "#7F7F7F", "#8B4513"};
 constexpr int colour_count = 9;
 
 std::string axes(const std::string& title, const std::string& y_label) {
@@ -182,7 +182,7 @@ std::vector<std::size_t> drawn_lines(const Plot& plot) {
 /// Colour, dashes and marks of a series.
 std::string style_of(std::size_t series) {
   return fmt::format("lw 1.5 dt {} pt {} ps 0.8 lc rgb \"{}\"", series % 5 + 1, series % 13 + 1,
-                     colours[series % colour_count]);
+                     series_colours[series % colour_count]);
 }
 
 /// The line of a series, and below its name those of the lines that it hides, as "= NAME".
@@ -240,7 +240,7 @@ std::string script_of(const BarChart& chart) {
         "  $bars using {}{} title {} fs pattern {} border lc rgb \"{}\" lc rgb "
         "\"{}\"{}\n",
         i + 2, i == 0 ? ":xtic(1)" : "", quoted(chart.series[i].label), i % 7 + 1,
-        colours[i % colour_count], colours[i % colour_count],
+        series_colours[i % colour_count], series_colours[i % colour_count],
         i + 1 < chart.series.size() ? ", \\" : "");
   }
   return script;
