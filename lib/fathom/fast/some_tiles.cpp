@@ -74,8 +74,8 @@ std::uint64_t SortedTriangles::count_triangles(const WantedTile& wanted_tile) co
 namespace fast {
 namespace {
 
-/// Parts of a round, enough for threads to share them out. Each has a table of all tiles, which
-/// takes longer to fill than the triangles of a round where an image is large.
+/// The number of parts of a round, enough to keep all threads busy. Each part has a table of all
+/// tiles, which for a large image takes longer to fill than the triangles of a round.
 std::uint32_t parts_of_round(const RenderOptions& options) {
   return options.threads == 1 ? 1 : 8;
 }
@@ -148,7 +148,7 @@ class StraightImage : public ImageInRounds {
   FastWorkers workers_, sorting_again_;
   TilesInRounds::Limits limits_;
   TileStore tiles_;
-  /// Those that are drawn here, and for each of the image whether it is one of them.
+  /// The tiles that are drawn here, and for each tile of the image whether it is drawn here.
   std::vector<std::uint32_t> chosen_;
   std::vector<std::uint8_t> is_chosen_;
   /// Where channel A is asked for.
@@ -254,7 +254,7 @@ SortedTriangles TilesInRounds::State::sort(std::vector<SomeTriangles> lists,
 
 namespace {
 
-/// work(), in as many threads as asked for.
+/// Runs work() in the requested number of threads.
 template <class Work>
 auto in_threads(int threads, const Work& work) {
   const StandardArithmetic standard;

@@ -13,14 +13,14 @@
 #include "fathom/rendering/rendered.h"
 #include "fathom/scene/triangle_source.h"
 
-/// A map that is drawn in several places, each of which has some tiles of the image and is given
-/// the triangles that may touch them, some at a time. What a tile shows depends neither on the
-/// others nor on the order in which triangles come: put together, the tiles are the map of
-/// render_fast(), bit for bit.
+/// A map that is drawn in several places: each place draws some tiles of the image and receives, a
+/// few at a time, the triangles that may touch these tiles. A tile depends neither on other tiles
+/// nor on the order of its triangles: put together, the tiles equal the map of render_fast(), bit
+/// for bit.
 namespace fathom {
 
-/// The tiles of an image: squares of side × side pixels, less at the right and below, numbered row
-/// by row from the top left.
+/// The tiles of an image: squares of side × side pixels, smaller at the right and the lower border,
+/// numbered row by row from the top left.
 struct ImageTiles {
   std::uint32_t side = 0, columns = 0, rows = 0;
   [[nodiscard]] std::uint32_t count() const { return columns * rows; }
@@ -28,9 +28,8 @@ struct ImageTiles {
 /// Fails    InputError if there are 2³² tiles or more.
 ImageTiles tiles_of(const Camera& camera);
 
-/// Some triangles of an object of a scene, as a mesh of their own, with the numbers that they have
-/// in the scene, in ascending order; or else, where `numbers` is empty, those from `first_number`
-/// on.
+/// Some triangles of an object of a scene, as a separate mesh, with their numbers in the scene in
+/// ascending order. If `numbers` is empty, the numbers are consecutive from `first_number`.
 struct SomeTriangles {
   std::uint32_t object = 0;
   Mesh mesh;
@@ -38,18 +37,18 @@ struct SomeTriangles {
   std::vector<std::uint32_t> numbers;
 };
 
-/// Whether a tile, by its number, is one that is asked for. Several threads may ask.
+/// Returns whether the tile of this number is wanted. Several threads may call it at once.
 using WantedTile = std::function<bool(std::uint32_t)>;
 
-/// That a triangle may touch a tile.
+/// A triangle and a tile that it may touch.
 struct TileTouch {
   std::uint32_t tile;
-  /// Counted from 0 through the lists that were sorted together.
+  /// Its place, counted from 0 through all lists that were sorted together.
   std::uint32_t triangle;
 };
 
-/// Triangles with the tiles in which they may be visible; where channel A is asked for, those that
-/// they may meet. They certainly touch no others. Under a lens, the tiles of which some samples lie
+/// Triangles with the tiles in which they may be visible or, if channel A is wanted, that they may
+/// meet. They certainly touch no other tiles. Under a lens, the tiles of which some samples lie
 /// near them.
 class SortedTriangles {
  public:
@@ -60,11 +59,11 @@ class SortedTriangles {
   ~SortedTriangles();
 
   [[nodiscard]] const std::vector<SomeTriangles>& triangles() const;
-  /// Adds how many triangles may touch each tile.
+  /// Adds, for each tile, the number of triangles that may touch it.
   void count(std::span<std::uint64_t> of_tiles) const;
-  /// How many triangles may touch any of these tiles.
+  /// The number of triangles that may touch any of these tiles.
   [[nodiscard]] std::uint64_t count_triangles(const WantedTile& wanted_tile) const;
-  /// In no order, and perhaps some twice.
+  /// In no order; some may occur twice.
   [[nodiscard]] std::vector<TileTouch> touches(const WantedTile& wanted_tile) const;
 
  private:
@@ -72,15 +71,15 @@ class SortedTriangles {
   std::unique_ptr<State> state_;
 };
 
-/// Tiles of one image that are drawn in rounds. Scene and camera must outlive it; triangles of the
-/// scene are asked for at any time.
+/// Tiles of one image that are drawn in rounds. Scene and camera must outlive the object, which may
+/// read triangles of the scene at any time.
 /// Memory   the triangles that are drawn, about bytes_per_triangle each for each view, and what the
 ///          limits allow; of a lens 17 bytes for each pixel, too.
 class TilesInRounds {
  public:
   struct Limits {
-    /// For tiles, up to 40 bytes per pixel; for triangles that channel A needs again. What does not
-    /// fit waits in files (TMPDIR says where).
+    /// Memory for tiles, up to 40 bytes per pixel, and for triangles that channel A needs again.
+    /// Anything beyond it waits in files, in the folder that TMPDIR names.
     std::uint64_t tile_bytes = std::uint64_t{1} << 40, kept_bytes = std::uint64_t{1} << 40;
   };
   /// About what sorting and drawing in one view takes for each triangle, its mesh included.
@@ -100,19 +99,18 @@ class TilesInRounds {
   /// Lists in the order of their triangles in the scene.
   /// Fails    InputError where a mesh has a fault.
   SortedTriangles sort(std::vector<SomeTriangles> triangles);
-  /// The same, but statistics count nothing of it: these triangles have been counted elsewhere.
+  /// The same without statistics: these triangles have been counted elsewhere.
   SortedTriangles sort_again(std::vector<SomeTriangles> triangles);
-  /// Says which tiles are drawn here, by their numbers in ascending order: once, before the first
-  /// are.
+  /// Sets the tiles to draw, by their numbers in ascending order. Call it once, before draw().
   void choose(std::vector<std::uint32_t> tiles);
   /// Draws triangles in these tiles.
   /// Fails    OutputError where there is no room for tiles in a file.
   void draw(const SortedTriangles& triangles);
-  /// When all have been drawn: the map of rows first_row ≤ row < end_row of tiles, each asked for
-  /// once. Elsewhere than in these tiles it has any values.
+  /// After all triangles have been drawn: the map of the rows of tiles first_row ≤ row < end_row;
+  /// each row may be requested once. Values outside the chosen tiles are unspecified.
   /// Fails    as render_fast().
   DepthMap rows(std::uint32_t first_row, std::uint32_t end_row);
-  /// Of what was done up to now: `triangles` are those of the scene.
+  /// Statistics of the work so far; `triangles` counts the triangles of the scene.
   [[nodiscard]] RenderStatistics statistics() const;
 
  private:

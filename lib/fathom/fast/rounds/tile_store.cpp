@@ -18,13 +18,14 @@ bool is_of_sample(std::uint32_t sample) {
   return sample < Tile::samples;
 }
 
-/// Besides samples and surfaces.
+/// The saved state in addition to samples and surfaces.
 struct SavedState {
   std::uint32_t places, end_of_front, draws_back_faces;
 };
 
-/// Of a surface that one sample alone shows, q at that sample is all that will be asked for: a
-/// constant, with the same bound on its error. It is computed only for samples at pixels.
+/// A surface that a single sample shows is stored as its q at that sample, a constant, with the
+/// same bound on its error: no other value will be needed. It is computed only for samples at
+/// pixels.
 struct SurfaceOfSample {
   double q;
   std::uint64_t tag;
@@ -44,7 +45,7 @@ std::vector<std::uint32_t> only_samples(const Tile& tile, SamplesLie lie, std::u
 
 }  // namespace
 
-// What is known of blocks is left out: it is found again.
+// The data of blocks is left out, because it can be computed again.
 void save(const Tile& tile, SamplesLie samples, files::Bytes& bytes) {
   const std::uint32_t places = tile.end_of_places();
   const SavedState state{places, tile.end_of_front(), tile.draws_back_faces() ? 1U : 0U};
@@ -99,8 +100,7 @@ void restore(const ReadSaved& read, SamplesLie samples, Tile& tile) {
 
 namespace {
 
-/// Where a tile waits: each has a place of its own, of which nothing is taken before it is written
-/// to.
+/// The place of a stored tile: each tile has its own, which takes no space before it is written.
 std::uint64_t place_of(std::uint32_t number) {
   return std::uint64_t{number} * Tile::most_packed_bytes;
 }
@@ -130,9 +130,9 @@ Tile& TileStore::take(std::uint32_t number) {
   return *slot.tile;
 }
 
-// Tiles that were not taken since the last room was made are done with, or wait for longer: they
-// are packed first. To pack the others takes less time than to write any, but in vain where writing
-// cannot be helped.
+// Tiles that were not taken since the last make_room() are finished or wait for longer: they are
+// packed first. Packing the others takes less time than writing any tile, but is useless if tiles
+// must be written anyway.
 void TileStore::make_room() {
   std::erase_if(in_memory_, [&](std::uint32_t number) { return !slots_[number].tile; });
   const auto is_old = [&](std::uint32_t number) { return slots_[number].used < rooms_made_; };
@@ -180,7 +180,7 @@ void TileStore::pack(std::size_t end) {
   }
 }
 
-// At most `count`, all of which have been packed.
+// Writes at most `count` tiles, all of which have been packed.
 void TileStore::write_oldest(std::size_t count) {
   if (!is_too_much()) return;
   if (!file_) file_.emplace();
