@@ -16,8 +16,13 @@
 #include "fathom/triangle/projected_triangle.h"
 #include "fathom/triangle/referee.h"
 
+// How to read this file: pixel_coverage() and rounded_pixel_coverage() compute the exact coverage
+// of a pixel. add_sampled_coverage() at the end computes coverage by samples: bands of rows are
+// filled one by one, and each triangle is tested at the samples of its box that no other has
+// covered.
 namespace fathom {
 using namespace area;
+using namespace rendering;
 using namespace triangle;
 
 namespace {
@@ -57,11 +62,6 @@ float rounded_pixel_coverage(const CoverageFrame& frame, std::span<const std::ui
   add(frame, triangles, coverage);
   return coverage.rounded_area();
 }
-
-// How to read this file: add_sampled_coverage() at the end is the whole story. Bands of rows are
-// filled one by one: each triangle is tested at the samples of its box that no other has covered.
-
-using namespace rendering;
 
 namespace {
 

@@ -20,6 +20,9 @@
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
+// How to read this file: known_background() separates the background from surfaces. For the search
+// for faults, start with attribute_and_name() at the end. Faults are tried from the simplest to the
+// most complex, and the first fault that explains nine tenths of the unexplained pixels is taken.
 namespace fathom::attribution {
 namespace {
 
@@ -107,9 +110,6 @@ KnownBackground known_background(const Truth& truth, const OtherMap& other) {
   }
   return known;
 }
-
-// How to read this file: attribute_and_name() at the end. Faults are tried from the simplest to the
-// most complex, and the first fault that explains nine tenths of the unexplained pixels is taken.
 
 namespace {
 

@@ -21,7 +21,15 @@
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 
+// How to read this file: start with LensImage::draw(). Places contains where the rays of all
+// samples meet a plane at distance 1: of a lens of the plane z = 1, of others in one of six views.
+// The Window is a camera with straight edges that sees this part of the plane. Vertices are
+// transformed to the window and triangles sorted into its tiles, as without a lens. Each tile of
+// the image draws the triangles of those tiles of the window in which its samples lie (lens_tile),
+// and writes the visible surfaces (lens_output). StreamedView::draw() processes some triangles at a
+// time as LensImage processes all; the tiles of a band keep the visible surfaces so far.
 namespace fathom::fast {
+using namespace rendering;
 using namespace triangle;
 
 namespace {
@@ -208,15 +216,6 @@ Rendered write_ray_by_ray(const TriangleSource& triangles, const Camera& camera,
   return {std::move(map), statistics, {}};
 }
 
-// How to read this file: LensImage::draw() is the whole story. Places contains where the rays of
-// all samples meet a plane at distance 1: of a lens of the plane z = 1, of others in one of six
-// views. The Window is a camera with straight edges that sees this part of the plane. Vertices are
-// transformed to the window and triangles sorted into its tiles, as without a lens. Each tile of
-// the image draws the triangles of those tiles of the window in which its samples lie (lens_tile),
-// and writes the visible surfaces (lens_output).
-
-using namespace rendering;
-
 namespace {
 
 /// The places of a camera's samples, from the frame before where they are the same.
@@ -327,9 +326,6 @@ Rendered render_lens(const Scene& scene, const Camera& camera, const RenderOptio
     return render_in_windows(scene, camera, options, context, places, memory, std::move(before));
   });
 }
-
-// How to read this file: StreamedView::draw() is the whole story. It processes some triangles at a
-// time as LensImage processes all; the tiles of a band keep the visible surfaces so far.
 
 namespace {
 

@@ -52,7 +52,7 @@ struct FragmentTrace {
 struct PrimitiveTrace {
   PrimitiveKind kind = PrimitiveKind::triangle;
   std::uint32_t number = 0;                ///< in the scene
-  std::vector<CornerTrace> corners;        ///< three, two or one, by kind, by kind
+  std::vector<CornerTrace> corners;        ///< three, two or one, by kind
   std::vector<WindowCornerTrace> polygon;  ///< after clipping; empty if clipped away
   /// The results of the three tests of a triangle; if it was clipped, for the first three of its
   /// remaining corners.

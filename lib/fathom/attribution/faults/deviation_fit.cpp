@@ -12,6 +12,9 @@
 #include "fathom/attribution/faults/residuals.h"
 #include "fathom/failures/errors.h"
 
+// How to read this file: start with fitted_deviation() at the end. All sets are compared by one
+// linear step, the best sets of each size are fitted, and the smallest set that is good enough is
+// taken (simplest_of()). deviation_hypothesis() describes it.
 namespace fathom::attribution {
 namespace {
 
@@ -186,9 +189,6 @@ Hypothesis deviation_hypothesis(const Truth& truth, const OtherMap& other,
   }
   return h;
 }
-
-// How to read this file: fitted_deviation() at the end. All sets are compared by one linear step,
-// the best sets of each size are fitted, and the smallest set that is good enough is taken.
 
 namespace {
 

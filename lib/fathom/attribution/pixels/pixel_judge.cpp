@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+// How to read this file: start with judge() at the end. verdict_of() combines the fragments of a
+// sample, explaining() computes the allowed values, classify() the class of the stored value.
 namespace fathom::attribution {
 namespace {
 
@@ -111,9 +113,6 @@ PixelVerdict verdict_of(std::span<const Fragment> fragments, bool watertight,
   }
   return verdict;
 }
-
-// How to read this file: judge() at the end. explaining() computes the allowed values, classify()
-// the class of the stored value.
 
 namespace {
 

@@ -8,6 +8,12 @@
 #include "fathom/fast/lanes/each_bit.h"
 #include "fathom/fast/tiles/tile.h"
 
+// How to read this file: CertifiedWriter::write() is the list of channels. Channels that follow
+// from q alone are rounded for a whole row (channel_rows.h), and so are channels that follow from
+// the triangle (surface_lanes.h, wide_rows.h), with the properties that TileSurfaces computes. For
+// the remaining values, PixelWriter has a function for each channel, which goes through the tiers.
+// Values and their bounds come from triangle/certified_surface.h and double_word_surface.h,
+// roundings from numeric/certified_rounding.h.
 namespace fathom::fast {
 
 void TileSurfaces::start(const Tile& tile) {
@@ -82,13 +88,6 @@ void TileSurfaces::make_forms(const ValueFrame& frame) {
     first += batch.count;
   }
 }
-
-// How to read this file: CertifiedWriter::write() is the list of channels. Channels that follow
-// from q alone are rounded for a whole row (channel_rows.h), and so are channels that follow from
-// the triangle (surface_lanes.h, wide_rows.h). For the remaining values, PixelWriter has a function
-// for each channel, which goes through the tiers. Values and their bounds come from
-// triangle/certified_surface.h and double_word_surface.h, roundings from
-// numeric/certified_rounding.h.
 
 using namespace rendering;
 using namespace triangle;
