@@ -55,9 +55,9 @@ Sign sign_of_determinant(const HalfPlane& a, const HalfPlane& b, const HalfPlane
 /// Whether the parallel lines of a and b have their insides on the same side.
 bool same_side(const HalfPlane& a, const HalfPlane& b);
 
-/// Walk along the line of e with the inside of e on the left. The line of m, if not parallel to it,
-/// is crossed at a place τ, in units of the normal's length; there the walk enters m if
-/// turn(e, m) < 0, and leaves it otherwise.
+// Walk along the line of e with the inside of e on the left. The line of m, if not parallel to it,
+// is crossed at a place τ, in units of the normal's length; there the walk enters m if
+// turn(e, m) < 0, and leaves it otherwise.
 
 /// The sign of τ(m) − τ(n).
 Sign compare_crossings(const HalfPlane& e, const HalfPlane& m, const HalfPlane& n,

@@ -171,16 +171,16 @@ class ImageCell {
 /// as in every mesh, lies on two edges of t; no interval could decide that.
 bool are_disjoint(const SurfaceRegion& s, const SurfaceRegion& t);
 
-/// Divides a cell until each part has few pieces: the work for a part grows with the cube of the
-/// number of its pieces, so that thousands of triangles in a pixel would take forever. The areas of
-/// the parts add up, and their nearest depths are compared.
-///
-/// A part is cut in halves ([War69]) as long as that separates pieces. Halves do not separate
-/// pieces that cover the same places, such as faces that coincide or edges that lie on each other.
-/// Then the part is cut along an edge of the piece that hides most. After as many cuts as this
-/// piece has edges, it is the whole of a part, and only pieces in front of it remain there. Such an
-/// edge becomes a side of both parts, together with every other edge in the same line.
-/// Source   [War69], [FKN80]
+// Divides a cell until each part has few pieces: the work for a part grows with the cube of the
+// number of its pieces, so that thousands of triangles in a pixel would take forever. The areas of
+// the parts add up, and their nearest depths are compared.
+//
+// A part is cut in halves ([War69]) as long as that separates pieces. Halves do not separate
+// pieces that cover the same places, such as faces that coincide or edges that lie on each other.
+// Then the part is cut along an edge of the piece that hides most. After as many cuts as this
+// piece has edges, it is the whole of a part, and only pieces in front of it remain there. Such an
+// edge becomes a side of both parts, together with every other edge in the same line.
+// Source   [War69], [FKN80]
 
 struct DivisionLimits {
   /// Parts with at most so many pieces are not divided further.

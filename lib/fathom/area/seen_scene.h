@@ -11,9 +11,11 @@
 #include "fathom/camera/camera.h"
 #include "fathom/scene/triangle_source.h"
 
-/// Cameras that see the same triangles as a distant light or a lamp. Their poses are not rotations,
-/// so that nothing is rounded; shares of triangles do not depend on the difference.
+/// Lights: cameras that see the same triangles, and the parts of triangles that a light sees.
 namespace fathom::area {
+
+// Cameras that see the same triangles as a distant light or a lamp. Their poses are not rotations,
+// so that nothing is rounded; shares of triangles do not depend on the difference.
 
 /// The camera whose image contains the whole scene along a direction d: with k the axis of the
 /// greatest |d_k| and i, j the next two in cyclic order, u and v are x_i·d_k − x_k·d_i and
@@ -26,8 +28,8 @@ Camera camera_of_direction(const TriangleSource& triangles, const std::array<dou
 /// Fails    UsageError if the point is not finite.
 std::vector<Camera> cameras_of_point(const std::array<double, 3>& point);
 
-/// The parts of triangles that a light sees, as exact numbers. The caller computes the irrational
-/// factors of an area: the length of a direction and the lengths of normals.
+// The parts of triangles that a light sees, as exact numbers. The caller computes the irrational
+// factors of an area: the length of a direction and the lengths of normals.
 
 enum class LightKind : std::uint8_t { direction, point, camera };
 

@@ -77,7 +77,7 @@ struct ChannelValues {
   std::array<float*, 2> barycentric{};
 };
 
-/// A camera's map before anything is drawn, and the check that a map is a camera's.
+// A camera's map before anything is drawn, and the check that a map is a camera's.
 
 /// The map of a scene without a visible surface: every requested channel, once, with its background
 /// (specification, section 6), in the requested encoding. Takes the memory of channels of `before`

@@ -78,9 +78,9 @@ struct RenderContext {
 /// Fails    UsageError.
 void require_meaningful(const RenderOptions& options);
 
-/// The names of the values of RenderOptions: the only place that states them for the command line,
-/// Python, messages and the texts of a map. Lists are in the order of messages; value_named()
-/// (unknown_name.h) finds a value by its name.
+// The names of the values of RenderOptions: the only place that states them for the command line,
+// Python, messages and the texts of a map. Lists are in the order of messages; value_named()
+// (unknown_name.h) finds a value by its name.
 
 inline constexpr std::array all_engines{Engine::fast, Engine::reference};
 

@@ -103,9 +103,9 @@ struct Rendered {
   std::vector<std::uint64_t> doubtful;
 };
 
-/// Which arithmetic settles which decision: the only source of the words in `render --stats`,
-/// `probe` and the Python module. A table in docs/architecture.md repeats them;
-/// tests/rendering/deciders_test.cpp compares the two.
+// Which arithmetic settles which decision: the only source of the words in `render --stats`,
+// `probe` and the Python module. A table in docs/architecture.md repeats them;
+// tests/rendering/deciders_test.cpp compares the two.
 
 /// CGAL's part in the engines: intervals in binary64, rounded outwards, as a filter in front of
 /// dyadic numbers.

@@ -50,7 +50,7 @@ class Sample {
   const lens::ExactDirection* direction_ = nullptr;
 };
 
-/// Where a pixel is sampled, and which depths count (specification, sections 2 and 5).
+// Where a pixel is sampled, and which depths count (specification, sections 2 and 5).
 
 /// The sample of a pixel: its centre.
 inline ImagePoint centre_of_pixel(std::uint32_t column, std::uint32_t row) {

@@ -32,7 +32,7 @@ inline CodeFactor code_factor_of(const DepthEncoding& encoding) {
   return {*nearest, Ratio(*nearest) == exact ? 0 : unit_roundoff<double>};
 }
 
-/// How depths and ray distances are rounded: once, as the map stores them.
+// How depths and ray distances are rounded: once, as the map stores them.
 
 /// A non-negative quantity x of a surface, or √x where `root`.
 template <class X>

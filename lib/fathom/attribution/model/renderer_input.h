@@ -30,8 +30,8 @@ WorldMesh world_mesh(const Scene& scene);
 /// is no point.
 std::optional<WorldBounds> box_of(const WorldMesh& mesh);
 
-/// The camera in the form of other renderers: OpenGL's matrices and rays. OpenGL's eye space has x
-/// to the right, y up, z backward; clip space is as in [GL46] 13.7, −w ≤ z ≤ w.
+// The camera in the form of other renderers: OpenGL's matrices and rays. OpenGL's eye space has x
+// to the right, y up, z backward; clip space is as in [GL46] 13.7, −w ≤ z ≤ w.
 
 /// Row by row, for column vectors.
 using Matrix4 = std::array<double, 16>;

@@ -6,8 +6,9 @@
 
 #include "fathom/clipping/weiler_atherton/numbered_points.h"
 
-/// The edge below each edge: the only spatial question of the polygon clippers. Sweeps over edges
-/// share these definitions.
+/// The order of edges: the edge below each edge, which is the only spatial question of the polygon
+/// clippers, and the order of edges about a point, which decides how closed lists continue where
+/// they pass through a point more than once.
 namespace fathom::clipping {
 
 /// An edge without its direction; left < right.
@@ -64,8 +65,6 @@ struct IsBelow {
     return turn != 0 ? turn > 0 : a < b;
   }
 };
-
-/// How closed lists continue where they pass through a point more than once.
 
 struct DirectedEdge {
   std::size_t from, to;

@@ -8,7 +8,8 @@
 #include "fathom/clipping/weiler_atherton/edge_order.h"
 #include "fathom/clipping/weiler_atherton/numbered_points.h"
 
-/// Where rings of one side touch.
+/// Contacts within one side: where its rings touch, whether they cross and, before step 1 of
+/// Weiler–Atherton, the lists of a side whose rings touch each other.
 namespace fathom::clipping {
 
 /// Two edges that cross within both, and a ring that has each.
@@ -27,8 +28,6 @@ struct EdgeCrossing {
 std::variant<NumberedRings, EdgeCrossing> enter_touches(const NumberedRings& rings,
                                                         const PointOrder& points);
 
-/// Whether rings that touch cross each other.
-
 struct RingCrossing {
   std::size_t first_ring, second_ring, point;
 };
@@ -37,8 +36,6 @@ struct RingCrossing {
 /// ring is simple, and contacts are entered: edges are the same or meet only in ends.
 /// Cost     n log n, and the pairs of rings that share an edge
 std::optional<RingCrossing> ring_crossing(const NumberedRings& rings, const PointOrder& points);
-
-/// Weiler–Atherton, before step 1: a side whose rings touch each other.
 
 /// The lists of one side: its rings as checked_rings() has them, if they are apart. Where rings
 /// touch, in points or along edges, every edge that two of them have is dropped with its other (the

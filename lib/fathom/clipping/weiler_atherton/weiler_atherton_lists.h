@@ -6,8 +6,8 @@
 #include "fathom/clipping/weiler_atherton.h"
 #include "fathom/clipping/weiler_atherton/numbered_points.h"
 
-/// Weiler–Atherton, step 2: the lists of subject and clip, with their entering and leaving
-/// contacts.
+/// Weiler–Atherton, steps 2 and 3: the lists of subject and clip, with their entering and leaving
+/// contacts, and the walk along them.
 namespace fathom::clipping {
 
 /// Both sides with their contacts entered, as lists that bound one wedge of their polygon wherever
@@ -50,7 +50,7 @@ struct PlaceLists {
 PlaceLists enter_crossings(const NumberedSides& sides, const PointOrder& points,
                            SetOperation operation);
 
-/// Weiler–Atherton, step 3: the walk.
+// Weiler–Atherton, step 3: the walk.
 
 /// A place that the walk reaches, in the list that it follows from there.
 struct Step {

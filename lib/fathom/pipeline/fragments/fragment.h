@@ -3,7 +3,7 @@
 #include "fathom/depth_format/encode.h"
 #include "fathom/pipeline/geometry/window_triangle.h"
 
-/// Interpolation stage: computes the values of a fragment from the corners of its triangle.
+/// Fragments: their values, interpolated from the corners of a triangle, and the depth test.
 namespace fathom::pipeline {
 
 /// A sample of a triangle with all that shading and the output merger need.
@@ -49,7 +49,7 @@ class Interpolator {
   bool perspective_;
 };
 
-/// The depth test: the stored form of a fragment's depth, and which of two depths is nearer.
+// The depth test: the stored form of a fragment's depth, and which of two depths is nearer.
 
 /// A window depth in [0, 1], rounded once to a storage: to nearest, ties to even.
 StoredDepth store(Storage storage, double window_z);

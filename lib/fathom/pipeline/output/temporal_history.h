@@ -9,7 +9,8 @@
 #include "fathom/pipeline/output/output_merger.h"
 #include "fathom/scene/scene.h"
 
-/// Where points of triangles are in the image as objects move.
+/// Moving scenes: where points of triangles are in the image as objects move, and temporal
+/// antialiasing.
 namespace fathom::pipeline {
 
 /// The corners of a triangle as homogeneous image points (U, V, W), in binary64: their places are
@@ -37,7 +38,7 @@ std::optional<std::array<double, 3>> weights_at(const ImageTriangle& triangle, d
 std::optional<std::array<double, 2>> place_of(const ImageTriangle& triangle,
                                               const std::array<double, 3>& weights);
 
-/// Temporal antialiasing: earlier pictures of a moving scene contribute to the present picture.
+// Temporal antialiasing: earlier pictures of a moving scene contribute to the present picture.
 
 /// How history is used; each part can be switched off to show its effect.
 struct HistorySettings {

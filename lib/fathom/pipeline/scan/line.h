@@ -9,7 +9,7 @@
 #include "fathom/pipeline/scan/arithmetic.h"
 #include "fathom/pipeline/scan/pixels.h"
 
-/// The forms of the line through two points P ≠ Q, in an image, where y grows down.
+/// Lines in an image, where y grows down: the forms of a line, and the pixels that algorithms draw.
 namespace fathom::pipeline {
 
 /// y = slope·x + intercept.
@@ -18,6 +18,7 @@ struct ExplicitLine {
   Number slope, intercept;
 };
 
+/// The forms of the line through two points P ≠ Q.
 template <class Number>
 class LineForms {
  public:
@@ -55,14 +56,14 @@ class LineForms {
   Number dx_, dy_;
 };
 
-/// Lines between two pixels.
-///
-/// A line steps along the axis of the greater difference (x if they are equal), the major one, from
-/// its first end to its second, and in every step takes the pixel nearest to the exact line. A tie
-/// is decided by a rule; all exact algorithms draw the same pixels by the same rule.
-///
-/// Lines are not clipped: `window` limits which pixels are visited, never which line is drawn;
-/// algorithms that can begin anywhere skip the outside, however long the line.
+// Lines between two pixels.
+//
+// A line steps along the axis of the greater difference (x if they are equal), the major one, from
+// its first end to its second, and in every step takes the pixel nearest to the exact line. A tie
+// is decided by a rule; all exact algorithms draw the same pixels by the same rule.
+//
+// Lines are not clipped: `window` limits which pixels are visited, never which line is drawn;
+// algorithms that can begin anywhere skip the outside, however long the line.
 
 /// Which of two pixels a line takes that passes half way between their centres.
 enum class TieRule {
