@@ -137,7 +137,7 @@ using bench::Comparison;
 using bench::Measurement;
 using bench::Plan;
 
-/// Above this many triangles the reference engine is timed only where --peers asks for it.
+/// Above this many triangles the reference engine is timed only if --peers names it.
 constexpr std::uint64_t bearable_triangles = 20'000;
 
 /// Every scene at every size with every number of threads.
@@ -170,7 +170,8 @@ std::vector<std::string> renderers_for(const Peers& peers, const Plan& plan,
   return renderers;
 }
 
-/// A renderer that covers other pixels than fast by more than a hundredth draws something else.
+/// A renderer whose number of covered pixels differs from that of the fast engine by more than a
+/// hundredth draws another picture.
 void warn_of_other_pictures(const Comparison& comparison, const Console& console) {
   const auto fast = static_cast<double>(comparison.measurements.front().covered_pixels);
   for (const Measurement& m : comparison.measurements) {
@@ -184,7 +185,7 @@ void warn_of_other_pictures(const Comparison& comparison, const Console& console
   }
 }
 
-/// Masked Occlusion Culling, where it was asked for by name and is not in the table.
+/// Warns if Masked Occlusion Culling was requested by name and is not in the table.
 void warn_of_what_is_left_out(const Comparison& comparison, const Peers& peers,
                               const Console& console) {
   if (peers.by_default || !peers.masked_occlusion_culling) return;
@@ -211,7 +212,7 @@ Comparison compare(const Plan& plan, const Peers& peers, const Console& console,
   return comparison;
 }
 
-/// "vtk: VTK 9.1.0 on llvmpipe", a line for each renderer that says what it is.
+/// "vtk: VTK 9.1.0 on llvmpipe", a line for each renderer that has a description.
 std::string version_lines(const std::vector<Comparison>& comparisons) {
   std::vector<std::string> lines;
   for (const Comparison& comparison : comparisons) {

@@ -16,7 +16,7 @@ struct ImportArguments {
   std::optional<Size> size;
   bool list = false;
 
-  // What only some kinds of files leave to say.
+  // Data that some kinds of files lack.
 
   /// "fx,fy,cx,cy", a file, or the name of a lens.
   std::string K;
@@ -37,9 +37,9 @@ struct ImportSource {
   /// What INPUT is.
   const char* input;
   const char* example;
-  /// Declares the options that it alone has; they write to `arguments`.
+  /// Declares the options of this source; they write to `arguments`.
   void (*declare)(Command& command, ImportArguments& arguments);
-  /// Fails    as camera_import.h; UsageError where an option is missing.
+  /// Fails    as camera_import.h; UsageError if an option is missing.
   std::vector<ImportedCamera> (*read)(const ImportArguments& arguments, Warnings& warnings);
 };
 
@@ -48,7 +48,7 @@ void add_size_option(Command& command, ImportArguments& arguments);
 /// --pixel-centre; `otherwise` ends its help.
 void add_pixel_centre(Command& command, ImportArguments& arguments, const std::string& otherwise);
 /// The values that --size, --K and --pixel-centre give.
-/// Fails    UsageError where --K is not fx,fy,cx,cy.
+/// Fails    UsageError if --K is not fx,fy,cx,cy.
 GivenLens given_lens(const ImportArguments& arguments);
 /// Poses as text or in an array of NumPy: .txt, .npy, .npz or .npz:ARRAY.
 std::vector<NamedPose> read_poses_argument(const std::string& file);

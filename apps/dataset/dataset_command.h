@@ -15,8 +15,8 @@
 
 namespace fathom::app {
 
-/// What every layout of `fathom dataset` takes. Of the arguments of `render`, whose plans are made
-/// for the maps, those count that the layout declares.
+/// The arguments of every layout of `fathom dataset`. The maps have plans of `render`, but only the
+/// arguments of `render` that the layout declares have an effect.
 struct DatasetArguments {
   RenderArguments render;
   CameraChanges camera_changes;
@@ -26,10 +26,10 @@ struct DatasetArguments {
 
   /// INPUT, which `input` describes, --output, --threads, --shard, --overwrite and the like.
   void add_to(Command& command, const std::string& input);
-  /// --mesh, where the scene is the same in every map.
+  /// --mesh, for layouts whose maps all show the same scene.
   void add_scene_to(Command& command);
 
-  /// A job with what these arguments say of any.
+  /// A job with the settings of these arguments.
   [[nodiscard]] Job job() const;
 };
 

@@ -61,7 +61,8 @@ class MapTogether {
     sum_up_statistics();
   }
 
-  /// Counts of each rank, except the triangles of the scene, which all ranks know.
+  /// Sums the counts of all ranks, except the triangles of the scene, whose number is the same in
+  /// all ranks.
   void sum_up_statistics() {
     report_.statistics = drawing_.statistics();
     std::vector<std::uint64_t> numbers;
@@ -109,7 +110,7 @@ class MapTogether {
     if (map) map_ = map->take();
   }
 
-  /// Each rank in its share of the rows; all of them in the first.
+  /// Finds the mattes of each rank's share of the rows, and gathers all of them in the first rank.
   void find_mattes() {
     for (const MatteKind& by : job_.plan.mattes) {
       Mattes mattes;
@@ -123,10 +124,10 @@ class MapTogether {
     }
   }
 
-  /// How many rows of tiles of a band are put together at a time.
+  /// How many rows of tiles of a band are assembled at a time.
   [[nodiscard]] std::uint32_t rows_at_once() const {
     constexpr std::uint64_t bytes_per_value = 8;
-    // What has been drawn, what came, and its messages.
+    // Drawn rows, received rows, and messages.
     const std::uint64_t bytes_of_row = 4 * std::uint64_t{camera_.width} * tiles_.side *
                                        count_parts(options_.channels) * bytes_per_value;
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
@@ -221,12 +222,12 @@ class MapTogether {
   MapReport& report_;
   ImageTiles tiles_;
   TilesTogether drawing_;
-  /// Of an EXR that is written in bands.
+  /// For an EXR that is written in bands.
   std::optional<std::uint32_t> rows_of_chunk_;
   std::vector<TileRows> bands_;
   files::Bytes beginning_;
   WaitingChunks chunks_;
-  /// Where it is put together in one rank, in that one.
+  /// The whole map, in the rank that assembles it.
   DepthMap map_;
   std::vector<Mattes> mattes_;
 };

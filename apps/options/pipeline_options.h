@@ -10,8 +10,8 @@
 #include "fathom/pipeline/options.h"
 #include "fathom/rendering/options.h"
 
-/// The pipeline's options as words on the command line. All fail with UsageError, naming the words
-/// that exist.
+/// The pipeline's options on the command line. Parsers of words fail with UsageError, naming the
+/// accepted words.
 namespace fathom::app {
 
 pipeline::Shading parse_shading(const std::string& text);
@@ -34,7 +34,7 @@ pipeline::Material parse_material(const std::string& text);
 /// "msaa:4"
 pipeline::Antialias parse_antialias(const std::string& text);
 pipeline::BlendDepth parse_blend_depth(const std::string& text);
-/// "random:7", the seed being 0 where it is not said
+/// "random:7"; without a number the seed is 0
 std::pair<pipeline::DrawOrder, std::uint64_t> parse_draw_order(const std::string& text);
 /// "X,Y,W,H"
 std::optional<pipeline::WindowRectangle> parse_rectangle(const std::string& text);
@@ -51,10 +51,10 @@ class PipelineArguments {
   /// Options that affect a single primitive and the pixels that it is drawn into.
   void add_to_trace(Command& command, const std::string& heading);
 
-  /// Of the picture; the command has an option for it.
+  /// Sets the background of the picture; the command has an option for it.
   void set_background(const pipeline::Colour& colour) { stages_.background = colour; }
 
-  /// The stages as they were asked for; the depth format is still the default.
+  /// The requested stages, with the default depth format.
   [[nodiscard]] pipeline::PipelineOptions options(Cull cull) const;
 
   /// Value of --normals, which also applies to channel Ns of the exact engines.
@@ -72,7 +72,7 @@ class PipelineArguments {
   void add_antialias_option(Command& command);
   void add_merging_options(Command& command);
   void add_shortcut_options(Command& command);
-  /// Refuses what would change nothing in this shading.
+  /// Refuses options without effect in this shading.
   void require_effect(pipeline::Shading shading) const;
 
   pipeline::PipelineOptions stages_;

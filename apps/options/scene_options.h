@@ -28,7 +28,8 @@ struct ReadLimits {
   void add_confine_to(Command& command);
   /// Reads the tables that a camera file names, which are inputs of this run.
   [[nodiscard]] DirectionReader directions_beside(const std::string& camera_file) const;
-  /// With the limits, and with the program that reads foreign formats; all else by default.
+  /// Options with these limits and with the program that reads foreign formats, and defaults
+  /// otherwise.
   [[nodiscard]] ReadOptions read_options() const;
 };
 
@@ -37,7 +38,7 @@ FileFormat parse_mesh_format(const std::string& text);
 /// A number of threads, at most 1024; 0: all.
 int parse_thread_count(const std::string& text);
 
-/// `SCENE… --mesh-format --threads …`: what every command that reads a scene takes.
+/// `SCENE… --mesh-format --threads …`: the arguments of every command that reads a scene.
 struct SceneOptions {
   std::vector<std::string> files;
   std::optional<FileFormat> mesh_format;
@@ -48,7 +49,7 @@ struct SceneOptions {
   /// All but the files.
   void add_reading_to(Command& command);
 
-  /// What else a reader may keep of a scene.
+  /// Additional data of a scene that a reader may keep.
   struct Extras {
     bool hash = false;        ///< SHA-256 of the sources
     bool attributes = false;  ///< colours, normals and texture coordinates
@@ -60,11 +61,11 @@ struct SceneOptions {
   [[nodiscard]] Scene read(const Console& console, const Extras& extras) const;
   [[nodiscard]] Scene read(const Console& console) const { return read(console, Extras()); }
 
-  /// With the format, the threads and the folder that were asked for.
+  /// Options with the requested format, threads and folder.
   [[nodiscard]] ReadOptions read_options() const;
 };
 
-/// `--motion FILE --time T`: objects that move, and when they are looked at.
+/// `--motion FILE --time T`: moving objects, and the time of the map.
 struct MotionOptions {
   std::string file;  ///< empty: nothing moves
   std::optional<double> time;
@@ -72,15 +73,15 @@ struct MotionOptions {
   void add_to(Command& command);
 
   [[nodiscard]] bool is_given() const { return !file.empty(); }
-  /// 0 where no time is given.
+  /// The time, or 0 if no time is given.
   [[nodiscard]] double time_or_start() const { return time.value_or(0); }
   /// The scene with its motion, whose file becomes one of its sources.
   /// Fails    as read_motion and MovingScene.
   [[nodiscard]] MovingScene moving(Scene scene) const;
-  /// The scene at the time; as it is where nothing moves.
+  /// The scene at the time; unchanged if nothing moves.
   /// Fails    also UsageError for a time without a motion.
   [[nodiscard]] Scene placed(Scene scene) const;
-  /// The text fathom.time, without which the map could not be computed again.
+  /// Adds the text fathom.time, without which the map could not be computed again.
   void describe(DepthMap& map, double at) const;
 };
 

@@ -21,7 +21,7 @@ namespace fathom::app {
 /// Fails    UsageError with the fault of the text; the caller puts the option's name before it.
 using TakeText = std::function<void(const std::string& text)>;
 
-/// Stores in `value` what `parse` makes of the text (see values.h).
+/// Stores the result of `parse` for the text in `value` (see values.h).
 template <class Value, class Parse>
 TakeText into(Value& value, Parse parse) {
   return [&value, parse](const std::string& text) { value = parse(text); };
@@ -45,9 +45,10 @@ class Option {
   CLI::Option* option_;
 };
 
-/// A command, as it is declared: its options and what runs it. This is all that commands see of
-/// the library that reads arguments. The places that options write to have to outlive the command;
-/// they are written when all arguments have been read and this command is the one they name.
+/// The declaration of a command: its options and the function that runs it. Commands use the
+/// library that reads arguments only through this class. The variables of the options must outlive
+/// the command. They are written when all arguments have been read, if the arguments name this
+/// command.
 class Command {
  public:
   /// Returns the exit status. Fails with the errors of fathom/failures/errors.h.
@@ -62,9 +63,9 @@ class Command {
   /// A command below this one, with --max-memory; `examples` end its help.
   Command& command(const std::string& name, const std::string& description,
                    const std::string& examples);
-  /// For a family: one of the commands below has to be named.
+  /// For a family: the arguments must name a command below it.
   void requires_command();
-  /// The help shows the options that are declared from now on below this heading.
+  /// The help shows options that are declared after this call below this heading.
   void begin_group(const std::string& heading) { heading_ = heading; }
 
   /// An option with one value, "-o,--output"; the help shows it as "-o,--output MAP".
@@ -85,15 +86,15 @@ class Command {
   Option arguments(const std::string& name, std::vector<std::string>& values,
                    const std::string& help);
 
-  /// Words that completion offers for an option that takes other texts too, which its parser does
-  /// not refuse.
+  /// Words that completion offers for an option whose parser also accepts other texts.
   void offer(const Option& option, std::vector<std::string> words);
 
   /// The command prints its answer; if standard output is unusable, it fails before any work.
   void answers_on_standard_output() { answers_on_standard_output_ = true; }
   void runs(Run run) { run_ = std::move(run); }
 
-  /// Writes what was given to its places, then runs the command below that was named, or itself.
+  /// Writes the given values to their variables, then runs the named command below this one, or
+  /// this command.
   int run_named(const Console& console) const;
 
   /// Completion data of this command and all commands below it. The words of an option come from
@@ -129,7 +130,7 @@ Option add_output_option(Command& command, const std::string& value_name, Target
                         std::forward<Target>(target), help);
 }
 
-/// The same, for a command that may have several.
+/// The same, for a command that may have several outputs.
 Option add_output_options(Command& command, const std::string& value_name,
                           std::function<void(const std::vector<std::string>&)> take,
                           const std::string& help);

@@ -4,11 +4,11 @@
 
 namespace fathom::app {
 
-/// This run reads `file`: no output of it may take its place. Names that are no file are passed
-/// over ("-", or what cannot be opened anyhow).
+/// Notes that this run reads `file`, so that no output may replace it. Ignores names that are not
+/// files ("-", or names that cannot be opened).
 void note_input(const std::filesystem::path& file);
 
-/// This run writes the file at `place`, which the user calls `target`.
+/// Notes that this run writes the file at `place`; `target` is the user's name for it.
 /// Fails    UsageError if it is an input or another output of this run.
 void claim_output(const std::filesystem::path& target, const std::filesystem::path& place);
 

@@ -13,14 +13,15 @@ namespace fathom::app {
 /// of the stacks (docs/limits.md); other allocations may use the unused part.
 void set_max_memory(std::uint64_t bytes);
 
-/// Where a control group allows less than the machine has: lets an allocation beyond that fail, as
-/// any other failure, where the system would kill the program.
+/// If a control group allows less memory than the machine has, makes allocations beyond its limit
+/// fail. Otherwise the system would kill the program.
 void stay_within_control_group();
 
-/// What --max-memory allows; nullopt where it is not given.
+/// The limit of --max-memory; nullopt if it is not given.
 std::optional<MemoryAllowance> max_memory();
 
-/// What this run may take in memory: what --max-memory allows, or less if there is less.
+/// The memory that this run may use: the limit of --max-memory, or the available memory if that is
+/// less.
 MemoryAllowance memory_allowance();
 
 }  // namespace fathom::app

@@ -27,7 +27,8 @@ std::string random_token() {
   return token;
 }
 
-/// Takes the same time wherever they differ, so that nobody finds the token letter by letter.
+/// Takes the same time wherever the texts differ, so that an attacker cannot find the token letter
+/// by letter.
 bool are_equal(const std::string& a, const std::string& b) {
   if (a.size() != b.size()) return false;
   unsigned difference = 0;
@@ -47,7 +48,7 @@ std::optional<std::uint32_t> number_of(const httplib::Request& request, const ch
   return number;
 }
 
-/// What the page may do: run the script that it holds, and ask this server.
+/// The permissions of the page: running its own script and querying this server.
 constexpr const char* policy =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
@@ -66,7 +67,7 @@ class ProbeServer::Routes {
     server_.set_read_timeout(seconds);
     server_.set_keep_alive_timeout(seconds);
     server_.set_payload_max_length(0);
-    server_.set_socket_options([](socket_t) {});  // or else another process could share the port
+    server_.set_socket_options([](socket_t) {});  // otherwise another process could share the port
     server_.new_task_queue = [] { return new httplib::ThreadPool(4); };
     server_.set_pre_routing_handler([this](const auto& request, auto& response) {
       route(request, response);
@@ -92,7 +93,7 @@ class ProbeServer::Routes {
     response.set_header("Referrer-Policy", "no-referrer");
     response.set_header("X-Content-Type-Options", "nosniff");
     if (below == "/") {
-      // A page that is given at once would be compressed again, for seconds.
+      // Content that is passed at once would be compressed again, which takes seconds.
       response.set_content_provider(
           page_.size(), "text/html; charset=utf-8",
           [this](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
@@ -105,7 +106,7 @@ class ProbeServer::Routes {
     }
   }
 
-  /// What stands after the token in the path of a request that may be answered; else nothing.
+  /// The part after the token in the path of a request that may be answered; else empty.
   [[nodiscard]] std::string path_below_token(const httplib::Request& request) const {
     const std::string here = fmt::format(":{}", port_), host = request.get_header_value("Host");
     const bool is_ours = request.get_header_value_count("Host") == 1 &&

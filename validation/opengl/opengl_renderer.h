@@ -18,10 +18,10 @@ namespace fathom::validation {
 DrawnMap draw_opengl(const attribution::WorldMesh& mesh, const Camera& camera,
                      const OpenGlVariant& variant);
 
-/// The numbers of samples per pixel, more than one, that a driver offers for 24 bits of depth and
-/// numbers of triangles beside them, in increasing order.
+/// The numbers of samples per pixel, above one and in increasing order, that a driver offers for 24
+/// bits of depth together with numbers of triangles.
 /// Needs    as an EglContext with a driver does.
-/// Fails    InputError where there is no OpenGL or no such driver.
+/// Fails    InputError if there is no OpenGL or no such driver.
 std::vector<int> offered_samples(Driver driver);
 
 }  // namespace fathom::validation

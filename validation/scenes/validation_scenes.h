@@ -39,8 +39,8 @@ bool is_scene_name(const std::string& name);
 ValidationScene make_validation_scene(const std::string& name, std::uint32_t width,
                                       std::uint32_t height);
 
-/// The camera with near and far, as clip_range() chooses them where it has none: just outside what
-/// lies in front of it.
+/// The camera with near and far. If it has none, clip_range() chooses them just outside the scene
+/// in front of it.
 Camera with_clip_planes(const Scene& scene, Camera camera);
 
 }  // namespace fathom::validation

@@ -24,14 +24,14 @@ enum class VtkShading { flat, gouraud, phong };
 
 /// The scene drawn and lit by VTK: one directional light of the scene, white; its own framebuffer
 /// of 8 bits, black behind; no culling; positions in binary32 as they are given.
-/// Fails    InputError if there is no OpenGL, or if the shader that VTK made does not light as
-///          expected_colour.h says that it does.
+/// Fails    InputError if there is no OpenGL, or if VTK's shader does not compute light as
+///          expected_colour.h assumes.
 GreyPicture draw_vtk_colours(const LitScene& scene, VtkShading shading);
 
 /// Whether a matrix from held positions to clip coordinates, row by row, is the camera's: each
-/// entry is what the camera and the model's shift and scale make it, computed in binary64 and
-/// rounded once to binary32. A model takes the matrix that a renderer had for given, so this must
-/// hold, or it would explain a picture that another camera sees.
+/// entry is computed from the camera and the model's shift and scale in binary64 and rounded once
+/// to binary32. A model takes the renderer's matrix as given. Without this check it would explain a
+/// picture of another camera.
 ///
 /// Needs    near and far of the camera as the model's mapping does.
 bool is_matrix_of(const Camera& camera, const attribution::RasterModel& model,

@@ -11,13 +11,13 @@
 
 namespace fathom::bench {
 
-/// A block of 8 × 8 pixels, aligned to the image, as far as it lies in the box of a triangle.
+/// The part of a block of 8 × 8 pixels, aligned to the image, that lies in the box of a triangle.
 struct PixelBlock {
   static constexpr std::int32_t side = 8;
   /// By column and row of the box; both ends belong to it.
   std::int32_t left, right, top, bottom;
-  /// Whether one edge function is too small at all of its pixels, and whether none is at any: the
-  /// greatest and the least are those at its corners. Exact.
+  /// Whether an edge function is too small at all pixels of the block, and whether no edge function
+  /// is too small at any pixel: the greatest and the least values are at the corners. Exact.
   bool is_outside = false, is_inside = true;
 
   [[nodiscard]] std::uint64_t pixels() const {
@@ -46,7 +46,7 @@ inline PixelBlock look_at_block(const EdgeSetup& s, std::int32_t column, std::in
 
 struct BlockCounts {
   std::uint64_t tested = 0, outside = 0, inside = 0;
-  /// In blocks that are neither.
+  /// In blocks that are neither outside nor inside.
   std::uint64_t pixels_tested = 0;
 
   void add(const PixelBlock& block) {
@@ -67,9 +67,9 @@ void for_each_block(const EdgeSetup& s, const Visit& visit) {
       visit(look_at_block(s, column, row));
 }
 
-// The textbook's rasterizer, three edge functions over a bounding box, with several pixels of a
-// row at once. All of it is compiled for each kind of vector instructions, and runs with the best
-// that the processor has; a number of lanes that is more than one vector takes several.
+// The textbook's rasterizer, three edge functions over a bounding box, with several pixels of a row
+// at once. All of it is compiled for each kind of vector instructions, and runs with the best kind
+// that the processor has. More lanes than a vector has take several vectors.
 
 /// A number for each pixel, with room at the right for the rest of a vector.
 template <class Number>
@@ -82,7 +82,7 @@ struct PaddedImage {
   static constexpr std::size_t most_lanes = 16;
 
   [[nodiscard]] Number* row(std::size_t y) { return numbers.data() + y * stride; }
-  /// Without what lies at the right.
+  /// Without the padding at the right.
   [[nodiscard]] Picture picture() const {
     Picture result;
     result.reserve(std::size_t{width} * height);
@@ -104,7 +104,7 @@ int lanes_of_a_vector();
 
 /// Adds each triangle's weight to the pixels that it covers, testing all pixels of its box, `lanes`
 /// at once: 2, 4, 8 or 16.
-/// Exact    over binary64; over binary32 where fits_binary32(), and only there.
+/// Exact    over binary64; over binary32 only if fits_binary32().
 template <class Number>
 void add_boxes(std::span<const EdgeSetup> setups, int lanes, PaddedImage<Number>& layers);
 
@@ -115,7 +115,7 @@ BlockCounts add_blocks(std::span<const EdgeSetup> setups, PaddedImage<double>& l
 struct DepthImage {
   DepthImage(std::uint32_t width, std::uint32_t height)
       : depths(width, height, 1), numbers(width, height, 0) {}
-  /// Nothing drawn, at another place of the image.
+  /// Clears the image and moves it to another place.
   void clear(std::uint32_t column, std::uint32_t row);
 
   std::uint32_t first_column = 0, first_row = 0;
@@ -123,24 +123,24 @@ struct DepthImage {
   /// Of the triangle plus one; 0: none.
   PaddedImage<double> numbers;
 };
-/// Draws some of the triangles, eight pixels at once, where they are nearer than what is there.
+/// Draws some of the triangles, eight pixels at once, where they are nearer than earlier ones.
 void draw_nearest(std::span<const EdgeSetup> setups, std::span<const std::uint32_t> which,
                   DepthImage& image);
 
-/// What draw_nearest() does for all triangles of a scene in the whole image.
+/// Draws all triangles in the whole image.
 void draw_nearest(std::span<const EdgeSetup> setups, DepthImage& image);
 
-// The textbook's rasterizer: three edge functions at one pixel after the other. Compiled without
-// vector instructions, so that what vectors bring can be measured against it.
+// The textbook's rasterizer: three edge functions at one pixel after the other. It is compiled
+// without vector instructions, as the baseline for vectors.
 
 /// Adds each triangle's weight to the pixels that it covers, testing all pixels of its box, with
 /// edge functions over `Number`: float (added to layers of float), double, or integers of 64 bits.
-/// Exact    over double and integers; over float where fits_binary32(), and only there.
+/// Exact    over double and integers; over float only if fits_binary32().
 template <class Number, class Layer>
 void add_boxes_one_by_one(std::span<const EdgeSetup> setups, PaddedImage<Layer>& layers);
 
-/// The same over binary64, but first with blocks of 8 × 8 pixels: those outside of an edge are left
-/// out, in those inside all three no pixel is tested.
+/// The same over binary64, but first with blocks of 8 × 8 pixels. Blocks outside an edge are left
+/// out, and in blocks inside all three edges no pixel is tested.
 BlockCounts add_blocks_one_by_one(std::span<const EdgeSetup> setups, PaddedImage<double>& layers);
 
 struct TileCounts {

@@ -21,8 +21,7 @@ struct HiddenSurfaceScene {
   Scene scene;
 };
 std::vector<HiddenSurfaceScene> hidden_surface_scenes();
-/// What sees them: 160 × 160 pixels, and no edge runs through a sample, where snapping would
-/// decide.
+/// Their camera: 160 × 160 pixels. No edge runs through a sample, where snapping would decide.
 Camera hidden_surface_camera();
 
 struct TreeErrors {
@@ -30,7 +29,7 @@ struct TreeErrors {
   std::uint64_t pieces = 0;  ///< of polygons, one in each node
 };
 
-/// One of the textbooks' cases: pixels at which another triangle than the exact one is seen.
+/// One of the textbooks' cases: the numbers of pixels that show a wrong triangle.
 struct HiddenSurfaceCase {
   std::string name;
   std::size_t seen = 0;  ///< pixels with a surface
@@ -42,15 +41,14 @@ struct HiddenSurfaceCase {
   std::vector<StudyFile> files;  ///< the scene and the camera that it is drawn from
 };
 std::vector<HiddenSurfaceCase> compare_hidden_surfaces();
-/// The same of a scene of one mesh in the camera's frame.
+/// The same for a scene of one mesh in the camera's frame.
 HiddenSurfaceCase compare_hidden_surfaces(const std::string& name, const Scene& scene,
                                           const Camera& camera);
 
-/// What one algorithm took for a frame, here.
+/// The cost of a frame with one algorithm on this machine.
 struct FrameCost {
   double ms = 0;  ///< the least of several frames
-  /// The peak of the memory that it took meanwhile, of a frame of its own; nullopt where the system
-  /// does not measure it.
+  /// The peak memory of a separate frame; nullopt if the system does not measure it.
   std::optional<std::uint64_t> bytes;
 };
 

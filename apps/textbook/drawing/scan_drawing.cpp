@@ -296,7 +296,7 @@ std::vector<Place> part_above(const std::vector<Place>& polygon, const Affine& f
   return part;
 }
 
-/// 1, 2 or 5 times a power of ten, of which at most 8 fit into `range`.
+/// 1, 2 or 5 times a power of ten; at most 8 such steps fit into `range`.
 double step_for(double range) {
   const double power = std::pow(10, std::floor(std::log10(range / 8)));
   for (const double factor : {1.0, 2.0, 5.0})
@@ -340,7 +340,7 @@ struct EdgePanel {
   }
 };
 
-/// Values at some pixels, as they stand in the answer.
+/// Values at some pixels, as in the answer.
 void draw_values(Picture& picture, const View& view, const Json& answer, std::size_t k,
                  std::int64_t width, std::int64_t height) {
   constexpr std::int64_t across = 4;
@@ -410,7 +410,7 @@ Picture draw_edge_values(const Json& object, const Json& answer) {
     const std::size_t column = k % 2, row = k / 2;
     const Place corner{static_cast<double>(column) * (size + 16),
                        title_height + 24 + static_cast<double>(row) * (size + 46)};
-    // The view leaves a tenth about the image, where the triangle may lie.
+    // The view leaves a tenth around the image, into which the triangle may extend.
     const View view(image, corner, size, size, true);
     picture.text(
         {corner.x, corner.y - 8},

@@ -27,7 +27,7 @@
 namespace fathom::app {
 namespace {
 
-/// How the pipeline makes maps and pictures: what the arguments mean together.
+/// How the pipeline makes maps and pictures: the combined meaning of the arguments.
 struct PipelinePlan {
   MapFormat format = MapFormat::exr;
   WriteOptions writing;
@@ -36,11 +36,11 @@ struct PipelinePlan {
   pipeline::PipelineOptions stages;
   bool with_picture = false;
   bool with_depth_buffer = false;
-  /// Of a scene that moves meanwhile.
+  /// The shutter, for a scene that moves while it is open.
   std::optional<pipeline::Shutter> shutter;
 };
 
-/// Refuses what only an exact engine can do.
+/// Refuses arguments that only an exact engine supports.
 void check_possible(const RenderArguments& a, MapFormat format) {
   if (a.stream) throw UsageError("--stream is for the fast engine, not for pipeline");
   if (a.verified_pixels) {
@@ -71,7 +71,7 @@ pipeline::PipelineOptions stages_of(const RenderArguments& a) {
   return stages;
 }
 
-/// The shutter, with what takes pictures while it is open; neither makes sense without the other.
+/// The shutter, with the antialiasing that takes pictures while it is open. Each needs the other.
 std::optional<pipeline::Shutter> shutter_of(const RenderArguments& a,
                                             const pipeline::PipelineOptions& stages) {
   using pipeline::AntialiasMethod;
@@ -93,7 +93,7 @@ std::optional<pipeline::Shutter> shutter_of(const RenderArguments& a,
   return pipeline::Shutter{(*a.shutter)[0], (*a.shutter)[1]};
 }
 
-/// Fails    UsageError where the arguments contradict each other, before any work.
+/// Fails    UsageError if the arguments contradict each other, before any work.
 PipelinePlan plan_pipeline(const RenderArguments& a) {
   PipelinePlan plan;
   plan.format = a.storage.format_of(a.output);
@@ -156,7 +156,7 @@ void add_depth_buffer(PipelineRendering& rendering) {
   }
 }
 
-/// What is drawn: the scene at one time, or while the shutter is open.
+/// The scene to draw: at one time, or while the shutter is open.
 using Drawn = std::variant<Scene, MovingScene>;
 
 Drawn drawn_from(Scene scene, const PipelinePlan& plan, const RenderArguments& arguments) {
