@@ -52,8 +52,11 @@ TEST_P(LensAdversaries, AreTheSame) {
   // Every tier was reached.
   const std::uint64_t often = is_plane(model) ? 5 : 0;
   EXPECT_GT(sum.exact_setups, often);
-  EXPECT_GT(sum.edges.exact, often);
-  EXPECT_GT(sum.rounding.interval, often);
+  // Random edges pass through no sample of a fisheye.
+  if (entry_of(model).formula != RayFormula::angle) {
+    EXPECT_GT(sum.edges.exact, often);
+  }
+  EXPECT_GT(sum.rounding.interval, 5U);
 }
 
 std::string name_of_case(const ::testing::TestParamInfo<std::tuple<LensModel, Kind>>& info) {
@@ -342,7 +345,7 @@ TEST_P(TableAdversaries, AreTheSame) {
   });
   if (testing::effort > 1 || (kind != Kind::few_bits && kind != Kind::neighbours)) return;
   EXPECT_GT(sum.edges.exact, 5U);
-  EXPECT_GT(sum.rounding.interval, often);
+  EXPECT_GT(sum.rounding.interval, 5U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Fast, TableAdversaries,
