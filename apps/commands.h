@@ -2,8 +2,8 @@
 
 #include "apps/shell/command.h"
 
-/// Commands of `fathom` and `fathom-textbook`. `render` is in render/render_arguments.h, `dataset` in
-/// dataset/dataset_command.h.
+/// Commands of `fathom` and `fathom-textbook`. `render` is in render/render_arguments.h, and
+/// `dataset` in dataset/dataset_command.h.
 namespace fathom::app {
 
 // Commands that look at maps, and `info`, which looks at any file.

@@ -10,7 +10,8 @@
 #include "apps/mpi/ranks.h"
 #include "apps/render/render_arguments.h"
 
-/// The arguments of `fathom-mpi render`, and how ranks divide the tiles of an image and their memory.
+/// The arguments of `fathom-mpi render`, and how ranks divide the tiles of an image and their
+/// memory.
 namespace fathom::app {
 
 /// How the tiles of an image are distributed to the ranks of a run. The map does not depend on it.
