@@ -38,8 +38,8 @@ Bytes deflated(const Bytes& bytes) {
 }
 
 /// Seven bits of the bytes in each letter of UTF-8, the lowest bits first. HTML changes or
-/// interprets four letters: these are 128 higher, which takes two bytes. Bits are often 0: inverting
-/// every second bit makes NUL rare.
+/// interprets four letters: these are 128 higher, which takes two bytes. Bits are often 0:
+/// inverting every second bit makes NUL rare.
 std::string letters_of(const Bytes& bytes) {
   constexpr std::string_view avoided("\0\n\r<", 4);
   std::string text;
