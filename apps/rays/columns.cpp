@@ -5,11 +5,11 @@
 #include <numeric>
 #include <string>
 #include <type_traits>
+#include <utility>
 
+#include "apps/surfaces/npz_rows.h"
 #include "fathom/failures/errors.h"
 #include "fathom/files/byte_order.h"
-#include "fathom/image/files/npy_array.h"
-#include "fathom/image/files/zip_archive.h"
 #include "fathom/rays/hit_values.h"
 #include "fathom/text/decimal.h"
 
@@ -30,14 +30,17 @@ constexpr const char* type_of = std::is_same_v<Number, double>          ? "<f8"
                                                                         : "<u8";
 
 template <class Number>
-files::Bytes npy_of(const Column& column, const std::vector<Number>& values) {
-  std::string shape = std::to_string(column.rows()) + ",";
-  if (!column.parts.empty()) shape += " " + std::to_string(column.width());
-  files::Bytes bytes = image::npy_header(type_of<Number>, shape);
-  const std::size_t first = bytes.size();
-  bytes.resize(first + values.size() * sizeof(Number));
+NpzRows::Array array_of(const Column& column, const std::vector<Number>&) {
+  std::vector<std::uint64_t> shape{column.rows()};
+  if (!column.parts.empty()) shape.push_back(column.width());
+  return {column.name, type_of<Number>, sizeof(Number), std::move(shape)};
+}
+
+template <class Number>
+files::Bytes bytes_of(const std::vector<Number>& values) {
+  files::Bytes bytes(values.size() * sizeof(Number));
   for (std::size_t i = 0; i < values.size(); ++i)
-    store(bytes.data() + first + i * sizeof(Number), values[i], std::endian::little);
+    store(bytes.data() + i * sizeof(Number), values[i], std::endian::little);
   return bytes;
 }
 
@@ -78,14 +81,16 @@ std::string csv_of(const std::vector<Column>& columns) {
   return text;
 }
 
-files::Bytes npz_of(const std::vector<Column>& columns, const std::string& name) {
-  image::ZipWriter archive(name);
-  for (const Column& column : columns) {
-    std::visit(
-        [&](const auto& numbers) { archive.add(column.name + ".npy", npy_of(column, numbers)); },
-        column.values);
-  }
-  return archive.take();
+void write_npz(const std::vector<Column>& columns, int descriptor, const std::string& target) {
+  std::vector<NpzRows::Array> arrays;
+  for (const Column& column : columns)
+    arrays.push_back(
+        std::visit([&](const auto& values) { return array_of(column, values); }, column.values));
+  NpzRows file(descriptor, target, std::move(arrays));
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    file.append(k,
+                std::visit([](const auto& values) { return bytes_of(values); }, columns[k].values));
+  file.finish();
 }
 
 ColumnOutput::ColumnOutput(const std::string& name) : name_(name) {
@@ -100,7 +105,7 @@ ColumnOutput::ColumnOutput(const std::string& name) : name_(name) {
 
 void ColumnOutput::finish(const std::vector<Column>& columns) {
   if (text_) return text_->finish(csv_of(columns));
-  archive_->write(npz_of(columns, name_));
+  archive_->write_by_descriptor([&](int descriptor) { write_npz(columns, descriptor, name_); });
   archive_->commit();
 }
 

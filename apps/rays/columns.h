@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "apps/shell/output_file.h"
-#include "fathom/files/file_bytes.h"
 #include "fathom/rays/cast.h"
 
 namespace fathom::app {
@@ -33,10 +32,10 @@ struct Column {
 /// Numbers are the shortest decimals that are read back as the same numbers, or "inf" and "nan".
 std::string csv_of(const std::vector<Column>& columns);
 
-/// An NPZ with an array NAME.npy for each column, little-endian; `name` is the file's, for
-/// messages.
-/// Fails    OutputError beyond 4 GiB.
-files::Bytes npz_of(const std::vector<Column>& columns, const std::string& name);
+/// Writes an NPZ with an array NAME.npy for each column, little-endian, to an empty ordinary file;
+/// `target` is its name for messages.
+/// Fails    OutputError "TARGET: why".
+void write_npz(const std::vector<Column>& columns, int descriptor, const std::string& target);
 
 /// The file to which a table is written, CSV or NPZ by its name.
 class ColumnOutput {

@@ -211,10 +211,16 @@ void OutputFile::write(const std::function<void(const fs::path&)>& writer) const
   }
 }
 
-void OutputFile::write(files::ByteView bytes) const {
+void OutputFile::write_by_descriptor(const std::function<void(int)>& writer) const {
   const int file = staged_->descriptor();
   if (::ftruncate(file, 0) != 0 || ::lseek(file, 0, SEEK_SET) != 0) fail_with_errno(target_, errno);
-  write_all(file, reinterpret_cast<const char*>(bytes.data()), bytes.size(), target_);
+  writer(file);
+}
+
+void OutputFile::write(files::ByteView bytes) const {
+  write_by_descriptor([&](int file) {
+    write_all(file, reinterpret_cast<const char*>(bytes.data()), bytes.size(), target_);
+  });
 }
 
 /// Permissions of the replaced file, or of a new file.

@@ -93,6 +93,8 @@ class OutputFile {
   /// Runs `writer` on the staged file, which exists and is empty. If it fails with an Error, the
   /// message has the user's name for the output.
   void write(const std::function<void(const std::filesystem::path&)>& writer) const;
+  /// The same with its descriptor.
+  void write_by_descriptor(const std::function<void(int descriptor)>& writer) const;
   void write(files::ByteView bytes) const;
   void write(const std::string& text) const { write(std::as_bytes(std::span(text))); }
 

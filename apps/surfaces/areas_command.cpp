@@ -1,11 +1,8 @@
 // fathom areas SCENE… --directions FILE | --points FILE | --camera FILE
 
-#include <fcntl.h>
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -23,7 +20,6 @@
 #include "apps/surfaces/light_list.h"
 #include "fathom/area/areas.h"
 #include "fathom/failures/errors.h"
-#include "fathom/files/descriptor.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::app {
@@ -180,12 +176,10 @@ void write_arrays(const Question& q, int descriptor) {
 }
 
 void write_file(const Question& q, TableFormat format, OutputFile& file) {
-  file.write([&](const std::filesystem::path& staged) {
-    const files::Descriptor open(::open(staged.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC));
-    if (!open.is_open()) fail_with_errno(q.arguments.output, errno);
-    if (format == TableFormat::npz) return write_arrays(q, open.get());
+  file.write_by_descriptor([&](int descriptor) {
+    if (format == TableFormat::npz) return write_arrays(q, descriptor);
     write_text(q, format, [&](std::string_view text) {
-      write_all(open.get(), text.data(), text.size(), q.arguments.output);
+      write_all(descriptor, text.data(), text.size(), q.arguments.output);
     });
   });
   file.commit();
