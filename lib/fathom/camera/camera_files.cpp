@@ -247,7 +247,7 @@ void read_world_to_camera(const JsonValue& value, Camera& camera) {
       inverse ? read_inverse_pose(*inverse) : read_pose(value.at("world_to_camera"));
 }
 
-/// The keys of a pinhole and an orthographic camera, or those of a lens.
+/// The keys of a pinhole or orthographic camera, or the keys of a lens.
 void expect_known_keys(const JsonValue& value) {
   std::vector<std::string_view> known{"width", "height", "projection"};
   if (value.find("model")) {

@@ -30,7 +30,7 @@ void require_camera(const ImportedCamera& one, const CameraChoice& choice) {
     if (!reason.empty()) throw InputError(reason);
 }
 
-/// What is left out of a choice: how many, and the reason of the first.
+/// The cameras that a choice leaves out: their number, and why the first is left out.
 struct LeftOut {
   std::size_t count = 0;
   std::string first;

@@ -32,8 +32,8 @@ bool is_table(const text::JsonValue& value);
 void read_table(const text::JsonValue& value, std::uint32_t width, std::uint32_t height,
                 const DirectionReader& directions, Projection& projection);
 
-/// Another lens by the key `model`, and its parameters: each by its name (those of distortion are 0
-/// where they are left out), or all of them in the list `params`, or K with the list `distortion`.
+/// Any other lens: the key `model`, and its parameters: each by its name (missing parameters of
+/// distortion are 0), or all of them in the list `params`, or K with the list `distortion`.
 void read_lens(const text::JsonValue& value, Projection& projection);
 
 }  // namespace fathom::camera

@@ -93,7 +93,7 @@ Matrix3 rotation_of(const View& view) {
          "the elevation must be between -90 and 90 degrees");
   const auto [sa, ca] = sine_and_cosine(view.azimuth);
   const auto [se, ce] = sine_and_cosine(view.elevation);
-  // In the frame of `up` the eye is at (ce·sa, se, ce·ca) from what it looks at.
+  // In the frame of `up` the eye is at (ce·sa, se, ce·ca) from the point that it looks at.
   const Matrix3 turn{{{ca.rounded, 0, -sa.rounded},
                       {rounded_product(se, sa), -ce.rounded, rounded_product(se, ca)},
                       {rounded_product(-ce, sa), -se.rounded, rounded_product(-ce, ca)}}};

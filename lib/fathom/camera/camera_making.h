@@ -25,8 +25,8 @@ struct LensChoice {
   std::optional<double> focal;
   /// Orthographic: scene units that the image's height spans; look_at() and orbit() need it.
   std::optional<double> vertical_extent;
-  /// Perspective: how the lens bends rays. The angle and the framing of scenes are those of the
-  /// pinhole without it.
+  /// Perspective: how the lens bends rays. The angle and the framing of scenes ignore the lens:
+  /// they are computed for the pinhole.
   std::optional<Lens> distortion;
   /// The range of planar depth that counts, in scene units.
   double near = 0;

@@ -42,8 +42,8 @@ class DirectionTable {
   [[nodiscard]] std::optional<Direction> at(std::uint32_t column, std::uint32_t row) const;
   [[nodiscard]] std::uint64_t pixels_without_ray() const;
 
-  /// SHA-256, as 64 hexadecimal digits: that of the source, or of the numbers as little-endian
-  /// binary64 if there is none. Empty where a table that is not read is named without it.
+  /// SHA-256, as 64 hexadecimal digits: the hash of the source or, without a source, of the numbers
+  /// as little-endian binary64. Empty for a table that is only named, without a hash.
   [[nodiscard]] std::string sha256() const;
 
   /// Whether both have the same size and the same bits, or are not read and have the same names.

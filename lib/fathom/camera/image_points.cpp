@@ -96,8 +96,8 @@ std::array<double, 3> ImageRays::point(double u, double v, double depth) const {
 
 // First in double-words. Their sum errs by less than 2⁻¹⁰⁰ of the sum of its terms' sizes: by 2⁻¹⁰⁶
 // of each coefficient, and by epsilon of each of two products and two sums. The bound is twice
-// that, for its own roundings, and for coefficients whose second word underflows: what these lack
-// is nothing beside the numbers that to_binary64() settles.
+// that, for its own roundings, and for coefficients whose second word underflows: the lost part is
+// negligible for the numbers that to_binary64() settles.
 std::array<double, 3> ImageRays::of_pixel(std::uint32_t x, std::uint32_t y) const {
   const StandardArithmetic standard;
   using Words = DoubleWord<false>;

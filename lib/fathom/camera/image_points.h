@@ -39,9 +39,8 @@ class ImageRays {
   /// Needs    finite numbers.
   [[nodiscard]] std::array<double, 3> point(double u, double v, double depth) const;
 
-  /// What the pixel in column x and row y adds to the rays of the image: of a perspective camera
-  /// the direction of its ray, along which planar depth grows by 1; of an orthographic one the
-  /// ray's origin, at depth 0.
+  /// The vector of the pixel in column x and row y. Perspective: the direction of its ray, along
+  /// which planar depth grows by 1. Orthographic: the origin of its ray, at depth 0.
   [[nodiscard]] std::array<double, 3> of_pixel(std::uint32_t x, std::uint32_t y) const;
 
  private:

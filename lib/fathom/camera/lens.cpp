@@ -151,7 +151,7 @@ std::optional<std::string> find_fault(const Lens& lens) {
   return std::nullopt;
 }
 
-// The numbers that the other model adds stand behind those of the first, and are 0.
+// The other model has the numbers of the first, followed by its own, which are 0.
 Lens with_two_focal_lengths(Lens lens) {
   switch (lens.model) {
     case LensModel::simple_pinhole:

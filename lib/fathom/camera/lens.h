@@ -51,7 +51,7 @@ struct LensModelEntry {
   LensModel model;
   std::string_view name;
   RayFormula formula;
-  /// f cx cy or fx fy cx cy; none of a table.
+  /// f cx cy or fx fy cx cy; empty for TABLE.
   std::span<const std::string_view> intrinsics;
   /// The parameters after these, in order.
   std::span<const std::string_view> distortion;
@@ -63,7 +63,7 @@ struct LensModelEntry {
 std::span<const LensModelEntry> lens_models();
 const LensModelEntry& entry_of(LensModel model);
 std::string_view name_of(LensModel model);
-/// The model of this name; nullopt if there is none. Names are in capitals: "OPENCV".
+/// The model of this name; nullopt if no model has it. Names are in capitals: "OPENCV".
 std::optional<LensModel> lens_model_named(std::string_view name);
 /// Whether every ray has z > 0, so that near and far bound Z.
 bool is_plane(LensModel model);
@@ -72,11 +72,11 @@ bool has_stage(LensModel model);
 /// Whether the model has f in the place of fx and fy, and no skew.
 bool has_one_focal_length(const LensModelEntry& model);
 
-/// What a camera has beside fx, fy, cx, cy and skew (specification, section 2): how its lens bends
-/// rays. Every number is the real number that it denotes. Valid if find_fault() finds nothing.
+/// How a camera's lens bends rays (specification, section 2): everything except fx, fy, cx, cy and
+/// skew. Every number is the real number that it denotes. Valid if find_fault() finds nothing.
 struct Lens {
   LensModel model = LensModel::pinhole;
-  /// The numbers of entry_of(model).distortion, in this order; those that a model lacks are 0.
+  /// The numbers of entry_of(model).distortion, in this order; the rest is 0.
   std::array<double, 14> distortion{};
   /// Rays end there: |m| of a model of the plane, else the angle to the z axis in radians.
   double max_radius = std::numeric_limits<double>::infinity();
@@ -88,8 +88,8 @@ struct Lens {
 };
 
 /// The fault of a lens, in one line, or nothing if all numbers are finite (max_radius may be +∞),
-/// those that the model lacks are 0, |tauX| and |tauY| are less than π/2, max_radius > 0, and the
-/// model TABLE, and no other, has a table of directions.
+/// the numbers that the model does not use are 0, |tauX| and |tauY| are less than π/2, max_radius >
+/// 0, and there is a table of directions if and only if the model is TABLE.
 std::optional<std::string> find_fault(const Lens& lens);
 
 /// The same lens by a model that has fx and fy, if its own has one focal length for both.

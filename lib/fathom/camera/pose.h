@@ -57,7 +57,7 @@ ExactVector3 rotate(const Matrix3& R, const ExactVector3& X);
 /// translation is the exact one rounded once.
 Pose pose_that_takes(const Matrix3& R, const ExactVector3& X, const ExactVector3& target);
 
-/// Of a pose [A | b]: the rows of adj A, which are those of A⁻¹ times det A; det A; and b, exactly.
+/// Of a pose [A | b], exactly: the rows of adj A = det A·A⁻¹; det A; and b.
 struct Adjugate {
   std::array<ExactVector3, 3> rows;
   Dyadic determinant;

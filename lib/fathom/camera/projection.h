@@ -28,8 +28,8 @@ struct Projection {
   /// The image coordinate of the top left pixel's centre, as cx and cy count: ½ (COLMAP, OpenGL) or
   /// 0 (OpenCV).
   double pixel_centre = 0.5;
-  /// Of a perspective camera: how its lens bends rays. Without a lens, and with one that bends
-  /// nothing and ends nowhere, the camera is a pinhole.
+  /// Perspective cameras only: how the lens bends rays. The camera is a pinhole without a lens, and
+  /// with a lens that bends no ray and has no end.
   std::optional<Lens> lens;
 
   friend bool operator==(const Projection&, const Projection&) = default;
@@ -53,9 +53,9 @@ struct Projection {
   return (projection.fx < 0) != (projection.fy < 0);
 }
 
-/// What is wrong with a projection, in one line, or nothing if all numbers are finite, fx and
-/// fy ≠ 0, and a lens is valid and that of a perspective camera. With the model TABLE, fx … skew
-/// and pixel_centre are those of a new projection.
+/// The fault of a projection, in one line, or nothing if all numbers are finite, fx and fy ≠ 0, and
+/// a lens is valid and belongs to a perspective camera. With the model TABLE, fx … skew and
+/// pixel_centre must have their default values.
 std::optional<std::string> find_fault(const Projection& projection);
 
 /// The homogeneous image point of a camera point in pixels, exactly; accounts for `pixel_centre`.

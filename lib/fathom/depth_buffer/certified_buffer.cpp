@@ -23,7 +23,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What a thread works with.
+/// The buffers of a thread.
 struct Worker {
   CertifiedSurfaces surfaces;
   Referee referee;
@@ -50,7 +50,7 @@ class CertifiedBand {
         worker_(worker),
         statistics_(statistics) {}
 
-  /// Stores what is visible.
+  /// Stores the visible surfaces.
   void store() {
     for (std::uint32_t row = band_.first_row; row < band_.end_row; ++row) {
       for (std::uint32_t column = 0; column < work_.camera.width; ++column) {

@@ -8,7 +8,7 @@
 #include "fathom/rendering/options.h"
 #include "fathom/scene/triangle_source.h"
 
-/// What a depth buffer would hold for a rendered map (specification, section 9, the ideal model).
+/// The contents of a depth buffer for a rendered map (specification, section 9, the ideal model).
 namespace fathom {
 
 /// The depth format with the camera's near and far.
@@ -33,12 +33,13 @@ struct DepthBufferStatistics {
   std::uint64_t fighting = 0;
 };
 
-/// Adds channels to a map. The value after the last semicolon is that of pixels without a surface.
+/// Adds channels to a map. The value after the last semicolon is the value of pixels without a
+/// surface.
 ///
 ///   Zwindow    the stored depth. unorm: UINT, the code. float16, float32: FLOAT, the value. A
 ///              float64 does not fit into a channel: UINT `Zwindow.high` and `Zwindow.low`, the
-///              halves of its bits. Background: what a buffer is cleared to, the value of the
-///              farthest depth.
+///              halves of its bits. Background: the clear value, i.e. the value of the farthest
+///              depth.
 ///   Zdecoded   FLOAT: the depth that the stored value means, in scene units, rounded once; +∞.
 /// against_exact:
 ///   Zerror     FLOAT: that depth minus the exact one, rounded once; 0.

@@ -28,7 +28,7 @@ class ExactBand {
   ExactBand(const BufferWork& work, const TriangleBands::Band& band)
       : work_(work), format_(work.options.format), band_(band) {}
 
-  /// Stores what is visible.
+  /// Stores the visible surfaces.
   void store(DepthBufferStatistics& statistics) const {
     for_each_pixel(band_.first_row, band_.end_row, 0, work_.camera.width - 1,
                    [&](std::size_t pixel, const ImagePoint& s) {

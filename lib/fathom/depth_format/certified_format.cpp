@@ -182,8 +182,8 @@ StoredShare share_of(Storage storage, StoredDepth stored) {
 }
 
 /// Halfway between two neighbours, given the lower one. For floats: a + d with d half the distance,
-/// and 1 − (a + d) = (1 − a) − d: 1 − a as two words, the second of which is 0 or at least as fine
-/// as a's last bit.
+/// and 1 − (a + d) = (1 − a) − d: 1 − a as two words; the second is 0 or at least as fine as a's
+/// last bit.
 StoredShare share_above(Storage storage, StoredDepth lower) {
   if (is_unorm(storage)) {
     const double steps = greatest_code(storage), twice = 2 * static_cast<double>(lower.bits) + 1;

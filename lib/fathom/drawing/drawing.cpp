@@ -21,8 +21,8 @@ DrawnPoint rounded(const ImagePlace& place) {
 /// The visible edges of an object.
 class ObjectLines {
  public:
-  /// Edges of one name come one after another; those that touch become one line. Edges that are a
-  /// point when they are rounded are left out.
+  /// Edges of one name come one after another; edges that touch become one line. Edges that round
+  /// to a point are left out.
   void add(const VisibleEdge& edge) {
     const DrawnLine line{rounded(edge.from), rounded(edge.to)};
     if (line.from == line.to) return;

@@ -106,7 +106,7 @@ std::string pdf_text(const std::string& name) {
 /// Objects of a file, with their offsets.
 class PdfFile {
  public:
-  /// Objects are numbered from 1 on, in the order in which they are added.
+  /// Objects are numbered from 1, in the order in which they are added.
   void add(const std::string& object) {
     offsets_.push_back(text_.size());
     text_ += std::to_string(offsets_.size()) + " 0 obj\n" + object + "\nendobj\n";
@@ -130,7 +130,7 @@ class PdfFile {
   std::vector<std::size_t> offsets_;
 };
 
-/// The numbers of the objects before those of the layers.
+/// The numbers of the objects before the objects of the layers.
 constexpr std::size_t objects_before_layers = 4;
 
 std::string reference(std::size_t layer) {

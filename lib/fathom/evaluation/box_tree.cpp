@@ -40,7 +40,7 @@ std::span<const Vector> corners_of(const PlacedCloud& points, std::uint32_t numb
   return {&points[number], 1};
 }
 
-/// Three times the coordinate of a triangle's centre; that of a point.
+/// Three times the coordinate of a triangle's centre; the coordinate of a point.
 double centre(const PlacedTriangles& triangles, std::uint32_t number, std::size_t axis) {
   const PlacedTriangles::Corners& corners = triangles[number];
   return corners[0][axis] + corners[1][axis] + corners[2][axis];
@@ -56,8 +56,8 @@ std::size_t longest_axis(const Box& box) {
   return longest;
 }
 
-/// Whether the elements are one, so that one of them is enough: of points, since a scan may hold
-/// the same one a million times.
+/// Whether the elements are all equal, so that a single element is enough: a scan may contain the
+/// same point a million times.
 bool are_one(const PlacedTriangles&, const Box&, std::span<const std::uint32_t>) {
   return false;
 }

@@ -13,8 +13,8 @@ namespace {
 
 using bounds::distance_error;
 
-/// Approximate nearest point of a triangle, as A + v·(B − A) + w·(C − A). Has no error bound: its
-/// users are right for any v and w, and tight for good values.
+/// Approximate nearest point of a triangle, as A + v·(B − A) + w·(C − A). Has no error bound: the
+/// functions that use it are correct for any v and w, and tight for good values.
 /// Source   [Eri05] 5.1.5
 std::pair<double, double> nearest_place(const PlacedTriangles::Corners& corners, const Vector& p) {
   const auto& [a, b, c] = corners;
@@ -52,10 +52,10 @@ std::pair<double, double> made_weights(double v, double w) {
 
 }  // namespace
 
-/// From above: the distance from a point of the triangle. Divided by their sum, if that is above 1,
-/// the weights are those of such a point, and q is near it (validation/proofs, evaluation_place).
-/// From below: the triangle lies wholly beyond a plane across g = p − q if its corners do; for any
-/// g,
+/// From above: the distance from a point of the triangle. Divided by their sum, if it is above 1,
+/// the weights define a point of the triangle, and q is near it (validation/proofs,
+/// evaluation_place). From below: the triangle lies wholly beyond a plane across g = p − q if its
+/// corners do; for any g,
 ///   distance ≥ min over the corners X of g·(p − X)/|g|
 /// (evaluation_plane).
 DistanceBounds distance_bounds(const PlacedTriangles::Corners& corners, const Vector& p) {

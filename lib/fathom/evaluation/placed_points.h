@@ -45,8 +45,8 @@ class PlacedCloud {
   /// Whether two points are equal exactly.
   [[nodiscard]] bool are_same(std::uint32_t a, std::uint32_t b) const;
 
-  /// Leaves out every point but these, given by number in ascending order, and numbers them anew.
-  /// Once at most.
+  /// Keeps only the points of these numbers, which are in ascending order, and renumbers them. May
+  /// be called once.
   void keep(std::vector<std::uint32_t> numbers);
 
  private:

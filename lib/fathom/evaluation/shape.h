@@ -25,8 +25,8 @@ class Shape {
 
   /// The number of points to measure from.
   [[nodiscard]] virtual std::uint32_t points() const = 0;
-  /// The number of the point at each place of an order in which neighbours follow each other, and
-  /// memory holds what the last one needed.
+  /// The number of the point at a place of an order in which neighbours follow each other, so that
+  /// caches still hold the data of the previous point.
   [[nodiscard]] virtual std::uint32_t number_at(std::uint32_t place) const = 0;
   [[nodiscard]] virtual PlacedPoint point(std::uint32_t number) const = 0;
   /// Whether a camera sees the point. `last_camera`, 0 at first, is the camera to ask first:

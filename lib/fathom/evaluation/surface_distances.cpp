@@ -27,7 +27,7 @@ namespace {
 
 using namespace evaluation;
 
-/// What is known of a point: how far it is from the other shape.
+/// A measured point: its distance from the other shape.
 struct Distance {
   /// Rounded; negative where no camera sees the point.
   double length = -1;

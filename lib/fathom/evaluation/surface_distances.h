@@ -59,7 +59,7 @@ struct SurfaceComparisonOptions {
   std::optional<double> max_distance;
   /// Thresholds, in scene units.
   std::vector<double> within;
-  /// Of what the cameras see.
+  /// The culling of the cameras' views.
   Cull cull = Cull::none;
   /// Keep every point that counts with its distance.
   bool keep_points = false;
@@ -94,10 +94,11 @@ struct SurfaceComparison {
 
 /// Compares two surfaces or point clouds in the same world. A scene without triangles is the cloud
 /// of its vertices. Points lie on a surface in proportion to area, and the same surface always gets
-/// the same points; of a cloud all points that thinning leaves are measured. A point of a surface
-/// counts if one of `cameras` sees it on its own surface, regardless of the other side; without
-/// cameras all points count, and those of a cloud always do. A distance is measured to the nearest
-/// point of the whole other surface, not to points on it, or to the nearest point of a cloud.
+/// the same points; all points of a cloud that remain after thinning are measured. A point of a
+/// surface counts if one of `cameras` sees it on its own surface, regardless of the other side;
+/// without cameras all points count, and points of a cloud always count. A distance is measured to
+/// the nearest point of the whole other surface, not to points on it, or to the nearest point of a
+/// cloud.
 ///
 /// Exact    visibility, thinning, each distance (rounded once to binary64), and the comparison with
 ///          a threshold. Means are sums in binary64 in the order of the points. The same on every

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-/// The three ways in which a user's request can fail. The message is one line: what is wrong and
-/// what was expected, beginning with "FILE: " or "FILE: line N: " if a file is to blame.
-/// Our own broken invariants are assertions, "nothing there" is an optional; neither is an Error.
+/// The three ways in which a user's request can fail. The message is one line: the fault and the
+/// expectation, beginning with "FILE: " or "FILE: line N: " if a file is the cause. Broken
+/// invariants of Fathom are assertions and missing results are optionals; neither is an Error.
 namespace fathom {
 
 /// A setting that an error is about, by the name of its field: "subpixel_bits".
@@ -47,7 +47,7 @@ class OutputError : public Error {
   using Error::Error;
 };
 
-/// What a reader noticed that is not an error: one line each, with a count if it recurs.
+/// Findings of a reader that are not errors: one line each, with a count if it recurs.
 using Warnings = std::vector<std::string>;
 
 }  // namespace fathom

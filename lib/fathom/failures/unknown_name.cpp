@@ -41,7 +41,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return table.back();
 }
 
-/// How far a misspelling may lie from a name. A name of which nothing remains is not meant.
+/// The greatest distance of a misspelling from a name. It is below the length of the name, so that
+/// a misspelling keeps at least one letter.
 std::size_t reach(std::string_view name) {
   if (name.size() < 2) return 0;
   return name.size() < 6 ? 1 : 2;

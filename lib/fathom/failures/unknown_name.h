@@ -11,10 +11,10 @@
 
 namespace fathom {
 
-/// Those of the names that `name` is most likely a misspelling of, in the order of `names`: they
-/// differ from it by the least number of letters that are missing, too many, wrong or exchanged
-/// with their neighbour, at most one, or two where there are six letters or more; or by upper and
-/// lower case alone. Empty where none is that near.
+/// The names of which `name` is most likely a misspelling, in the order of `names`: those with the
+/// least number of letters that are missing, added, wrong or exchanged with their neighbour. At
+/// most one such letter is allowed, or two in names of six letters or more; names that differ only
+/// by upper and lower case match. Empty if no name is that near.
 std::vector<std::string> nearest_names(std::string_view name,
                                        const std::vector<std::string>& names);
 
@@ -24,7 +24,7 @@ std::string did_you_mean(const std::vector<std::string>& names);
 /// "; did you mean 'near'?", of the nearest names, or "" where no name is near.
 std::string suggestion(std::string_view name, const std::vector<std::string>& names);
 
-/// A name that is none of those that exist. It carries them, so that a program can offer them.
+/// An unknown name. Contains the names that exist, so that a program can offer them.
 class UnknownName : public UsageError {
  public:
   /// The suggestion is put behind the message.
@@ -50,7 +50,7 @@ std::vector<std::string> names_of(const Values& values) {
   return names;
 }
 
-/// The value with this name; nullopt if none of the values has it.
+/// The value with this name; nullopt if no value has it.
 template <class Values>
 std::optional<std::ranges::range_value_t<Values>> value_named(const Values& values,
                                                               std::string_view name) {
@@ -59,17 +59,18 @@ std::optional<std::ranges::range_value_t<Values>> value_named(const Values& valu
   return std::nullopt;
 }
 
-/// What other programs and people call a thing, in small letters and digits alone, and its name.
+/// Another name of a thing, only in small letters and digits, and its name in Fathom.
 struct OtherName {
   std::string_view other, name;
 };
 
-/// The name that `others` lists for this one; nothing if there is none, or more than one.
+/// The name that `others` lists for this name; nullopt if it lists no such name or several.
 std::optional<std::string_view> name_meant_by(std::string_view name,
                                               std::span<const OtherName> others);
 
-/// The failure for a name that is none of `names`. Unless the name is nearly one of them, it
-/// suggests those that `others` lists for it; upper case, hyphens and underscores do not matter.
+/// The failure for a name that is not among `names`. Unless the name is similar to one of them, it
+/// suggests the names that `others` lists for it; upper case, hyphens and underscores do not
+/// matter.
 UnknownName unknown_name(const std::string& message, const std::string& name,
                          std::vector<std::string> names, std::span<const OtherName> others);
 

@@ -13,7 +13,7 @@
 
 namespace fathom::files {
 
-/// An open file by its number, closed at the end of its scope; −1 is none.
+/// An open file by its number, closed at the end of its scope; −1 means no file.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}
@@ -35,8 +35,8 @@ class Descriptor {
   int number_;
 };
 
-/// The size of an open file, and when it was last written to: two equal states mean that nobody has
-/// written to the file or cut it short in between, as far as the clock of its file system tells.
+/// The size of an open file, and the time of the last write. If two states are equal, nobody has
+/// written to the file or truncated it in between, up to the resolution of its file system's clock.
 struct FileState {
   std::uint64_t size = 0;
   timespec written{};
@@ -51,7 +51,7 @@ void expect_whole(const FileState& opened, const FileState& now, const std::stri
 /// Fails    also InputError "NAME: has been written to …" where the states differ otherwise.
 void expect_unchanged(const FileState& opened, const FileState& now, const std::string& name);
 
-/// Throws an InputError that says what could not be done with the file, and why (errno).
+/// Throws an InputError with the failed operation on the file and the reason (errno).
 [[noreturn]] inline void fail_with_errno(const std::string& name, const char* what) {
   throw InputError(name + ": " + what + ": " + std::generic_category().message(errno));
 }

@@ -94,7 +94,7 @@ bool is_device(const struct stat& status) {
   return S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode);
 }
 
-/// Whether a device is /dev/null, which is empty, or the one that standard input is: a terminal.
+/// Whether a device is /dev/null, which is empty, or standard input, such as a terminal.
 bool is_harmless(const struct stat& status) {
   struct stat standard {};
   const bool is_standard_input = ::fstat(STDIN_FILENO, &standard) == 0 && is_device(standard) &&

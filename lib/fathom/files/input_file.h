@@ -27,31 +27,31 @@ struct Boundary {
 /// is empty.
 std::vector<Boundary> boundaries_of(const std::filesystem::path& folder);
 
-/// Opens a file that another file names, for reading. It must be a regular
-/// file: no pipe, no device, which are not even opened to find out. It must lie in the
-/// folder of every boundary where all symbolic links have led: the file that is opened is the one
-/// that is examined, even if someone exchanges a link meanwhile.
-/// Fails    InputError "PATH: …": as above, missing or not readable; with boundaries, also where
-///          there is no /proc to ask where a file lies.
+/// Opens a file that another file names, for reading. It must be a regular file: pipes and devices
+/// are refused without opening them. After following all symbolic links it must lie in the folder
+/// of every boundary. The opened file itself is examined, so exchanging a link meanwhile has no
+/// effect.
+/// Fails    InputError "PATH: …": as above, missing or not readable; with boundaries, also without
+///          /proc, which reports where a file lies.
 Descriptor open_confined(const std::filesystem::path& path,
                          const std::vector<Boundary>& boundaries);
 
-/// As many bytes are read from what is no regular file: a pipe, standard input, a file of /proc.
-/// These do not say how large they are, and some have no end.
+/// At most this many bytes are read from files that are not regular: pipes, standard input, files
+/// of /proc. Their size is unknown, and some have no end.
 inline constexpr std::uint64_t largest_unsized_input = std::uint64_t{1} << 30;
 
 /// The bytes of an input file, or of standard input if the path is "-".
 ///
-/// They are read into memory, up to their end: bytes that have been read cannot be taken away. A
-/// program that handles the signal SIGBUS may have large regular files mapped instead, so that they
-/// take no memory of ours (see MappedFile).
+/// The whole file is read into memory, so that later changes of the file have no effect. A program
+/// that handles the signal SIGBUS may map large regular files instead, which then take no memory of
+/// the process (see MappedFile).
 class InputFile {
  public:
   enum class Reading { copied, mapped_where_large };
 
-  /// Fails    InputError "PATH: why": missing, not readable, a directory, a device other than what
-  ///          standard input is, cut short while it is read, or more than largest_unsized_input
-  ///          from what is no regular file.
+  /// Fails    InputError "PATH: why": missing, not readable, a directory, a device other than
+  ///          standard input, truncated during reading, or more than largest_unsized_input bytes
+  ///          from a file that is not regular.
   explicit InputFile(const std::filesystem::path& path, Reading reading = Reading::copied);
   /// A file that another file names; "-" is an ordinary name. Fails    as open_confined().
   InputFile(const std::filesystem::path& path, const std::vector<Boundary>& boundaries,
@@ -66,7 +66,7 @@ class InputFile {
     return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
   }
 
-  /// For what has been made of the bytes: whether they were those of one state of the file.
+  /// Checks that all bytes come from one state of the file; call it when the bytes have been used.
   /// Fails    InputError where a regular file was written to while it was read or, if it is mapped,
   ///          since. (A mapped file that is cut within its last page ends in zeros, without a
   ///          signal.)
@@ -78,7 +78,7 @@ class InputFile {
   };
 
   void take(Descriptor file, Reading reading);
-  /// Makes the buffer larger or smaller; what it holds stays.
+  /// Makes the buffer larger or smaller; its contents stay.
   void resize(std::size_t capacity);
   void read(int descriptor, std::uint64_t size);
 

@@ -83,7 +83,7 @@ void FileBlocks::load(Block& block, std::uint64_t number) const {
 
 void FileBlocks::read(std::uint64_t offset, std::span<std::byte> bytes) const {
   if (offset > file_.size() || bytes.size() > file_.size() - offset) {
-    file_.read(offset, bytes);  // fails, and says where the file ends
+    file_.read(offset, bytes);  // fails, with the place where the file ends
     return;
   }
   while (!bytes.empty()) {

@@ -64,7 +64,7 @@ class ByteWindow {
 
   ByteWindow(ByteWindow&&) = default;  // the buffer's bytes stay where they are
 
-  /// The next byte and those that certainly follow it in memory.
+  /// The next byte, followed by the bytes that are certainly in memory.
   [[nodiscard]] const char* at() const { return at_; }
   /// Whether `count` more bytes (at most 8) lie at at(), if necessary after reading on.
   bool has(std::size_t count) {

@@ -1,5 +1,6 @@
-// The functions of SHA-256 alone, which OpenSSL would rather have called through its providers: to
-// set these up takes longer than to hash a small file, and crashes where there is no memory for it.
+// Calls OpenSSL's SHA-256 functions directly, although they are deprecated in favour of its
+// providers: setting up the providers takes longer than hashing a small file, and crashes if memory
+// runs out.
 #define OPENSSL_SUPPRESS_DEPRECATED
 #include "fathom/files/sha256.h"
 

@@ -17,7 +17,7 @@ namespace fathom::files {
 /// time.
 class SpillFile {
  public:
-  /// In a folder; else in the one that TMPDIR names, or /tmp.
+  /// In `folder`; if it is empty, in the folder that TMPDIR names, or else in /tmp.
   /// Fails    OutputError "FOLDER: why", or "TMPDIR: why".
   explicit SpillFile(std::filesystem::path folder = {});
 

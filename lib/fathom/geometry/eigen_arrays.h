@@ -20,8 +20,8 @@ inline std::array<double, 3> as_array(const Eigen::Vector3d& a) {
   return {a.x(), a.y(), a.z()};
 }
 
-/// a · b, summed from the left; a.dot(b) adds x to the sum of y and z. For signs that decide where
-/// the sum is 0 but for rounding: what was painted or counted by them stays what it is.
+/// a · b, summed from the left; a.dot(b) adds x to the sum of y and z. For signs of sums that are 0
+/// except for rounding: pictures and counts that depend on them do not change.
 inline double dot_from_left(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Eigen::Vector3d terms = a.cwiseProduct(b);
   return terms.x() + terms.y() + terms.z();

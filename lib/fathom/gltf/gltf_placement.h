@@ -24,7 +24,7 @@ WorldFromMesh transform_of(const GltfPlacement& placement);
 // Where the nodes of a glTF lie. Only for .cpp files of this room, of mesh_files/ and of camera/.
 // Source   [GLTF20] 3.5.3 (transformations)
 
-/// What a node says of its place in its parent: a matrix, or a GltfPlacement.
+/// The transform of a node in its parent: a matrix, or a GltfPlacement.
 /// Fails    InputError: both, or a matrix that is not affine.
 WorldFromMesh read_transform_of_node(const text::JsonValue& node);
 

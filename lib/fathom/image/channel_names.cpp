@@ -30,7 +30,7 @@ std::vector<ChannelName> names_in(const std::string& text) {
   return names;
 }
 
-/// The first name that two channels have; empty if there is none.
+/// The first name that two channels share; empty if all names differ.
 std::string name_of_two(const DepthMap& map) {
   std::set<std::string> names;
   for (const ImageChannel& channel : map.channels)

@@ -9,10 +9,10 @@
 #include "fathom/image/channel_table.h"
 #include "fathom/image/depth_map.h"
 
-/// Names of channels: first those that other programs look for, then errors about names.
+/// Names of channels in other programs, and errors about names.
 ///
-/// Channels under the names that other programs look for: OpenCV, for one, shows of an EXR only
-/// channels R, G, B and Y.
+/// Channels under the names that other programs expect. OpenCV, for example, shows only the
+/// channels R, G, B and Y of an EXR.
 namespace fathom {
 
 /// A channel of a map and its name in the file: {"Z", "Y"}.

@@ -63,7 +63,7 @@ const ImageChannel& named(const DepthMap& map, const std::string& name, const ch
   throw missing_channel(map, name, std::string("the ") + which + " map");
 }
 
-/// What is measured at one pixel that shows a surface in both maps.
+/// The measurements at one pixel that shows a surface in both maps.
 struct Measure {
   bool bit_equal = false, commensurable = true;
   double absolute = 0, relative = 0, ulp = 0;

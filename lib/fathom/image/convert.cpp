@@ -45,7 +45,7 @@ struct Converter {
     return std::abs(camera.projection.fx) * rig.baseline / (value + rig.doffs);
   }
 
-  /// +∞ where there is no number for it: of an overflowed depth, or a NaN.
+  /// +∞ if it has no number: for an overflowed depth, and for NaN.
   [[nodiscard]] double operator()(double value, double i, double j) const {
     if (from == to) return value;
     if (!std::isfinite(value)) return infinity;
@@ -81,7 +81,7 @@ Samples<T> converted(const Samples<T>& values, const std::vector<std::uint8_t>& 
   return result;
 }
 
-/// The background of the result where none is asked for.
+/// The default background of the result.
 double usual_background(const DepthMap& map, DepthQuantity from, DepthQuantity to) {
   if (to == DepthQuantity::disparity) return 0;
   if (from == DepthQuantity::disparity) return infinity;
@@ -242,10 +242,10 @@ DepthMap with_storage(const DepthMap& map, const std::string& asked, StoredType 
   result.channels.clear();
   result.png_scale.reset();
   result.codes_beyond.reset();
-  // That of codes is 0, and +∞ where they become depths.
+  // The background of codes is 0; when codes become depths it is +∞.
   const bool from_codes = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
   if (from_codes || type == StoredType::scaled_unorm16) result.texts.erase(background_text);
-  // What is widened is the value as it was stored.
+  // Widens the stored value.
   const auto background = declared_background(result);
   if (background && std::holds_alternative<Samples<float>>(channel.values))
     declare_background(result, static_cast<double>(static_cast<float>(*background)));

@@ -25,7 +25,7 @@ namespace {
 
 const std::string one_channel = "this format holds one channel";
 
-/// The error of a channel of several parts, of which a file cannot hold more than one.
+/// The error for a channel of several parts in a format that holds a single channel.
 UsageError one_part_only(const DepthMap& map, const std::string& name) {
   return {Setting{"channel"}, one_channel + ", and " + text_of_parts(map, name) +
                                   "; name the one to write, or write " +
@@ -46,7 +46,7 @@ const ImageChannel& channel_to_write(const DepthMap& map, const std::string& ask
   return map.channels.front();
 }
 
-/// As channel_to_write(), or those that are together the one that is asked for, or all there are.
+/// As channel_to_write(); or the parts of the requested channel; or all channels.
 std::vector<const ImageChannel*> channels_to_write(const DepthMap& map, const std::string& asked) {
   if (map.find(asked) == nullptr) {
     const std::string& first = map.channels.front().name;
@@ -69,7 +69,7 @@ std::string_view name_of(Compression compression) {
 }
 
 bool is_colmap_map(ByteView bytes) {
-  // As many digits as a 64-bit number has, so that one that is too large is told as such.
+  // As many digits as a 64-bit number has, so that larger numbers are reported as too large.
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
                               std::min<std::size_t>(bytes.size(), 21));
   const std::size_t end = text.find_first_not_of("0123456789");

@@ -108,8 +108,8 @@ DepthMap read_map(std::span<const std::byte> bytes, const std::string& name,
 DepthMap read_npz_array(const std::filesystem::path& path, const std::string& array,
                         const MapMemory& memory = {});
 
-/// Whether a file begins as maps do: those that read_map() reads, and TIFF, which it refuses by
-/// name.
+/// Whether a file begins like a map: a format that read_map() reads, or TIFF, which read_map()
+/// refuses by name.
 bool is_map(std::span<const std::byte> bytes);
 
 }  // namespace fathom

@@ -14,24 +14,24 @@
 
 namespace fathom {
 
-/// What the codes of a 16-bit PNG mean, for programs that read no text chunks: a JSON object on one
-/// line, with a line end.
-///   channel   the channel that is written: that of this name, or the map's only one
-///   unit      what `scale` counts: "codes per scene unit"
-///   scale     a depth is code / scale; none of identifiers
+/// The meaning of the codes of a 16-bit PNG, for programs that read no text chunks: a JSON object
+/// on one line, with a line end.
+///   channel   the channel that is written: the channel of this name, or the map's only channel
+///   unit      the unit of `scale`: "codes per scene unit"
+///   scale     a depth is code / scale; missing for identifiers
 ///   none      the code where no surface is: 0; 65535 of identifiers
 ///   beyond    how many pixels show a surface that lies too deep for the codes and has `none`
 ///   width, height   pixels
-/// Fails    UsageError if there is no such channel, or several of which none is named; InputError
-///          if the map has a fault.
+/// Fails    UsageError if there is no such channel, or several channels and no name is given;
+///          InputError if the map has a fault.
 std::string png_sidecar(const DepthMap& map, const std::string& channel = "");
 
 /// A mask as the bytes of a PNG of one 8-bit grey channel, 255 where the mask is not 0 and else 0,
 /// as in mask/ and mask_visib/ of BOP data sets. The same mask gives the same bytes.
 ///   mask    height × width values, row by row from the top
 ///   name    the file's name for messages
-/// Fails    InputError if the mask has no pixel, or not as many as the size says, or the size is
-///          above 2^31 − 1.
+/// Fails    InputError if the mask has no pixels, or another number of pixels than the size, or the
+///          size is above 2^31 − 1.
 std::vector<std::byte> encode_mask(std::span<const std::uint8_t> mask, std::uint32_t width,
                                    std::uint32_t height, const std::string& name);
 
@@ -52,7 +52,7 @@ void write_mask(std::span<const std::uint8_t> mask, std::uint32_t width, std::ui
 
 /// The axes of normals in the camera's frame (channel Nc).
 enum class NormalAxes {
-  opencv,  ///< x right, y down, z forward: those of the channel
+  opencv,  ///< x right, y down, z forward, as in the channel
   opengl   ///< x right, y up, z backward: y and z are negated
 };
 inline constexpr std::array all_normal_axes{NormalAxes::opencv, NormalAxes::opengl};

@@ -26,8 +26,8 @@ png_voidp png_allocate(png_structp png, png_alloc_size_t size);
 void png_deallocate(png_structp png, png_voidp block);
 void png_ignore_warning(png_structp png, png_const_charp reason);
 
-/// libpng allocates as much for a chunk as its header claims. Walks over the chunks of a PNG
-/// (length, type, data, checksum): whether none is longer than what is left of the file.
+/// Whether every chunk of a PNG (length, type, data, checksum) lies within the file. Must be
+/// checked first, because libpng allocates as much for a chunk as its header claims.
 inline bool chunks_fit(std::span<const std::byte> bytes) {
   constexpr std::size_t signature = 8, around = 12;
   for (std::size_t at = signature; at < bytes.size();) {

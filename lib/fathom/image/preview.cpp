@@ -97,7 +97,7 @@ Rgb background_colour(ColourMap colours) {
   return colours == ColourMap::diverging ? Rgb{150, 156, 164} : Rgb{206, 210, 216};
 }
 
-/// What the channels of a depth buffer mean.
+/// The meanings of the channels of a depth buffer.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> buffer_channels{
     {{"Zwindow", "stored depth"},
      {"Zdecoded", "depth decoded from the buffer"},
@@ -105,7 +105,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 5> buffer_ch
      {"Zwinner", "triangle that wins in the buffer"},
      {"Zfight", "where the wrong surface wins"}}};
 
-/// What is written above the picture of a channel.
+/// The title of the picture of a channel.
 std::string title_of(const DepthMap& map, const ImageChannel& channel) {
   std::string text = channel.name;
   for (const auto& [name, meaning] : buffer_channels)
@@ -227,7 +227,7 @@ void draw_numbers(Sheet& sheet, const DepthMap& map, const ImageChannel& channel
   specials.add_to(sheet, mask.size());
 }
 
-/// The distinct identifiers, those of the most pixels first, else in ascending order.
+/// The distinct identifiers, by descending number of pixels, then in ascending order.
 std::vector<std::uint32_t> by_pixels(const Samples<std::uint32_t>& ids) {
   std::vector<std::uint32_t> sorted(ids.begin(), ids.end());
   std::ranges::sort(sorted);

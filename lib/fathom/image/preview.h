@@ -52,10 +52,10 @@ struct PreviewOptions {
 };
 
 /// A picture of one channel, pixel by pixel. (Zfight shows where the wrong surface wins; few such
-/// pixels of a map that is not enlarged are drawn larger, and the legend says so. Small maps are
-/// enlarged by a whole factor, very large ones show every k-th pixel and say so.) Beside it a
-/// colour bar with the range in figures, the channel's name, and what background, infinities and
-/// NaNs look like.
+/// pixels of a map that is not enlarged are drawn larger, with a note in the legend. Small maps are
+/// enlarged by a whole factor; of very large maps every k-th pixel is shown, with a note.) Next to
+/// it are a colour bar with the range in figures, the channel's name, and the colours of
+/// background, infinities and NaNs.
 /// Fails    InputError if the map has a fault (find_fault); UsageError if there is no such channel
 ///          or if low ≥ high, or if `scale` is log or inverse and low ≤ 0; OutputError if the font
 ///          is missing.

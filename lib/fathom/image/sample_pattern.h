@@ -33,8 +33,8 @@ struct SamplePattern {
   [[nodiscard]] SampleOffset at(std::size_t k, std::uint32_t column, std::uint32_t row) const;
 };
 
-/// Refuses a pattern that sample_pattern() does not make: no samples, more than 256 of them, or one
-/// that is not within half a pixel of the centre.
+/// Refuses a pattern that sample_pattern() does not make: no samples, more than 256 of them, or a
+/// sample that is not within half a pixel of the centre.
 /// Fails    UsageError.
 void require_valid(const SamplePattern& pattern);
 

@@ -175,8 +175,8 @@ std::vector<std::uint8_t> surface_mask(const DepthMap& map, const ImageChannel& 
   const StandardArithmetic standard;
   require_valid(map);
   std::vector<std::uint8_t> everywhere(std::size_t{map.width} * map.height, 1);
-  // `A` and the coverages of Cryptomatte are shares of a pixel, and `valid` says whether it has a
-  // ray: none of their pixels is background.
+  // `A` and the coverages of Cryptomatte are shares of a pixel, and `valid` marks pixels with a
+  // ray: these channels have no background.
   if (channel.name == "A" || channel.name == "valid" || channel.name.ends_with(".coverage")) {
     return everywhere;
   }
@@ -207,7 +207,7 @@ std::string background_as_text(double value) {
   return std::isnan(value) ? "nan" : text::shortest_decimal(value);
 }
 
-/// The values of one channel; `surface` is what it shows.
+/// The values of one channel; `surface` marks the pixels that show a surface.
 template <class T>
 void fill_background(const DepthMap& map, const std::string& name, Samples<T>& values,
                      const std::vector<std::uint8_t>& surface, double value) {

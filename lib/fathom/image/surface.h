@@ -11,8 +11,8 @@
 /// Which pixels of a map show a surface and which are background.
 namespace fathom {
 
-/// What the values of a channel mean, by its name (of a layered one the last two parts count:
-/// `ViewLayer.Depth.Z` is a depth, `N.Z` a direction) and its type.
+/// The meaning of a channel's values, by its name and type. The last two parts of a layered name
+/// count: `ViewLayer.Depth.Z` is a depth, `N.Z` a direction.
 ChannelKind kind_of(const ImageChannel& channel);
 
 /// The value that means "no surface" in a depth channel of another program: 1e10 (Blender), 0
@@ -23,8 +23,8 @@ struct BackgroundRule {
   std::optional<double> value;
   /// How it was found, for the user: one line, or empty if nothing was guessed.
   std::string note = {};
-  /// Nothing but `value`, which may be NaN, is background: a map that names its background
-  /// (background.h) has it there alone, and what is infinite is a depth that overflowed.
+  /// Only `value`, which may be NaN, is background: the map declares its background
+  /// (declared_background()), and other infinite values are depths that overflowed.
   bool only = false;
 };
 
@@ -36,20 +36,20 @@ struct BackgroundRule {
 ///   negative); otherwise there is no background.
 BackgroundRule detect_background(const ImageChannel& channel);
 
-/// The rule for a depth channel of a map: what the map says (background.h), or else the guess.
-/// Fails    InputError if what it says is no number.
+/// The rule for a depth channel of a map: its declared background, or else the guess.
+/// Fails    InputError if the declared background is not a number.
 BackgroundRule background_of(const DepthMap& map, const ImageChannel& channel);
 
 /// The values of `id`, `object` or `face`, the first that the map has.
 const Samples<std::uint32_t>* identifiers_of(const DepthMap& map);
 
-/// One byte per pixel: 1 where `channel` of `map` shows a surface.
-/// `A` and `valid` show something at every pixel. If the map has an identifier channel, that
-/// decides (unless `by_identifiers` is false), which distinguishes a depth that overflowed to +∞
-/// from background.
+/// One byte per pixel: 1 if `channel` of `map` shows a surface there. `A` and `valid` show
+/// something at every pixel. If the map has an identifier channel, that decides (unless
+/// `by_identifiers` is false), which distinguishes a depth that overflowed to +∞ from background.
 /// Otherwise the channel's own background decides (the rule for depths: given, or background_of());
 /// a channel without one follows the map's `Z`, if there is one; else every pixel counts.
-/// Fails    InputError if the map has a fault (find_fault), or names a background that is none.
+/// Fails    InputError if the map has a fault (find_fault), or declares a background that is not a
+///          number.
 std::vector<std::uint8_t> surface_mask(const DepthMap& map, const ImageChannel& channel,
                                        const std::optional<BackgroundRule>& rule = std::nullopt,
                                        bool by_identifiers = true);

@@ -28,7 +28,7 @@ struct Hierarchy {
 const Hierarchy second_version{"", "cgroup2", {"memory.max", "memory.high"}};
 const Hierarchy first_version{"memory", "cgroup", {"memory.limit_in_bytes"}};
 
-/// Where no limit is set, the first version says a number near 2⁶³.
+/// Without a limit, version 1 of control groups has a number near 2⁶³.
 constexpr std::uint64_t no_limit = std::uint64_t{1} << 62;
 
 std::vector<std::string> split(const std::string& text, char at) {

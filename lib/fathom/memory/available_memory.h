@@ -10,18 +10,17 @@ namespace fathom {
 /// So many bytes and no more.
 struct MemoryAllowance {
   std::uint64_t bytes = 0;
-  /// What sets it, as a message says before the size: "this machine has".
+  /// Its origin, as in messages before the size: "this machine has".
   std::string set_by;
-  /// What the user can do about it; may be empty: "--max-memory allows more".
+  /// Advice for the user: "--max-memory allows more". May be empty.
   std::string remedy;
 };
 
-/// The memory that this process may take in all: the least of the machine's, of what the control
-/// groups around it allow (memory.max and memory.high, memory.limit_in_bytes; those of containers)
-/// and of its own limits (ulimit -v, ulimit -d). What other processes take meanwhile is not
-/// counted.
+/// The memory that this process may take in all: the least of the machine's memory, the limits of
+/// its control groups, such as a container's (memory.max and memory.high, memory.limit_in_bytes),
+/// and its own limits (ulimit -v, ulimit -d). Memory of other processes is not subtracted.
 MemoryAllowance available_memory();
-/// What the control groups alone allow; nullopt where they set no limit.
+/// The limit of the control groups; nullopt if they set no limit.
 std::optional<MemoryAllowance> control_group_allowance();
 
 /// "2.1 GB", "34.5 MB": decimal units.
@@ -35,10 +34,10 @@ void require_memory(const std::string& what, double bytes, const MemoryAllowance
 
 namespace fathom::memory {
 
-/// The least limit in bytes that the control groups around this process set; nullopt if none does.
-/// `root` is the folder in which proc and what is mounted lie: "/", or a test's.
-/// Source   cgroups(7), proc(5): /proc/self/cgroup names the group in each hierarchy, as seen from
-///          the root of the hierarchy; /proc/self/mountinfo says which part of it is mounted, and
+/// The least limit in bytes among the control groups of this process; nullopt if they set no limit.
+/// `root` is the folder that contains proc and the mount points: "/", or a folder of a test.
+/// Source   cgroups(7), proc(5): /proc/self/cgroup names the group in each hierarchy, relative to
+///          the root of the hierarchy; /proc/self/mountinfo lists which part of it is mounted, and
 ///          where.
 std::optional<std::uint64_t> control_group_limit(const std::filesystem::path& root);
 

@@ -29,15 +29,15 @@ struct Mesh {
   /// The number of faces in the file, including skipped ones.
   std::uint64_t face_count = 0;
 
-  /// Lines and points that the file has beside its faces, as indices into `vertices`, where they
-  /// were asked for (ReadOptions::primitives). They have no area: only the pipeline draws them.
+  /// Lines and points of the file, as indices into `vertices`, if requested
+  /// (ReadOptions::primitives). They have no area: only the pipeline draws them.
   std::vector<std::array<std::uint32_t, 2>> lines;
   std::vector<std::uint32_t> points;
 
   /// Optional attributes as in the file; empty where the file has none.
   std::vector<std::array<double, 2>> texture_coordinates;
   std::vector<std::array<double, 3>> normals;
-  /// Linear or not, as the file says; components in [0, 1].
+  /// Linear or not, as in the file; components in [0, 1].
   std::vector<std::array<float, 4>> colours;
   /// For each triangle, indices of its corners into the lists above (no_index where a corner has
   /// none). Empty where an attribute is given per vertex, so that the indices of `triangles` apply.
@@ -55,7 +55,7 @@ struct Mesh {
   [[nodiscard]] std::uint32_t face_of(std::uint32_t triangle) const {
     return face_of_triangle.empty() ? triangle : face_of_triangle[triangle];
   }
-  /// nullptr if there are none.
+  /// nullptr if the mesh has no such segments.
   [[nodiscard]] const TriangleSegments* segments_by(Segmentation by) const {
     for (const TriangleSegments& each : segments)
       if (each.by == by) return &each;

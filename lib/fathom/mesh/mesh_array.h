@@ -11,9 +11,9 @@
 
 namespace fathom {
 
-/// The vertices or triangles of a mesh: a vector, or elements that lie in memory of someone else,
-/// who lends them (of_lent). It reads as a vector, and does what a vector does when it is changed:
-/// then it holds a copy of its own. Copies of lent elements are lent.
+/// The vertices or triangles of a mesh: a vector, or elements in borrowed memory (of_lent). It is
+/// used like a vector. Changing borrowed elements first copies them into a vector. Copies of
+/// borrowed elements borrow the same memory.
 template <class T>
 class MeshArray {
  public:
@@ -82,7 +82,7 @@ class MeshArray {
     own().assign(first, last);
   }
   void clear() { *this = {}; }
-  /// At the end alone.
+  /// Only at the end.
   template <class Iterator>
   void append(Iterator first, Iterator last) {
     own().insert(own().end(), first, last);

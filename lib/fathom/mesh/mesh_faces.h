@@ -53,9 +53,9 @@ class FaceCollector {
   std::uint64_t skipped_ = 0;
 };
 
-/// Cuts the faces of more than three corners, which are in the mesh as fans (0, k, k+1), as section
-/// 3 of the specification says. Texture and normal triangles, laid out in the same way, are cut
-/// like them. Returns how many were cut in spite of their shape.
+/// Cuts the faces of more than three corners, which are in the mesh as fans (0, k, k+1), by section
+/// 3 of the specification. Texture and normal triangles have the same layout and are cut in the
+/// same way. Returns how many faces were cut in spite of their shape.
 std::uint64_t cut_polygons(Mesh& mesh);
 
 /// The same, with warnings of those and of the faces that were skipped.

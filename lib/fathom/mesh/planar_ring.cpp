@@ -134,7 +134,7 @@ class CornerTree::Triangle {
     }
   }
 
-  /// Whether p lies in it, at none of its corners.
+  /// Whether p lies in the triangle, but not at a corner.
   [[nodiscard]] bool holds(const Point2& p) const {
     if (is_beside(p, p)) return false;
     for (std::size_t k = 0; k < 3; ++k)

@@ -10,15 +10,15 @@
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
-/// A face in its plane of projection, and what is asked of its shape. Every test is exact.
+/// The projection of a face to a plane, and tests of its shape. Every test is exact.
 namespace fathom::mesh {
 
 using Point2 = std::array<double, 2>;
 /// The number of a corner in the face.
 using Corner = std::uint32_t;
 
-/// The sign of the turn a → b → c, as orientation() gives it, which is asked where binary64 does
-/// not settle it.
+/// The sign of the turn a → b → c, as orientation() computes it; binary64 settles most signs
+/// without calling it.
 ///
 /// Bound. Each difference is rounded once, and each product, so that `left` and `right` carry
 /// relative errors of at most (1+u)³ − 1 < 3.01u, u = 2⁻⁵³; their difference is rounded once more.
@@ -61,8 +61,8 @@ class CornerTree {
   void remove(Corner corner);
 
   /// A corner that lies in the closed triangle abc and is at none of a, b and c; abc turns `way`,
-  /// which is not zero. Exact. Which one of several is drawn by lot, so that no arrangement of
-  /// corners can be made for which it is always the one that is removed next.
+  /// which is not zero. Exact. One of several is chosen at random, so that nobody can arrange
+  /// corners for which it is always the corner that is removed next.
   [[nodiscard]] std::optional<Corner> find_in(const Point2& a, const Point2& b, const Point2& c,
                                               Sign way);
 

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-/// What files say of their triangles beside where they lie: which material they have, which group
-/// and which part they belong to, which label they carry.
+/// Properties of triangles in files: their material, group, part and label.
 namespace fathom {
 
 /// A way to divide the triangles of a scene into segments.
@@ -38,7 +37,7 @@ struct TriangleSegments {
   }
 };
 
-/// The segments that all triangles of an object belong to, whatever its mesh says of them.
+/// The segments of all triangles of an object; they override the segments of its mesh.
 struct ObjectSegments {
   std::map<Segmentation, std::string> names;
   std::optional<std::uint32_t> label;

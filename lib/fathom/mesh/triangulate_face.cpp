@@ -46,7 +46,7 @@ class EarClipping {
       cut(i);
       --left;
     }
-    // What is left: one last triangle, or, where there is no ear, a fan of it.
+    // The rest: one last triangle, or a fan if no ear is left.
     const bool done = left == 3 && turn_at(corners_[first_].next) == way_;
     Corner a = corners_[first_].next;
     for (std::size_t k = 2; k < left; ++k, a = corners_[a].next)
@@ -62,7 +62,7 @@ class EarClipping {
     Corner next, previous;
     /// A corner in its triangle; while there is one, this corner is in the list of that.
     Corner obstacle = none;
-    /// The list of the corners of which this is the obstacle, and neighbours in such a list.
+    /// The list of the corners whose obstacle is this corner, and the neighbours in such a list.
     Corner first_waiting = none, next_waiting = none, previous_waiting = none;
     bool is_in_queue = true;
   };
@@ -149,14 +149,14 @@ class EarClipping {
   Corner first_ = 0;
 };
 
-/// Cuts ears off a ring that is simple but for corners that repeat the one before them, and turns
-/// `way` (specification, section 3); appends the triangles. Exact.
+/// Cuts ears off a ring that turns `way` and is simple except for corners that repeat the previous
+/// corner (specification, section 3); appends the triangles. Exact.
 ///
-/// Cost     about n log n for outlines as they are drawn. A corner that is no ear is looked at
-///          again only when its neighbour goes, or the one corner by which it is known to be none;
-///          as that is drawn by lot, n log n questions are expected of any ring. Each goes to a
-///          tree: log n steps for compact triangles, √n for long ones among corners that lie all
-///          over the plane, and at worst, where a long side passes through all its boxes, n.
+/// Cost     about n log n for usual outlines. A corner that is not an ear is examined again only
+///          when a neighbour is cut, or the obstacle: the corner in its triangle. The obstacle is
+///          chosen at random, so n log n queries are expected for any ring. A query walks a tree:
+///          log n steps for compact triangles, √n for long triangles among corners all over the
+///          plane, and n at worst, if a long side passes through all boxes.
 Triangulation clip_ears(const std::vector<Point2>& points, Sign way,
                         std::vector<std::array<Corner, 3>>& triangles) {
   return EarClipping(points, way).run(triangles);
@@ -193,7 +193,7 @@ int exact_projection_axis(std::span<const MeshPoint> ring) {
   return best;
 }
 
-/// exact_projection_axis() in binary64, or −2 where the error bounds leave it open.
+/// exact_projection_axis() in binary64, or −2 if the error bounds do not decide.
 ///
 /// Bound. With a, b relative to the first corner, each difference is rounded once, so each of the
 /// 2(n−1) products carries a relative error of at most (1+u)³ − 1 < 3.01u, u = 2⁻⁵³, and the sum of

@@ -29,8 +29,8 @@ enum class Triangulation {
 Triangulation triangulate_face(std::span<const MeshPoint> ring,
                                std::vector<std::array<std::uint32_t, 3>>& triangles);
 
-/// The axis, 0 to 2, along which a face is projected: that of the largest component of its Newell
-/// normal in magnitude, the first among equals; −1 if the normal is zero. Exact.
+/// The axis, 0 to 2, along which a face is projected: the axis of the component of its Newell
+/// normal that has the largest magnitude, the first among equals; −1 if the normal is zero. Exact.
 int projection_axis(std::span<const MeshPoint> ring);
 
 }  // namespace fathom::mesh

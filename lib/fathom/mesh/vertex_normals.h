@@ -10,9 +10,10 @@
 
 namespace fathom {
 
-/// Where the normals of corners come from: the file, or `vertex` where it has none; sums over the
-/// triangles at a vertex; or over those at all vertices of the mesh that lie at one place. A sum is
-/// that of the triangles' (B − A) × (C − A), so that each counts as much as its area.
+/// The origin of the normals of corners. `file`: the file, or like `vertex` for corners without a
+/// normal. `vertex`: the sum over the triangles at the vertex. `place`: the sum over the triangles
+/// at all vertices of the mesh with the same position. The sums add up (B − A) × (C − A), so that
+/// triangles have the weight of their areas.
 enum class NormalSource { file, vertex, place };
 /// "file", "vertex" or "place".
 std::string_view name_of(NormalSource source);
@@ -22,13 +23,13 @@ std::string_view name_of(NormalSource source);
 /// Which normals belong to which corners: whoever adds them up, exactly or rounded, asks here.
 namespace fathom::mesh {
 
-/// The index into the normals of the file of a corner; no_index where it has none of its own.
+/// The index of a corner's normal in the normals of the file; no_index if the corner has no normal.
 std::uint32_t normal_index(const Mesh& mesh, std::size_t triangle, std::size_t corner);
 
 /// Whether the normals of some corners are sums over triangles.
 bool needs_sums(const Mesh& mesh, NormalSource source);
 
-/// For each vertex the first one that its normal is shared with, itself if none comes before it.
+/// For each vertex the first vertex that shares its normal; itself if it is the first.
 std::vector<std::uint32_t> sharing_vertices(const Mesh& mesh, NormalSource source);
 
 /// The triangles over which the normals of a mesh's vertices are summed up.
@@ -40,7 +41,7 @@ class SharedTriangles {
   /// Fails    InputError where a triangle has a corner beyond the vertices.
   SharedTriangles(const Mesh& mesh, NormalSource source);
 
-  /// The vertex that stands for all those that share a normal with this one.
+  /// The vertex that represents all vertices that share the normal of this vertex.
   [[nodiscard]] std::uint32_t shared(std::uint32_t vertex) const { return first_[vertex]; }
   /// The triangles of the sum of such a vertex, in the order of their numbers; twice where two
   /// corners of a triangle share it.

@@ -39,12 +39,12 @@ struct ForeignMeshes {
 };
 
 /// Reads a file by assimp, in the program fathom-formats: one object per node with a mesh, depth
-/// first. What assimp gives is taken: its numbers are binary32, of which the decimals of a file are
-/// not always the nearest; most of its readers turn the file's frame until y is up. Its polygons
-/// are cut as those of any other format, and its nodes' transforms composed exactly.
+/// first. Fathom takes assimp's results as they are: its numbers are binary32 and not always
+/// nearest to the decimals of the file; most of its readers turn the file's frame so that y is up.
+/// Polygons are cut as in any other format, and the transforms of nodes are composed exactly.
 ///
-/// `path` names the file in messages, and its suffix says which of assimp's readers is meant. None
-/// of them sees any other file.
+/// `path` names the file in messages, and its suffix selects assimp's reader. The readers have no
+/// access to any other file.
 /// Fails    InputError: "FILE: assimp could not read it: …"; also where it crashes, or takes more
 ///          memory or time than formats_program/process.h allows.
 /// Ignored  with a warning: points and lines; silently: skins, morph targets, animations, cameras,

@@ -27,8 +27,8 @@ bool is_zero(const std::array<double, 3>& value) {
   return std::all_of(value.begin(), value.end(), [](double x) { return x == 0; });
 }
 
-/// How many are not finite. What `corners` names of these and of those that mean nothing, or else
-/// the triangles by their vertices, is none.
+/// Returns how many elements are not finite. References to them, and to elements without a meaning,
+/// become no_index in `corners`, which begins as a copy of `triangles` if it is empty.
 template <class Value, class MeansNothing>
 std::size_t leave_out(std::vector<Value>& values, MeshArray<CornerIndices>& corners,
                       const MeshArray<CornerIndices>& triangles, MeansNothing means_nothing) {

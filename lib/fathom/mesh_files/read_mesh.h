@@ -39,8 +39,8 @@ Mesh read_ply(std::span<const std::byte> bytes, const std::string& file, const R
               Warnings& warnings);
 
 /// STL, ascii (several solids, any case, comments) and binary, distinguished by content. Each
-/// triangle has three vertices of its own: STL does not say which are shared. With a warning:
-/// facets without a normal, no endsolid, bytes after the last triangle.
+/// triangle has its own three vertices: STL does not record shared vertices. With a warning: facets
+/// without a normal, no endsolid, bytes after the last triangle.
 Mesh read_stl(std::span<const std::byte> bytes, const std::string& file, const ReadOptions& options,
               Warnings& warnings);
 
@@ -58,41 +58,41 @@ struct GltfAsset {
   std::vector<Object> objects;
   /// External buffers, in the order of loading; the asset's own file is left to the caller.
   std::vector<Source> buffers;
-  /// The libraries of others that have decoded something of it: "Draco 1.5.5"; mostly empty.
+  /// The third-party libraries that have decoded parts of it: "Draco 1.5.5"; mostly empty.
   std::string reader;
 };
 
 /// Reads a glTF 2.0 asset (.gltf or .glb): one object per node with a mesh, depth first, of the
-/// default scene, or of the first if none is named; an asset without scenes gives all its nodes,
-/// with a warning. Nodes that show the same glTF mesh share a Mesh. Faces are numbered over all
-/// objects of the asset. No image is opened. If asked for, triangles have the name of their
-/// material, their group that of the glTF mesh, their part that of the node; what has none is
-/// "material 3", "mesh 3", "node 3" by its number in the file. A node with EXT_mesh_gpu_instancing
-/// gives an object for each instance, with the node's name and its number: "tree[7]".
+/// default scene, or of the first scene if there is no default; all nodes of an asset without
+/// scenes, with a warning. Nodes that show the same glTF mesh share a Mesh. Faces are numbered over
+/// all objects of the asset. No image is opened. If requested, triangles have material, group and
+/// part: the names of the glTF material, mesh and node. Without a name these are called "material
+/// 3", "mesh 3", "node 3" by their number in the file. A node with EXT_mesh_gpu_instancing gives an
+/// object for each instance, with the node's name and its number: "tree[7]".
 ///
-/// `path` names the file in messages; buffers beside it are looked for from its folder.
+/// `path` names the file in messages; buffers in other files are looked for from its folder.
 /// Exact    positions are binary32, widened, or integers (KHR_mesh_quantization), which are
 ///          rounded once where they are normalized; transforms of nodes and instances are composed
 ///          exactly, and a quaternion means the polynomial matrix of the glTF specification.
 /// Fails    InputError: one line that names the file and the key or byte; also where buffers lie
-///          outside the asset's folder, or more would be read than the files are worth: see
+///          outside the asset's folder, or reading would take more memory than the budget: see
 ///          ReadOptions::outside_files and max_expansion.
 /// Ignored  with a warning: points, lines, skins, morph targets; silently: animations and cameras.
 /// Source   [GLTF20]
 GltfAsset read_gltf(std::span<const std::byte> bytes, const std::filesystem::path& path,
                     const ReadOptions& options, Warnings& warnings);
 
-/// Leaves out normals and texture coordinates that are not finite, as programs write them for
-/// triangles without area: the corners that name them have none. Colours that are not finite are
-/// white, as where there is none. With a warning that says how many. Normals 0, 0, 0 are left out
-/// too, without one: in STL files they say that the normal is that of the triangle.
+/// Removes normals and texture coordinates that are not finite, which programs write for triangles
+/// without area: corners that name them lose them. Colours that are not finite become white, like
+/// missing colours. A warning reports their number. Normals 0, 0, 0 are removed without a warning:
+/// in STL files they mean the normal of the triangle.
 void leave_out_odd_attributes(Mesh& mesh, const std::string& file, Warnings& warnings);
 
-/// What a file is: by its content or, if that does not tell (an OBJ or OFF without a word that
-/// gives it away, an STL whose header is arbitrary), by the suffix of its path, in any case.
-/// Foreign formats (foreign_formats.h) are recognised by their suffix alone.
-/// nullopt if neither tells. `bytes` is the whole file of `size` bytes, or its beginning if only
-/// binary formats matter.
+/// The format of a file: by its content or, if the content does not decide (an OBJ or OFF without a
+/// typical word, an STL with an arbitrary header), by the suffix of its path, in upper or lower
+/// case. Foreign formats (foreign_formats.h) are recognised only by their suffix. nullopt if
+/// neither decides. `bytes` is the whole file of `size` bytes, or its beginning if only binary
+/// formats matter.
 std::optional<FileFormat> recognise_format(std::span<const std::byte> bytes, std::uint64_t size,
                                            const std::filesystem::path& path);
 inline std::optional<FileFormat> recognise_format(std::span<const std::byte> bytes,

@@ -13,9 +13,9 @@ namespace fathom::mesh_files {
 std::unique_ptr<TriangleStream> open_stl_stream(std::unique_ptr<files::RandomAccessFile> file,
                                                 bool check, Warnings& warnings);
 
-/// `header` is that of the file, and binary. Of the options, `segments`, `check_when_opened` and
-/// `map_large_files` matter. A file that can be taken for one of triangles alone is not read
-/// through where neither a check nor segments are wanted.
+/// `header` is the header of the file, which must be binary. Of the options, `segments`,
+/// `check_when_opened` and `map_large_files` matter. If neither a check nor segments are requested,
+/// a file whose size fits triangles only is not read through.
 std::unique_ptr<TriangleStream> open_ply_stream(std::unique_ptr<files::RandomAccessFile> file,
                                                 const PlyHeader& header, const ReadOptions& options,
                                                 Warnings& warnings);

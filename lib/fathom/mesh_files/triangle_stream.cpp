@@ -59,7 +59,7 @@ std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path
   const StandardArithmetic standard;
   auto file = std::make_unique<RandomAccessFile>(path);
   const FileFormat format = format_of(*file, path, options);
-  // The hash is computed during the reading, from a file of its own.
+  // The hash is computed during the reading, from a second open file.
   std::future<std::string> hash;
   if (options.hash) hash = meanwhile([&path] { return sha256(RandomAccessFile(path)); });
   std::unique_ptr<TriangleStream> stream = open(std::move(file), format, options, warnings);

@@ -87,8 +87,8 @@ std::unique_ptr<TriangleStream> open_triangle_stream(const std::filesystem::path
                                                      const ReadOptions& options,
                                                      Warnings& warnings);
 
-/// Whether a file is a regular one of a format that can be opened so, as far as its beginning
-/// tells; false also where it cannot be read.
+/// Whether a file is regular and, judged by its beginning, of a format that can be streamed; false
+/// also if it cannot be read.
 bool is_streamable(const std::filesystem::path& path, const ReadOptions& options);
 
 }  // namespace fathom

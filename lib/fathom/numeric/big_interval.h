@@ -10,8 +10,8 @@ namespace fathom {
 /// A closed interval that contains an exact number, at any precision.
 ///
 /// Exact    every operation rounds its ends outwards, to the greater precision of its operands.
-/// Range    exponents below 2³⁰ in size, MPFR's default. Those of a Dyadic may be greater, but no
-///          number that a camera with a lens leads to has one.
+/// Range    exponents below 2³⁰ in size, MPFR's default. Exponents of a Dyadic may be greater, but
+///          the numbers of cameras with lenses stay below.
 class BigInterval {
  public:
   /// The narrowest interval of so many bits that contains x.

@@ -16,8 +16,8 @@
 /// rest is binary64.
 ///
 /// How errors are counted. ε = epsilon<DoubleWord> bounds the relative error of each operation and
-/// each constant, u = 2⁻⁵³ that of those in binary64; ρ = |r|. Terms of second order go into
-/// `slack`.
+/// each constant, u = 2⁻⁵³ the relative error of operations and constants in binary64; ρ = |r|.
+/// Terms of second order go into `slack`.
 namespace fathom {
 
 struct LogarithmTables {
@@ -35,7 +35,7 @@ class Real;
 /// A double-word nearest to x, up to 2⁻¹⁰⁵|x|.
 WordPair to_double_word(const Real& x);
 
-/// log y, for y > 0; the error is +∞ if that of y is more than 2⁻²⁰ of it, or y beyond 2^±1000.
+/// log y, for y > 0. The error is +∞ if y.error is more than 2⁻²⁰ of y, or y is beyond 2^±1000.
 template <bool fused>
 Certified<DoubleWord<fused>> logarithm(const Certified<DoubleWord<fused>>& y) {
   using Wide = DoubleWord<fused>;
@@ -57,10 +57,10 @@ Certified<DoubleWord<fused>> logarithm(const Certified<DoubleWord<fused>>& y) {
   const Wide r = (Wide(m, y.value.lo * scale) - Wide(c)) / Wide(c);
   const double rho = std::abs(r.hi);
 
-  // log(1 + r) = r − r²/2 + r³/3 − r⁴·P, P = 1/4 − r/5 + … + r⁸/12, and what is left out is at most
-  // ρ¹³/(13(1 − ρ)). Double-words: r², r³, 1/3, its product, two sums, the last: 5ερ. P: each of 8
-  // steps rounds twice and takes r.hi for r; Σρᵏ/(k + 4) < 0.2525, so P errs by 26u·0.2525 < 7u,
-  // r⁴·P by less than 8u·ρ⁴.
+  // log(1 + r) = r − r²/2 + r³/3 − r⁴·P, P = 1/4 − r/5 + … + r⁸/12, and the omitted terms are at
+  // most ρ¹³/(13(1 − ρ)). Double-words: r², r³, 1/3, its product, two sums, the last: 5ερ. P: each
+  // of 8 steps rounds twice and takes r.hi for r; Σρᵏ/(k + 4) < 0.2525, so P errs by 26u·0.2525 <
+  // 7u, r⁴·P by less than 8u·ρ⁴.
   double P = 1.0 / 12;
   for (int i = 11; i >= 4; --i) P = 1.0 / i - P * r.hi;
   const Wide r2 = r * r;
@@ -75,7 +75,7 @@ Certified<DoubleWord<fused>> logarithm(const Certified<DoubleWord<fused>>& y) {
   return {(power_part + log_c) + series, error * slack};
 }
 
-/// exp y, for 0 ≤ y ≤ 690; the error is +∞ for others, and if that of y is more than 2⁻²⁰.
+/// exp y, for 0 ≤ y ≤ 690. The error is +∞ for other y, and if y.error is more than 2⁻²⁰.
 template <bool fused>
 Certified<DoubleWord<fused>> exponential(const Certified<DoubleWord<fused>>& y) {
   using Wide = DoubleWord<fused>;
@@ -87,7 +87,7 @@ Certified<DoubleWord<fused>> exponential(const Certified<DoubleWord<fused>>& y) 
   const Wide r = y.value - Wide(tables.log_2_by_64) * k;
   const double rho = std::abs(r.hi);
 
-  // exp(r) − 1 = r + r²/2 + r³/6 + r⁴·Q, Q = 1/4! + … + r⁷/11! < 0.042, and what is left out is
+  // exp(r) − 1 = r + r²/2 + r³/6 + r⁴·Q, Q = 1/4! + … + r⁷/11! < 0.042, and the omitted terms are
   // below 1.01·ρ¹²/12!. Double-words as above: 5ερ; Q errs by 23u·0.042 < u, r⁴·Q by less than
   // 2u·ρ⁴.
   double Q = 1.0 / 39916800;

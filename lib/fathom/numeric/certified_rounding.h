@@ -56,8 +56,8 @@ inline double half_gap(double x) {
 
 /// The candidate f is the nearest to hi; hi − f is exact (both are multiples of the last bit of
 /// hi), the rest is rounded once: a number whose distance to f is below half of the smaller gap
-/// beside f rounds to f. A binary64 number that is exact is rounded once by its conversion, even if
-/// it is a tie; + 0.0 makes +0 of −0, as an exact zero is +0.
+/// next to f rounds to f. The conversion rounds an exact binary64 number once, even if it is a tie;
+/// + 0.0 turns −0 into +0, because an exact zero is +0.
 inline std::optional<float> to_binary32(const WordPair& x, double error) {
   if (error == 0 && x.lo == 0) return static_cast<float>(x.hi + 0.0);
   const double size = std::abs(x.hi);

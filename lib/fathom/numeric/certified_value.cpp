@@ -16,8 +16,8 @@ constexpr double u = unit_roundoff<double>;
 
 // With x = fl(…) the rounded result, |x − exact| ≤ u·|x| + 2⁻¹⁰⁷⁴ for each operation of IEEE 754;
 // the errors of the operands are carried to first order and beyond without dropping anything. The
-// bound itself is computed with at most 6 roundings of non-negative numbers, each of which may make
-// it too small by a factor 1 − u: the factor bound_rounding makes up for them.
+// bound itself is computed with at most 6 roundings of non-negative numbers. Each rounding may make
+// it too small by a factor 1 − u; the factor bound_rounding compensates for all of them.
 Certified<double> operator+(const Certified<double>& a, const Certified<double>& b) {
   const double value = a.value + b.value;
   return {value, (a.error + b.error + u * std::abs(value) + most_underflow) * bound_rounding};

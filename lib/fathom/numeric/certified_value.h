@@ -15,16 +15,16 @@ namespace fathom {
 /// Relative slack of every bound, for terms of second order and for roundings in the bound.
 inline constexpr double slack = 1 + 0x1p-15;
 
-/// More than underflow can take from a value or a bound: an operation here is fewer than 2⁶ of
-/// IEEE 754, each of which loses at most 2⁻¹⁰⁷⁴ beside its relative error.
+/// More than a value or a bound can lose by underflow: an operation here is fewer than 2⁶
+/// operations of IEEE 754, and each loses at most 2⁻¹⁰⁷⁴ in addition to its relative error.
 inline constexpr double most_underflow = 0x1p-1000;
 
 /// How much of itself a divisor may err by.
 inline constexpr double quotient_condition = 0x1p-20;
 
-/// A number and a bound on its error: |value − exact| ≤ error. An error of 0 says that the value is
-/// exact, also where bounds underflow: products and quotients have at least that of
-/// `most_underflow`, except of a factor or numerator that is exactly 0.
+/// A number and a bound on its error: |value − exact| ≤ error. An error of 0 means that the value
+/// is exact, even if bounds underflow: the error of a product or quotient is at least
+/// `most_underflow`, unless a factor or the numerator is exactly 0.
 template <class Real>
 struct Certified {
   Real value{};
@@ -72,7 +72,7 @@ Certified<Real> quotient(const Certified<Real>& x, const Certified<Real>& y) {
 /// operations may follow each other; a divisor may err by almost all of itself. sum(), product()
 /// and quotient() of certified_value.h serve double-words too.
 
-/// More than at most 6 roundings of a bound's own terms, none of them negative, can take from it.
+/// Compensates for the at most 6 roundings of a bound's own, non-negative terms.
 inline constexpr double bound_rounding = 1 + 0x1p-48;
 
 Certified<double> operator+(const Certified<double>& a, const Certified<double>& b);

@@ -13,8 +13,8 @@ inline constexpr long bit_of_zero = 1L << 40;
 long last_bit(double x);
 long last_bit(const Dyadic& x);
 
-/// Makes of numbers the least integers in the same proportions and with the same signs: of all
-/// lists that differ by a positive factor, the one that stands for them. Zeroes stay zeroes.
+/// Replaces numbers by the least integers with the same ratios and signs: lists that differ by a
+/// positive factor become equal. Zeroes stay zeroes.
 /// Exact    always.
 void divide_by_common_factor(std::span<Dyadic> numbers);
 /// The same of the components of a vector.

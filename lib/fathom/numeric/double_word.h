@@ -56,7 +56,7 @@ inline WordPair two_product(double a, double b) {
   }
 }
 
-/// A double-word number; `fused` says how products are made, and affects no bound.
+/// A double-word number. `fused` selects how products are computed; it affects no bound.
 template <bool fused>
 struct DoubleWord {
   double hi = 0, lo = 0;
@@ -117,7 +117,7 @@ inline double square_root(double x) {
   return std::sqrt(x);
 }
 
-/// That of the root, 8u² (validation/proofs/channels/double_word_root.gappa.in).
+/// The bound of the root, 8u² (validation/proofs/channels/double_word_root.gappa.in).
 inline constexpr double root_error = 0x8p-106;
 
 /// Bound on the relative error of one operation: 2⁻⁵³ in binary64; 2⁻¹⁰² = 16u² in double-words.

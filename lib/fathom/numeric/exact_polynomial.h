@@ -72,8 +72,8 @@ class SturmChain {
 /// Needs    p(0) ≠ 0.
 std::optional<double> greatest_before_positive_root(const ExactPolynomial& p);
 
-/// A B such that |h(q)| ≥ 2^−B wherever f(q) = 0 and h(q) ≠ 0, of primitive polynomials f and h
-/// that are not 0: with n and m their degrees, |h(q)| ≥ ‖h‖₁^(1−n)·‖f‖₂^(−m).
+/// A number B such that |h(q)| ≥ 2^−B for all q with f(q) = 0 and h(q) ≠ 0; f and h are primitive
+/// polynomials other than 0. With their degrees n and m, |h(q)| ≥ ‖h‖₁^(1−n)·‖f‖₂^(−m).
 ///
 /// With P the irreducible factor of f that has the root q and leading coefficient p, Res(P, h) is
 /// an integer other than 0, the product of p^m and all h(qᵢ), qᵢ the roots of P; each of the others

@@ -13,14 +13,13 @@ struct Enclosure {
   Ratio low, high;
 };
 
-/// A real number that rounds correctly: a quotient, or a number that can be enclosed as tightly as
-/// asked for and of which it can be decided whether it is a quotient.
+/// A real number that rounds correctly: a quotient, or a number that can be enclosed with any
+/// precision and for which it is decidable whether it is a quotient.
 ///
 /// Rounding follows Ziv: enclose, round both ends, and go on with twice the bits while they differ.
-/// That ends for a number that lies on no boundary of rounding, as no irrational number does. So a
-/// number that is rational after all has to be recognised, and is, before the bits are raised for
-/// the first time.
-/// Not in it: arithmetic. Irrational numbers are made where it is proved that they are irrational.
+/// This ends unless the number lies on a boundary of rounding, and boundaries are rational.
+/// Therefore a number that is rational after all is recognised before the bits are raised for the
+/// first time. Real has no arithmetic: functions that prove a number irrational create it.
 /// Source   [Ziv91]
 class Real {
  public:
@@ -33,7 +32,7 @@ class Real {
   Real(Ratio value) : rational_(std::move(value)) {}
   Real(Enclose enclose, Decide decide) : enclose_(std::move(enclose)), decide_(std::move(decide)) {}
 
-  /// The value if `decide` knows it, else nullopt. Decides that if it has not been done.
+  /// The value if `decide` finds it, else nullopt.
   [[nodiscard]] std::optional<Ratio> rational() const;
   [[nodiscard]] Enclosure enclose(long bits) const;
 

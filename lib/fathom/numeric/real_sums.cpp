@@ -16,7 +16,7 @@ namespace {
 
 /// So few terms are added exactly at once.
 constexpr std::size_t few_terms = 4;
-/// The bits for which an enclosure by EnclosedSum is asked; the exact number answers for more.
+/// EnclosedSum provides enclosures up to this many bits; beyond, the exact number is used.
 constexpr long enclosed_bits = 96;
 
 Enclosure enclosure_of(const std::vector<Ratio>& terms) {
@@ -103,8 +103,8 @@ long size_of(const Ratio& factor, const Dyadic& radicand) {
   return factor.numerator.top() - factor.denominator.top() + 1 + radicand.top() / 2 + 1;
 }
 
-/// For each of some primes, whether a number is a square modulo this prime. Numbers whose product
-/// is a square have the same bits, if no prime divides one of them.
+/// For each of some primes, whether a number is a square modulo this prime. Two numbers whose
+/// product is a square have the same bits if none of the primes divides them.
 struct ResidueBits {
   std::uint32_t bits = 0;
   bool is_complete = true;

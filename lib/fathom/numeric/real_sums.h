@@ -12,10 +12,10 @@ namespace fathom {
 Real real_sum(std::vector<Ratio> terms);
 
 /// The sum of `over` divided by the sum of `under`.
-/// Needs    an `under` of which every term is positive.
+/// Needs    every term of `under` is positive.
 Real real_quotient(std::vector<Ratio> over, std::vector<Ratio> under);
 
-/// The quotients of the numbers of two enclosures.
+/// Encloses the quotients of all numbers of two enclosures.
 /// Needs    an `under` of which both ends are positive.
 Enclosure quotient(const Enclosure& over, const Enclosure& under);
 

@@ -24,9 +24,9 @@ constexpr Format binary64{53, -1074, 1024};
 ///
 /// The exponent e of the last bit kept starts from the lower estimate of the size. If the rounded
 /// significand needs more than `precision` bits, the estimate was one too low or rounding carried
-/// to the next power of two; rounding once more from the *exact* number with e + 1 is right in
-/// both cases. The encoding of significand and exponent as bits is monotone, so a carry from
-/// subnormal to normal, or to infinity, needs no special care.
+/// to the next power of two; in both cases rounding the *exact* number again with e + 1 is correct.
+/// The encoding of significand and exponent as bits is monotone, so a carry from subnormal to
+/// normal, or to infinity, needs no special care.
 template <class Nearest>
 std::uint64_t round_magnitude(const Format& format, long top, const Nearest& nearest) {
   long e = top - format.precision;

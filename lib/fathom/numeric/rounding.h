@@ -21,9 +21,8 @@ float round_to_binary32(const Ratio& x);
 double round_to_binary64(const Ratio& x);
 Binary16 round_to_binary16(const Ratio& x);
 
-/// The binary64 number nearest to x where that is 0 exactly if x is 0, and otherwise normal: it
-/// then errs by at most 2⁻⁵³ of x. nullopt where x over- or underflows: error bounds that count
-/// relative errors would be silent about what is lost there.
+/// The binary64 number nearest to x if it is normal, or if x is 0: its error is at most 2⁻⁵³ of x.
+/// nullopt if x over- or underflows, because bounds on relative errors do not cover that loss.
 std::optional<double> round_to_normal(const Ratio& x);
 
 /// √x rounded once. Throws std::domain_error if x < 0.

@@ -4,7 +4,7 @@
 #include <cfloat>
 #include <limits>
 
-// Proofs and roundings count on IEEE 754 as it stands: every operation rounded once to its type.
+// Proofs and roundings rely on unmodified IEEE 754: every operation is rounded once to its type.
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || \
     defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(__NO_SIGNED_ZEROS__)
 #error "fathom is exact only in IEEE 754 arithmetic: compile it without -ffast-math and its parts"
@@ -15,10 +15,10 @@ namespace fathom {
 static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<float>::is_iec559);
 static_assert(FLT_EVAL_METHOD == 0, "intermediate results must not have excess precision");
 
-/// While one lives, its thread computes in the floating-point environment of IEEE 754: rounding to
-/// nearest, subnormal numbers kept, no traps. Afterwards the environment is what it was, its flags
-/// included. Every function that is a door for users has one, and so does every thread that works
-/// for it: programs around us flush subnormals to zero, or round upwards.
+/// During its lifetime, its thread computes in the floating-point environment of IEEE 754: rounding
+/// to nearest, subnormal numbers kept, no traps. The destructor restores the previous environment
+/// with its flags. Every entry point creates an object of this class, and so does every worker
+/// thread, because the calling program may flush subnormals to zero or round upwards.
 class StandardArithmetic {
  public:
   StandardArithmetic() {

@@ -62,8 +62,8 @@ Real cosine_of_degrees(double degrees) {
           }};
 }
 
-// Above 90 degrees it is tan(½·(180° − angle)), of which the difference is exact (Sterbenz): the
-// enclosure keeps its relative width where the cotangent goes to 0.
+// Above 90 degrees it is tan(½·(180° − angle)). The difference is exact (Sterbenz), so the
+// enclosure keeps its relative width when the cotangent approaches 0.
 Real cotangent_of_half_degrees(double angle) {
   require(angle > 0 && angle < 180, "the cotangent needs an angle between 0 and 180 degrees");
   return {[angle](long bits) {

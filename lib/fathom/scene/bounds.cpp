@@ -26,7 +26,8 @@ void for_each_part(std::span<const T> list, const Visit& visit) {
     visit(list.subspan(first, std::min(part, list.size() - first)));
 }
 
-/// 1 for each vertex that something uses: bytes, which are set without reading those beside them.
+/// 1 for each vertex that something uses: bytes rather than bits, because setting a bit would read
+/// its neighbours.
 using UsedVertices = std::vector<std::uint8_t>;
 
 void note_used(std::uint32_t vertex, UsedVertices& used) {
@@ -66,8 +67,8 @@ void include_as_is(WorldBounds& bounds, const Mesh& mesh, const UsedVertices& us
   });
 }
 
-/// Widens one axis of the bounds to the placed vertices: exactly, but only for those that the
-/// approximation cannot tell from an extreme one.
+/// Widens one axis of the bounds to the placed vertices: exactly, but only for the vertices that
+/// the approximation cannot distinguish from an extreme one.
 void include_placed(WorldBounds& bounds, int axis, const Object& object, const Mesh& mesh,
                     const UsedVertices& used) {
   const auto& row = object.world_from_mesh.rows[axis];

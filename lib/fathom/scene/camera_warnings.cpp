@@ -112,7 +112,7 @@ void add_warning_of_principal_point(const Camera& camera, std::vector<ViewWarnin
                          "image is cut out of a larger one)")});
 }
 
-/// What is wrong with these pixels, after "have no ray and show nothing: ".
+/// The fault of these pixels, after "have no ray and show nothing: ".
 std::string reason_of(const lens::WithoutRay& without_ray, const Lens& lens) {
   using Reason = lens::WithoutRay::Reason;
   switch (without_ray.reason) {

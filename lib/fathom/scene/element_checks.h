@@ -13,8 +13,8 @@
 #include "fathom/mesh/mesh.h"
 #include "fathom/scene/triangle_source.h"
 
-/// Parts of the check of a scene (scene_fault.h). Those of the lists of a mesh are in a form that
-/// compilers turn into vector instructions. Checking a large mesh takes as long as reading it
+/// Parts of the check of a scene (scene_fault.h). The checks of the lists of a mesh have a form
+/// that compilers turn into vector instructions. Checking a large mesh takes as long as reading it
 /// from memory, 5 % of the render time. Code that reads the mesh anyway therefore checks each part
 /// just before using it.
 namespace fathom::scene {

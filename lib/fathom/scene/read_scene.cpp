@@ -76,7 +76,7 @@ class SceneReader {
   }
 
  private:
-  /// What a scene file has placed so far.
+  /// The objects that a scene file has placed so far.
   struct Placements {
     /// A mesh file that is placed more than once is read once; these are its objects as read.
     std::map<std::string, std::vector<Object>> known;

@@ -12,9 +12,9 @@
 #include "fathom/text/counted.h"
 #include "fathom/threads/threads.h"
 
-// How to read this file: every list is looked at in parts, by several threads, in a way that
-// compilers turn into vector instructions and that only says whether something is wrong. Where it
-// is, the list is searched again, slowly, for the first thing to name.
+// How to read this file: several threads check the parts of every list, in a form that compilers
+// turn into vector instructions and that only finds out whether there is a fault. If there is, the
+// list is searched again, slowly, for the first fault to name.
 namespace fathom {
 using namespace scene;
 
@@ -29,7 +29,7 @@ std::string count_of(std::uint64_t count, const std::string& what) {
   return text::counted(count, what.substr(0, what.size() - 1), what);
 }
 
-/// Whether `is_good` says so of all parts of a list.
+/// Whether `is_good` holds for all parts of a list.
 template <class T, class IsGood>
 bool all_parts(std::span<const T> all, const IsGood& is_good) {
   constexpr std::size_t part = 1U << 14;
@@ -51,7 +51,7 @@ bool all_below_or_none(std::span<const CornerIndices> triangles, std::uint64_t e
   return all;
 }
 
-/// Names the first element of a list of which `is_good` does not hold.
+/// Names the first element of a list for which `is_good` does not hold.
 template <class T, class IsGood>
 Fault find_bad(std::span<const T> list, const char* element, const std::string& what,
                const IsGood& is_good) {
@@ -84,7 +84,7 @@ Fault find_wrong_size(std::size_t size, std::uint64_t count, const char* name, c
          count_of(count, each);
 }
 
-/// An attribute, which is for each vertex, or for the corners of its own triangles.
+/// An attribute of the vertices, or of the corners of its own triangles.
 Fault find_fault_of_attribute(const Mesh& mesh, std::size_t size,
                               std::span<const CornerIndices> triangles, const char* name,
                               const char* name_of_triangles) {
@@ -262,7 +262,7 @@ Fault find_fault_of_draw_states(const Scene& scene) {
   return std::nullopt;
 }
 
-/// With the vertices and triangles of those meshes where `looked_at` says so.
+/// With the vertices and triangles of the meshes for which `looked_at` holds.
 Fault find_fault(const Scene& scene, const std::vector<bool>& looked_at) {
   if (auto fault = find_fault_of_objects(scene)) return fault;
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
@@ -285,7 +285,7 @@ void require_camera(const Camera& camera) {
 
 bool scene::all_below(std::span<const CornerIndices> triangles, std::uint64_t end) {
   if (end == 0) return triangles.empty();
-  // Compared as signed numbers, of which every processor can compare several at a time.
+  // Compared as signed numbers, because every processor can compare several of these at a time.
   const auto place = [](std::uint32_t index) {
     return static_cast<std::int32_t>(index ^ 0x80000000U);
   };

@@ -8,8 +8,7 @@
 namespace fathom {
 namespace {
 
-/// Numbers names in the order in which they are first asked for. Those that are asked for must stay
-/// where they are.
+/// Numbers names in the order of their first requests. The requested names must stay in place.
 class NameNumbers {
  public:
   explicit NameNumbers(std::vector<std::string>& names) : names_(names) {}
@@ -26,7 +25,7 @@ class NameNumbers {
   std::unordered_map<std::string_view, std::uint32_t> numbers_;
 };
 
-/// What an object says for all its triangles.
+/// The segment that an object sets for all its triangles.
 const std::string* name_of_all(const Object& object, Segmentation by) {
   if (!object.segments) return nullptr;
   const auto found = object.segments->names.find(by);

@@ -129,8 +129,8 @@ double volume(const Vector& a, const Vector& b, const Vector& c) {
 }
 
 /// ±1 where the edge from p to q, seen along x, passes the height of the origin on its right, with
-/// z growing or falling. An edge gives the same answer, but for the sign, from both of its ends: a
-/// ray through it meets exactly one of its two triangles.
+/// z growing or falling. The answers for an edge and its reverse differ only in sign: a ray through
+/// the edge meets exactly one of its two triangles.
 int passes(const Vector& p, const Vector& q) {
   const bool p_is_low = p[2] <= 0, q_is_low = q[2] <= 0;
   if (p_is_low == q_is_low) return 0;

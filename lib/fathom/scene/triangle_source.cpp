@@ -107,7 +107,8 @@ template <class Wanted, class Visit>
 void for_each_chunk(const TriangleStream& stream, std::uint32_t triangles, const Wanted& wanted,
                     const Visit& visit) {
   const std::uint64_t end = stream.triangle_count();
-  /// Begins to read the first chunk from `first` on that is wanted; not valid if there is none.
+  /// Begins to read the first requested chunk from `first` on; the result is not valid if there is
+  /// no such chunk.
   const auto read = [&](std::uint64_t first) -> std::future<TriangleChunk> {
     while (first < end && !wanted(static_cast<std::uint32_t>(first))) first += triangles;
     if (first >= end) return {};

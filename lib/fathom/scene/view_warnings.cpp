@@ -44,8 +44,8 @@ bool is_framed_at_scale(const Scene& scene, const Camera& camera, double scale) 
 
 constexpr double thousand = 1000;
 
-/// A view that is as good at the size that the scene has tells nothing: from the world's origin all
-/// sizes look the same.
+/// Another scale is no evidence if the view is as good at the scene's own scale: from the world's
+/// origin all scales look the same.
 std::optional<ViewWarning> warning_of_units(const Scene& scene, const Camera& camera,
                                             double scale) {
   if (is_framed_at_scale(scene, camera, 1) || !is_framed_at_scale(scene, camera, scale))
@@ -67,7 +67,7 @@ Pose with_axes_of_opengl(Pose pose) {
   return pose;
 }
 
-/// Another way to read world_to_camera, and what to do if it is the one that was meant.
+/// Another interpretation of world_to_camera, and advice if it is the intended one.
 struct Reading {
   Pose pose;
   const char* advice;
@@ -99,8 +99,8 @@ std::string advice_for(const Scene& scene, const Camera& camera) {
     const ApproximateCamera other(camera, pose);
     const Sight sight = other.sight_of(scene, step_of_guess(scene));
     if (2 * sight.in_image < sight.points) continue;
-    // Of readings that show all of it, the one that looks straight at it, and, where that is no
-    // difference, the likelier one.
+    // Among interpretations that show the whole scene, prefers the view that looks straight at it,
+    // then the likelier one.
     const double seen = static_cast<double>(sight.in_image) / static_cast<double>(sight.points) +
                         1 / (1 + other.distance_from_middle(sight.middle()));
     if (seen <= best + 0.05) continue;
@@ -193,7 +193,7 @@ const Object* object_around_eye(const Scene& scene, const Camera& camera) {
   return nullptr;
 }
 
-/// What is wrong where the eye is inside of something. Of meshes that were not looked at yet.
+/// The warning if the eye is inside a solid. The meshes have not been checked yet.
 /// Fails    ElementFault.
 std::optional<ViewWarning> warning_of_inside(const Scene& scene, const Camera& camera) {
   const Object* const object = object_around_eye(scene, camera);

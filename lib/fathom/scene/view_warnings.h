@@ -66,7 +66,8 @@ std::vector<ViewWarning> warnings_of_camera(const Camera& camera);
 std::vector<ViewWarning> warnings_of_view(const Scene& scene, const Camera& camera,
                                           std::uint64_t shown_pixels);
 
-/// Both; of a camera whose lens bends rays only those of the camera by itself.
+/// Both kinds of warnings; if the camera's lens bends rays, only the warnings about the camera
+/// itself.
 std::vector<ViewWarning> view_warnings(const Scene& scene, const Camera& camera,
                                        std::uint64_t shown_pixels);
 

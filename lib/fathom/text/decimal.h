@@ -88,8 +88,8 @@ inline constexpr std::uint64_t eight_zeros = 0x3030303030303030;  // '0': '9' be
   return {word, count};
 }
 
-/// The digits at `at`, behind which it moves, as they follow those of `before`: the number modulo
-/// 2⁶⁴, so that it is right where there are at most 19 of them in all.
+/// Reads the digits at `at`, which continue the digits of `before`, and moves `at` behind them. The
+/// number is computed modulo 2⁶⁴, so it is correct for at most 19 digits in all.
 [[gnu::always_inline]] inline DigitRun read_digits(const char*& at, const char* last,
                                                    DigitRun before = {}) {
   while (static_cast<std::size_t>(last - at) >= sizeof(std::uint64_t)) {
@@ -104,8 +104,8 @@ inline constexpr std::uint64_t eight_zeros = 0x3030303030303030;  // '0': '9' be
   return before;
 }
 
-/// Marks in the highest bits of eight characters, up to the first that is marked, those that do not
-/// lie between `least` and `greatest`, of ASCII.
+/// Sets the highest bits of those of eight characters that are not ASCII characters between `least`
+/// and `greatest`; correct up to the first such character.
 template <char least, char greatest>
 [[gnu::always_inline]] inline std::uint64_t marks_of_others(const char* at) {
   constexpr std::uint64_t each = 0x0101010101010101;

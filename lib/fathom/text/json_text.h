@@ -13,8 +13,8 @@ namespace fathom::text {
 /// A string as JSON, in its quotes. Bytes that are not UTF-8 become U+FFFD.
 std::string json_string(std::string_view text);
 
-/// Texts between commas, in brackets: "[a,b]". They must be JSON, or members of an object where the
-/// brackets are those of one.
+/// Texts between commas, in brackets: "[a,b]". The texts must be JSON or, between the brackets of
+/// an object, members of an object.
 std::string joined_in(char open, const std::vector<std::string>& parts, char close);
 
 /// The strings of a list, or nothing where the text is not JSON of that kind.

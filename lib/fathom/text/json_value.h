@@ -14,7 +14,7 @@
 /// internal headers: no public header includes it.
 namespace fathom::text {
 
-/// A value in a JSON document that knows its place in it.
+/// A value in a JSON document, with its place there.
 class JsonValue {
  public:
   JsonValue(const nlohmann::json& value, const std::string& file, std::string place)

@@ -9,7 +9,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// What nlohmann says, without its "[json.exception.…] parse error at line 1, column 2: ".
+/// nlohmann's message, without its "[json.exception.…] parse error at line 1, column 2: ".
 std::string in_words(std::string text) {
   for (const char* mark : {"] ", "column "})
     if (const auto at = text.find(mark); at != std::string::npos)
@@ -28,7 +28,7 @@ class Builder {
  public:
   explicit Builder(Json& root) : root_(&root) {}
 
-  // What the parser calls; false ends it.
+  // The parser calls these functions; false ends it.
   bool null() { return put(nullptr); }
   bool boolean(bool value) { return put(value); }
   bool number_integer(std::int64_t value) { return put(value); }
@@ -45,7 +45,7 @@ class Builder {
     Level& level = levels_.back();
     level.step.key = std::move(key);
     if (is_new(level)) return true;
-    // dump() escapes what would break the line; a key that is no UTF-8 comes from CBOR alone.
+    // dump() escapes what would break the line; only CBOR has keys that are not UTF-8.
     return refuse(JsonFault::Kind::key_twice,
                   "the key " +
                       Json(level.step.key).dump(-1, ' ', false, Json::error_handler_t::replace) +
@@ -130,7 +130,7 @@ class Builder {
   std::optional<JsonFault> fault_;
 };
 
-/// Fills `root` by what `parse` tells a builder.
+/// Fills `root` by passing a builder to `parse`.
 template <class Json, class Parse>
 void build(Json& root, const Parse& parse) {
   root = nullptr;

@@ -24,7 +24,7 @@ struct JsonStep {
   std::string key;
 };
 
-/// Why bytes are refused as JSON. what() says it in words, without a place.
+/// Why bytes are refused as JSON. what() describes the reason without a place.
 class JsonFault : public InputError {
  public:
   enum class Kind { syntax, not_finite, key_twice, too_deep };

@@ -18,8 +18,8 @@ std::string in_capitals(std::string_view word) {
   return result;
 }
 
-/// "1.#INF", "-1.#IND00": what the C library of Windows used to write for numbers that are not
-/// finite.
+/// "1.#INF", "-1.#IND00": older versions of the C library of Windows wrote such words for numbers
+/// that are not finite.
 template <class Real>
 DecimalResult<Real> windows_number(std::string_view word) {
   constexpr DecimalResult<Real> malformed{0, nullptr, DecimalFault::malformed};
@@ -107,7 +107,7 @@ bool TextCursor::skip_line_join() {
 }
 
 void TextCursor::skip_rest_of_comment() {
-  // at_line_end() has consumed line joins before this is called: what is left has none.
+  // Callers call at_line_end() first, which consumes line joins: no line join is left here.
   const void* found = std::memchr(at_, line_end_, static_cast<std::size_t>(end_ - at_));
   at_ = found ? static_cast<const char*>(found) + 1 : end_;
   if (found) ++line_;

@@ -11,7 +11,7 @@
 
 namespace fathom::text {
 
-/// Walks over text, line by line and word by word, and knows the number of its line.
+/// Walks over text, line by line and word by word, and counts lines.
 ///
 /// Lines end with LF or CR LF; in a text without any LF, with CR. A file's last line needs no end.
 /// A byte order mark at the start is skipped. The text must outlive the cursor.
@@ -90,8 +90,8 @@ class TextCursor {
     return false;
   }
 
-  /// What is left of this line, and of those that are joined to it, as it stands there, comments
-  /// and the '\' that join lines included. The cursor stays.
+  /// The unread rest of this line and of the lines joined to it, unchanged, with comments and with
+  /// the '\' that joins lines. The cursor does not move.
   [[nodiscard]] std::string_view rest_of_line() const;
 
   /// The next word of this line; empty at its end.
@@ -154,7 +154,7 @@ class TextCursor {
   [[nodiscard]] bool at_word_end(const char* at) const { return at == end_ || ends_word(*at); }
 
   /// Reads a decimal integer [+-] digits at `first`, and returns the position after it; nullptr if
-  /// there is none or it does not fit.
+  /// there is no integer or it does not fit.
   static const char* parse_integer(const char* first, const char* last, std::int64_t& value) {
     constexpr std::size_t most_digits = 18;  // any of so many fit
     const char* at = first;

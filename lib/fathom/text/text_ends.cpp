@@ -12,7 +12,7 @@ bool is_ascii(char c) {
   return c > 0 && c < 127;
 }
 
-/// Whether every other byte of the first four is zero, and the others are characters of ASCII.
+/// Whether, of the first four bytes, every other byte is zero and the rest are characters of ASCII.
 bool has_zeros_between(std::string_view text) {
   if (text.size() < 4) return false;
   const auto is_so = [&](std::size_t character, std::size_t zero) {

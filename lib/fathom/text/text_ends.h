@@ -10,9 +10,10 @@
 /// and where large ones are cut.
 namespace fathom::text {
 
-/// The text without zero bytes and a Control-Z behind its last line, which programs leave there
-/// that write whole buffers, or for CP/M. One of them may stand behind the last word. More of them
-/// there may stand for what is lost of it and are kept: they are no part of a word or number.
+/// The text without trailing zero bytes or a Control-Z after its last line; programs that write
+/// whole buffers, or for CP/M, leave them there. A single such byte directly after the last word is
+/// removed, too. Several of them there may replace lost characters of the word and are kept: they
+/// are not part of a word or number.
 std::string_view without_padding(std::string_view text);
 
 /// The text without the zero bytes behind it: some exporters pad the JSON of a GLB with them, where

@@ -16,9 +16,8 @@ using InterruptionRequest = const std::atomic<bool>*;
 /// The request that the work of this thread obeys.
 InterruptionRequest current_interruption();
 
-/// While it lives, work of this thread obeys `request`; so does parallel work that it asks for
-/// (threads.h), in all its threads. What starts a thread of its own passes current_interruption()
-/// on.
+/// During its lifetime, work of this thread obeys `request`, and so do all threads of parallel work
+/// that it starts (threads.h). Code that starts its own thread passes current_interruption() to it.
 class Interruptible {
  public:
   explicit Interruptible(InterruptionRequest request);

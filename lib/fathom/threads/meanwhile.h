@@ -7,8 +7,8 @@
 
 namespace fathom {
 
-/// Starts work() in a thread of its own or, where the system gives none, leaves it until its result
-/// is asked for. It obeys the interruption of this thread.
+/// Starts work() in a new thread. If the system starts no more threads, work() runs when its result
+/// is requested. It obeys the interruption of this thread.
 template <class Work>
 auto meanwhile(Work work) {
   return std::async(std::launch::async | std::launch::deferred,

@@ -9,12 +9,12 @@
 
 namespace fathom {
 
-/// A value for each thread that asks for one, made when it first asks: what a piece of parallel
-/// work needs and the next one of the same thread can use again. Asking takes a lock; it is meant
-/// for pieces that take microseconds.
+/// A value for each thread, created by its first call of local(): for buffers that pieces of
+/// parallel work reuse within their thread. local() takes a lock; it is meant for pieces that take
+/// microseconds.
 ///
-/// A piece that asks must not do parallel work of its own while it uses the value: its thread may
-/// begin another piece meanwhile.
+/// A piece must not start parallel work while it uses the value: its thread may begin another piece
+/// meanwhile.
 template <class T>
 class PerThread {
  public:

@@ -34,9 +34,9 @@ inline constexpr int most_threads = 1024;
 void require_thread_count(int threads);
 
 /// Runs `work` with as many threads as asked for; 0: all. Several threads may call at the same
-/// time, and `work` may call again; nothing of the process is changed, so that there are no more
-/// threads than TBB has for it: the machine's, unless the program that this is part of says
-/// otherwise (tbb::global_control).
+/// time, and `work` may call again; no setting of the process changes. Therefore the number is
+/// limited to TBB's threads: as many as the machine has, unless the program changes that
+/// (tbb::global_control).
 /// Fails    UsageError as require_thread_count().
 void run_with_threads(int threads, const std::function<void()>& work);
 
@@ -51,7 +51,8 @@ auto with_threads(int threads, const Work& work) {
   }
 }
 
-/// Whether this is how the standard library or TBB says that the system starts no more threads.
+/// Whether this exception of the standard library or TBB means that the system starts no more
+/// threads.
 bool is_lack_of_threads(const std::exception& failure);
 
 /// Reports the fraction of equal parts that are done, from one thread at a time.
@@ -72,8 +73,8 @@ class Progress {
   std::mutex mutex_;
 };
 
-/// How many threads the system lets this process start beside those that it has, up to `most`:
-/// that many are started, do nothing, and have ended when this returns.
+/// How many more threads the system lets this process start, up to `most`. Starts that many
+/// threads, which do nothing and have ended when this returns.
 int startable_threads(int most);
 
 }  // namespace fathom

@@ -1,6 +1,5 @@
-// Parallel work by the standard library alone (FATHOM_THREADS=std): threads that are started for
-// each piece of parallel work. Slower than oneTBB where there are many short ones; but nothing is
-// hidden from a thread sanitizer.
+// Parallel work by the standard library (FATHOM_THREADS=std): each call of in_parallel() starts its
+// threads. Slower than oneTBB for many short calls, but thread sanitizers see everything.
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -36,8 +35,8 @@ class Pieces {
   Pieces(std::size_t count, const std::function<void(std::size_t)>& work)
       : count_(count), work_(work) {}
 
-  /// Works until nothing is left or a piece has failed. What a piece does in parallel is done by
-  /// its thread: the others are here.
+  /// Works until no piece is left or one has failed. Nested parallel work runs in the thread of its
+  /// piece, because the other threads are busy here.
   void take() {
     const ThreadsHere one(1);
     for (std::size_t i = next(); i < count_; i = next()) {
@@ -89,7 +88,7 @@ void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work
       others.emplace_back([&pieces] { pieces.take(); });
     }
   } catch (const std::system_error&) {
-    // The machine gives no more: those that are there do the work.
+    // The system starts no more threads: the started threads do the work.
   }
   pieces.take();
   for (std::thread& thread : others) thread.join();

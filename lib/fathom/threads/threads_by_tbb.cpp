@@ -22,8 +22,8 @@
 namespace fathom {
 namespace {
 
-/// oneTBB would load its allocator when it starts. dlopen() of glibc 2.36 crashes where memory runs
-/// out while a library that it loads loads others; one that the program names is there before.
+/// Loads TBB's allocator with the program. Otherwise oneTBB would load it when it starts, and
+/// dlopen() of glibc 2.36 crashes if memory runs out while a loaded library loads others.
 [[gnu::used]] const auto allocator_of_tbb = &scalable_msize;
 
 /// A place for so many threads, or for all (0), or, where the process has fewer, for these: TBB
@@ -94,8 +94,8 @@ struct ProcessThreads {
   IdleArenas arenas;
 };
 
-/// Never freed: at exit TBB may end before it. A process that has been forked off begins anew: a
-/// thread that it does not have may hold a lock, or a place in an arena.
+/// Never freed: at exit TBB may end before it. A forked process starts with a new object, because a
+/// thread that exists only in its parent may hold a lock or a place in an arena.
 ProcessThreads& process_threads() {
   static std::atomic<ProcessThreads*> current{nullptr};
   ProcessThreads* found = current.load();

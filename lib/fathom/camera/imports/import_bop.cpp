@@ -87,7 +87,7 @@ std::pair<std::uint32_t, std::uint32_t> camera::parse_bop_size(std::string_view 
 
 namespace {
 
-/// The camera.json of a data set, which lies two folders above those of its scenes.
+/// The camera.json of a data set, which lies two folders above the folders of its scenes.
 fs::path find_camera_json(const fs::path& folder) {
   std::error_code ignored;
   const fs::path start = folder.empty() ? fs::path(".") : folder;

@@ -61,7 +61,7 @@ std::vector<double> numbers_of_matrix(const JsonValue& matrix) {
   return numbers;
 }
 
-/// The size of the image by one of the keys, or the given one, which is 0 where there is none.
+/// The given size of the image or, if it is 0, the size by one of the keys.
 std::uint32_t size_of(const JsonValue& root, Keys keys, std::uint32_t given) {
   if (given != 0) return given;
   const auto size = find_first(root, keys);

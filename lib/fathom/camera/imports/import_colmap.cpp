@@ -36,7 +36,7 @@ struct Model {
   }
 };
 
-/// In the order of COLMAP's model ids: those of COLMAP 4, of which 3.8 had the first eleven.
+/// In the order of COLMAP 4's model ids. COLMAP 3.8 had the first eleven models.
 constexpr std::array<Model, 18> models{{{"SIMPLE_PINHOLE", 3, 1, true},
                                         {"PINHOLE", 4, 2, true},
                                         {"SIMPLE_RADIAL", 4, 1, true},
@@ -56,21 +56,21 @@ constexpr std::array<Model, 18> models{{{"SIMPLE_PINHOLE", 3, 1, true},
                                         {"EUCM", 6, 2, true},
                                         {"EQUIRECTANGULAR", 2, 0, false}}};
 
-/// Of EUCM's two, alpha = 0 alone is a pinhole camera, whatever its beta.
+/// EUCM with alpha = 0 is a pinhole camera for every beta, so only alpha counts.
 std::size_t distortion_parameters(const Model& model) {
   return model.name == std::string_view("EUCM") ? 1 : model.parameters - model.focals - 2;
 }
 
 using Cameras = std::map<std::uint32_t, ImportedCamera>;
 
-/// What a file says about one camera.
+/// One camera of a file.
 struct CameraRecord {
   std::uint32_t id = 0;
   std::uint64_t width = 0, height = 0;
   std::vector<double> parameters;
 };
 
-/// What a file says about one image.
+/// One image of a file.
 struct ImageRecord {
   std::array<double, 4> quaternion{};  // w, x, y, z
   std::array<double, 3> translation{};

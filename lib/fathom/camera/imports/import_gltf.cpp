@@ -69,11 +69,10 @@ double times_root(const Dyadic& x, const Dyadic& over, const Dyadic& of) {
   return x.sign() * over.sign() == Sign::negative ? -magnitude : magnitude;
 }
 
-/// The view of a node: its scale is ignored, as glTF says, so that the camera's axes, right, down
-/// and forward, are the columns c of its transform at length 1. The inverse of [c₀/|c₀| … | eye]
-/// has the rows
-/// |cᵢ|·(C⁻¹)ᵢ and −|cᵢ|·(C⁻¹)ᵢ·eye; the rows of the adjugate of C are the cross products of its
-/// columns.
+/// The view of a node. As glTF requires, the scale is ignored: the camera's axes (right, down,
+/// forward) are the columns c of the transform, scaled to length 1. The inverse of [c₀/|c₀| … |
+/// eye] has the rows |cᵢ|·(C⁻¹)ᵢ and −|cᵢ|·(C⁻¹)ᵢ·eye; the rows of the adjugate of C are the cross
+/// products of its columns.
 Pose view_of(const WorldFromMesh& world_from_node, const JsonValue& node) {
   const auto column = [&](std::size_t k) {
     const auto& rows = world_from_node.rows;

@@ -20,7 +20,7 @@ using namespace text;
 
 namespace {
 
-/// The keys of one frame, backed by those of the whole file.
+/// The keys of one frame; missing keys are taken from the whole file.
 struct Frame {
   JsonValue own;
   JsonValue file;
@@ -35,7 +35,7 @@ struct Frame {
   }
 };
 
-/// Those of Nerfstudio that are a pinhole camera where k1, k2, … are 0.
+/// Nerfstudio's models that are pinhole cameras if k1, k2, … are 0.
 constexpr std::array<std::string_view, 5> pinhole_models{"OPENCV", "PINHOLE", "RADIAL",
                                                          "SIMPLE_PINHOLE", "SIMPLE_RADIAL"};
 

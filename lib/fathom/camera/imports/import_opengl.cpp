@@ -23,7 +23,7 @@ using Matrix4 = std::array<std::array<double, 4>, 4>;
 
 constexpr Matrix4 identity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 
-/// What OpenGL knows of a camera, in numbers.
+/// The numbers of a camera in OpenGL.
 struct OpenGlView {
   Matrix4 projection = identity, modelview = identity;
   std::uint32_t width = 0, height = 0;
@@ -33,7 +33,7 @@ struct OpenGlView {
 
 enum class Part { projection, modelview, whole };
 
-/// What is wrong with a view, and with which part of it; who gave the numbers knows their names.
+/// The fault of a view, and the part that has it; the caller knows the names of the numbers.
 class ViewFault : public InputError {
  public:
   ViewFault(Part part, const std::string& message) : InputError(message), part_(part) {}
@@ -119,7 +119,7 @@ void set_intrinsics(const Matrix4& P, Camera& camera) {
   camera.projection.cy = rounded(h * (perspective ? k + P[1][2] : k - P[1][3]), twice_k);
 }
 
-/// Depth of the plane where z_ndc = (P₂₃ − P₂₂·z)/W is `ndc`; infinite if there is none.
+/// Depth of the plane where z_ndc = (P₂₃ − P₂₂·z)/W is `ndc`; infinite if no such plane exists.
 double depth_of_plane(const Matrix4& P, bool perspective, double ndc) {
   const Dyadic a = P[2][2], b = P[2][3];
   const Dyadic k = perspective ? -Dyadic(P[3][2]) : Dyadic(P[3][3]);

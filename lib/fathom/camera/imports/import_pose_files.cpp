@@ -45,7 +45,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The number that a name is; nothing where it is none.
+/// The number that a name is; nullopt if the name is not a number.
 std::optional<std::uint64_t> number_in(const std::string& name) {
   std::uint64_t number = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);

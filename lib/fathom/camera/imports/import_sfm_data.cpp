@@ -139,7 +139,7 @@ ImportedCamera read_intrinsic(const JsonValue& intrinsic, Version version) {
     const auto principal = numbers_in<2>(intrinsic.at("principalPoint"));
     camera.projection.cx = principal[0];
     camera.projection.cy = principal[1];
-    if (version >= Version{1, 2, 1}) {  // from then on it counts from the middle of the image
+    if (version >= Version{1, 2, 1}) {  // versions since 1.2.1 count from the middle of the image
       camera.projection.cx =
           round_to_binary64(Ratio(Dyadic(principal[0]) + Dyadic(camera.width / 2.0)));
       camera.projection.cy =
@@ -215,7 +215,7 @@ std::unordered_map<std::uint64_t, Value> by_id(const JsonValue& root, const char
   return found;
 }
 
-/// Whether a view's pose is that of a rig; a view that says so may still have one of its own.
+/// Whether a view's pose is the pose of a rig: it names a rig and does not declare its own pose.
 bool is_of_a_rig(const JsonValue& view) {
   const auto rig = view.find("rigId"), own = view.find("isPoseIndependant");
   if (!rig || (own && own->is_string() && own->string() == "true")) return false;

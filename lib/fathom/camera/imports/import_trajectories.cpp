@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint32_t kinect_width = 640, kinect_height = 480;
 
-/// In seconds: what the benchmark's own associate.py takes for simultaneous.
+/// In seconds: the greatest difference that the benchmark's own associate.py accepts.
 constexpr double largest_difference = 0.02;
 
 /// A lens that the benchmark publishes for colour images. Those with distortion are not the lenses
@@ -44,7 +44,7 @@ struct TimedPose {
   Pose world_to_camera{};
   /// "FILE: line N".
   std::string where;
-  /// Why it is none.
+  /// Why the line is not a pose.
   std::string fault;
 };
 

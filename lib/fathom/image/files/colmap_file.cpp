@@ -15,8 +15,8 @@
 /// The dense maps of COLMAP ([SZPF16], src/colmap/mvs/mat.h and .cc): width, height and channels in
 /// decimal, each ended by "&", then binary32, little endian: one channel after the other, row by
 /// row from the top, each row from the left.
-///   1 channel   planar depth; what is not above 0 is none (fusion.cc). COLMAP itself writes 0
-///               there, and only 0 is taken here: a negative depth is more likely another
+///   1 channel   planar depth; values that are not above 0 mean no depth (fusion.cc). COLMAP itself
+///               writes 0 there, and Fathom accepts only 0: a negative depth is more likely another
 ///               convention
 ///   3 channels  the normal in the camera frame, x right, y down, z forward, on the side of the
 ///               camera (patch_match_cuda.cu: its product with the viewing ray is not positive); 0

@@ -39,7 +39,8 @@ constexpr std::array<CompressionBound, 10> compression_bounds{{{1, 1},
                                                                {32, 64 * greatest_deflate_ratio},
                                                                {256, 64 * greatest_deflate_ratio}}};
 
-/// OpenEXR reads these types at their own size whatever the file says, and would lose its place.
+/// OpenEXR reads these types with their fixed size, ignoring the size in the file, and would lose
+/// its place.
 constexpr std::array<std::pair<std::string_view, std::size_t>, 24> fixed_sizes{
     {{"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
      {"compression", 1}, {"double", 8},   {"envmap", 1},

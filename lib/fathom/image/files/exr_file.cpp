@@ -50,7 +50,7 @@ Bytes header_bytes(const Imf::Header& header, const std::string& name) {
   return stream.take();
 }
 
-/// The channels in the order of the file, that of their names.
+/// The channels in the order of the file: sorted by name.
 std::vector<ExrPlane> planes_of(const Imf::FrameBuffer& pixels) {
   std::vector<ExrPlane> planes;
   for (auto slice = pixels.begin(); slice != pixels.end(); ++slice)
@@ -101,8 +101,8 @@ int reserve_exr_threads(int threads) {
   const std::lock_guard lock(growing);
   const int wanted =
       threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  // One by one: where the system gives no more, OpenEXR's pool is left with those that it has. It
-  // would end with those of one call running on a pool that is gone.
+  // One by one: if the system starts no more threads, OpenEXR's pool keeps its threads. A single
+  // call for all of them would leave threads running on a destroyed pool.
   try {
     for (int n = Imf::globalThreadCount(); n < wanted; ++n) Imf::setGlobalThreadCount(n + 1);
   } catch (const std::system_error&) {

@@ -20,7 +20,7 @@ using namespace files;
 
 namespace {
 
-/// What a thread works with; used again for its next chunk.
+/// The buffers of a thread, reused for its next chunk.
 struct Workplace {
   Compressor compressor = new_compressor();
   Bytes differences, compressed;

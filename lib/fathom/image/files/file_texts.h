@@ -15,8 +15,8 @@ namespace fathom::image {
 inline constexpr const char* scale_text = "fathom:scale";
 /// DepthMap::codes_beyond, of a PNG.
 inline constexpr const char* beyond_text = "fathom:beyond";
-/// The name of a PNG's channel, and what it holds: "identifier", "normal", "mask", or no such text
-/// for codes.
+/// The name of a PNG's channel, and the kind of its values: "identifier", "normal" or "mask"; a PNG
+/// of codes has no such text.
 inline constexpr const char* channel_text = "fathom:channel";
 inline constexpr const char* type_text = "fathom:type";
 inline constexpr const char* normal_type = "normal";
@@ -28,8 +28,8 @@ inline constexpr const char* axes_text = "fathom:axes";
 /// Fails    InputError unless it is a positive number.
 double read_scale(const std::string& text, const std::string& name);
 
-/// What the numbers of a map stand for, as files of every format carry it: a text for each channel,
-/// `fathom.objects`, `fathom.materials`, `fathom.groups` and `fathom.parts`, the JSON list of
+/// The names of the numbers in a map, as files of all formats store them: for each channel a text
+/// (`fathom.objects`, `fathom.materials`, `fathom.groups` or `fathom.parts`) with the JSON list of
 /// names.
 
 /// Whether a text of this name is such a list.
@@ -38,7 +38,7 @@ bool is_name_table(std::string_view text_name);
 /// The names of a channel's numbers; nullptr if the map has none.
 const std::vector<std::string>* names_of_channel(const DepthMap& map, const std::string& channel);
 
-/// The texts of a map, by their names; none of lists that are empty.
+/// The texts of a map by their names; empty lists are left out.
 std::map<std::string, std::string> name_tables(const DepthMap& map);
 
 /// Puts a list back where it came from. A text that is no list of strings is an empty one.

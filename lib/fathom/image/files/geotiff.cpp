@@ -134,11 +134,11 @@ std::optional<WorldFromImage> world_from_image(const Camera& camera) {
 /// 1024×1024 takes 2.4 times as much; with bands that are interleaved, Z, A, P and Nc together take
 /// 1.15 times as much.
 ///
-/// The image lies in the world as world_from_image has it: pixels are areas, (0, 0) is the corner
-/// of the first one. The world is not the earth's: its coordinates are of a kind of their own
-/// (user-defined). What no surface is has one value in all bands, as GDAL knows one for each file:
-/// the background that the map names, or NaN. Only quantities, as A, have 0 there, which is a value
-/// of theirs.
+/// world_from_image() places the image in the world: pixels are areas, and (0, 0) is the corner of
+/// the first pixel. The coordinate system is user-defined, because the world is not the earth. All
+/// bands mark missing surfaces by the same value, because GDAL has one such value for each file:
+/// the background that the map declares, or NaN. Quantities such as A have 0 there instead, which
+/// is also an ordinary value.
 
 using namespace text;
 
@@ -164,7 +164,7 @@ constexpr std::uint16_t by_deflate = 8, black_is_zero = 1, separate_planes = 2, 
 
 // --------------------------------------------------------------------------------- what bands hold
 
-/// The value of all bands that says that no surface is there.
+/// The value that means "no surface" in all bands.
 float value_of_none(const DepthMap& map) {
   const double declared =
       declared_background(map).value_or(std::numeric_limits<double>::infinity());
@@ -209,7 +209,7 @@ std::vector<float> band_of(const DepthMap& map, const ImageChannel& channel, flo
 /// Before compression, about: as GDAL and libtiff take them into memory whole.
 constexpr std::size_t bytes_of_strip = std::size_t{1} << 18;
 
-/// What a thread works with; used again for its next strip.
+/// The buffers of a thread, reused for its next strip.
 struct StripPlace {
   Compressor compressor = new_compressor();
   Bytes predicted;
@@ -374,7 +374,7 @@ TiffDirectory directory_of(const DepthMap& map, const WorldFromImage& place, flo
   return directory;
 }
 
-/// Header, directory, strips: what is said of the image is found without reading it.
+/// Header, directory, strips: a reader finds the description without reading the image.
 Bytes assembled_tiff(const TiffDirectory& description, const std::vector<Bytes>& strips,
                      const std::string& name) {
   constexpr std::uint32_t header_size = 8;

@@ -10,8 +10,8 @@
 #include "fathom/camera/camera.h"
 #include "fathom/files/file_bytes.h"
 
-/// The directory of a little-endian TIFF: what there is to know of its image, as tagged values
-/// ([TIFF92], section 2). Not its task: what the tags mean.
+/// The directory of a little-endian TIFF: the description of its image as tagged values ([TIFF92],
+/// section 2). It does not interpret the tags.
 namespace fathom::image {
 
 class TiffDirectory {
@@ -25,8 +25,8 @@ class TiffDirectory {
   void add_short(std::uint16_t tag, std::uint16_t value) { add_short(tag, std::span(&value, 1)); }
   void add_long(std::uint16_t tag, std::uint32_t value) { add_long(tag, std::span(&value, 1)); }
 
-  /// The directory as it lies at `at`, with the values that do not fit into its entries behind it;
-  /// another directory does not follow. Its length depends on the number of values alone.
+  /// The bytes of the directory at offset `at`, followed by the values that do not fit into its
+  /// entries; no other directory follows. The length depends only on the number of values.
   [[nodiscard]] files::Bytes encoded_at(std::uint32_t at) const;
 
  private:
@@ -44,15 +44,15 @@ class TiffDirectory {
 /// In the order of GDAL's geotransform.
 using WorldFromImage = std::array<double, 6>;
 
-/// What a GeoTIFF needs of a camera: where in the world a point of the image is, where that does
-/// not depend on the depth, because the camera is orthographic and looks straight along the world's
-/// z axis, up or down. Other cameras have none.
+/// The affine map from the image to the world that a GeoTIFF needs. It exists if the camera is
+/// orthographic and looks straight along the world's z axis, up or down, because then the place of
+/// an image point does not depend on its depth.
 ///
 /// Returns  g: the point (u, v), in pixels from the top left corner
 ///          of the image, v downwards, is x = g[0] + g[1]·u + g[2]·v, y = g[3] + g[4]·u + g[5]·v.
 /// Unit     x and y: scene units
-/// Exact    whether there is one is decided exactly; each number is the exact one rounded once.
-/// Fails    nullopt too where a number is too large for binary64.
+/// Exact    its existence is decided exactly; each number is the exact one rounded once.
+/// Fails    nullopt also if a number is too large for binary64.
 std::optional<WorldFromImage> world_from_image(const Camera& camera);
 
 }  // namespace fathom::image

@@ -12,9 +12,9 @@
 #include "fathom/text/counted.h"
 
 /// The formats as pure functions between maps and bytes, for map_files.cpp, tests and fuzzers.
-/// `name` is the file's name for messages. PFM, NPY and COLMAP's take as much as their files; the
-/// others may take many times that, within `memory`. Decoders throw InputError, encoders
-/// OutputError.
+/// `name` is the file's name for messages. Decoded PFM, NPY and COLMAP files take as much memory as
+/// the files; other formats may take many times that, within `memory`. Decoders throw InputError,
+/// encoders OutputError.
 namespace fathom::image {
 
 files::Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
@@ -52,24 +52,24 @@ files::Bytes encode_colmap(const DepthMap& map, const std::vector<const ImageCha
                            const std::string& name);
 DepthMap decode_colmap(files::ByteView bytes, const std::string& name);
 
-/// `camera` says where in the world the map is; nullopt: the one that it carries.
-/// Fails    OutputError where that has no world_from_image(), or a channel does not fit.
+/// `camera` places the map in the world; nullopt: the map's own camera.
+/// Fails    OutputError if the camera has no world_from_image(), or a channel does not fit.
 files::Bytes encode_geotiff(const DepthMap& map, const std::optional<Camera>& camera, int threads,
                             const std::string& name);
 
 /// Recognises the format by the first bytes and decodes.
 DepthMap decode_map(files::ByteView bytes, const std::string& name, const MapMemory& memory = {});
 
-/// Whether the version word of an OpenEXR file, with its flags, is that of one deep part. In a file
-/// of several parts the flag of deep data says that any of them is deep.
+/// Whether the version word of an OpenEXR file, with its flags, means a single, deep part. In a
+/// file of several parts the flag for deep data only means that at least one part is deep.
 bool is_deep_of_one_part(std::uint32_t version);
 
 /// Fails    InputError if an OpenEXR file's header (its first part) claims more than the file can
-///          hold, is not that of a plain image, or cannot be followed. See exr_claims.cpp.
+///          hold, does not describe a plain image, or cannot be parsed. See exr_claims.cpp.
 /// Returns the positions of attribute types that OpenEXR must not interpret (see ByteInput).
 std::vector<std::size_t> check_exr_claims(files::ByteView bytes, const std::string& name);
 
-/// What the header and the rows of a deep image claim.
+/// The claims in the header and the rows of a deep image.
 struct DeepClaims {
   /// As check_exr_claims() returns them.
   std::vector<std::size_t> defused;
@@ -83,8 +83,8 @@ DeepClaims check_deep_exr_claims(files::ByteView bytes, const std::string& name)
 /// not to depend on the last detail.
 inline constexpr std::uint64_t greatest_deflate_ratio = 2064;
 
-/// Refuses a map of this size before anything is allocated for it.
-/// `bytes_per_pixel` is what the map will hold, and what its decoder needs besides.
+/// Refuses a map of this size before anything is allocated for it. `bytes_per_pixel` counts the
+/// bytes of the map and the working memory of its decoder.
 /// Fails    InputError "NAME: an image of 20000×20000 pixels needs 1.6 GB; …".
 void require_map_memory(std::uint32_t width, std::uint32_t height, std::uint64_t bytes_per_pixel,
                         std::uint64_t file_bytes, const MapMemory& memory, const std::string& name);

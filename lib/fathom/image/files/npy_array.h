@@ -20,8 +20,8 @@ struct ImageSize {
   friend bool operator==(const ImageSize&, const ImageSize&) = default;
 };
 
-/// The channels that are the parts of one, in their order: N.X, N.Y and N.Z for "N", or name.0,
-/// name.1, …, two to four of one type; empty if there are none.
+/// The channels that are the parts of a vector channel, in their order: N.X, N.Y and N.Z for "N",
+/// or name.0, name.1, …, two to four channels of one type; empty if the map has no such channels.
 std::vector<const ImageChannel*> parts_of(const DepthMap& map, const std::string& name);
 
 /// An array of shape (height, width) or, for several channels of one type, (height, width, parts).

@@ -81,7 +81,7 @@ class Literals {
   std::size_t position_ = 0;
 };
 
-/// What a header says. A shape of no more sizes than these is that of an image.
+/// The contents of a header. The shape of an image has at most this many sizes.
 struct Array {
   std::string type;
   bool fortran_order = false;
@@ -139,7 +139,7 @@ Array parse_header(std::string_view text, const std::string& name) {
   return array;
 }
 
-/// A file taken apart: what its header says, and the values.
+/// A parsed file: the contents of its header, and the values.
 struct Parts {
   Array array;
   ByteView data;
@@ -175,7 +175,7 @@ Samples<Value> values_of(const Array& array, std::size_t part, ByteView data, st
   return values;
 }
 
-/// The type of the values: "<f4" is of kind "f4" and little endian; kind "" is none of a map's.
+/// The type of the values: "<f4" is of kind "f4" and little endian; kind "" is not a type of maps.
 struct ValueType {
   std::string_view kind;
   std::endian order;
@@ -205,7 +205,7 @@ decltype(ImageChannel::values) part_of_array(const Array& array, const ValueType
   return values_of<unsigned char, std::uint16_t>(array, part, data, order, same);
 }
 
-/// N.X, N.Y and N.Z where `name` is that of a channel with so many parts; else name.0, name.1, ….
+/// N.X, N.Y and N.Z if `name` is a channel with so many parts; else name.0, name.1, ….
 std::vector<std::string> names_of_parts(const std::string& name, std::size_t parts) {
   if (parts == 1) return {name};
   if (const auto channel = channel_named(name)) {
@@ -355,7 +355,7 @@ Bytes encode_npy(const DepthMap& map, const std::vector<const ImageChannel*>& ch
 DepthMap decode_npy(ByteView bytes, const std::string& name) {
   const Parts file = take_apart(bytes, name);
   require_image(file.array, name);
-  // The file does not say what it holds.
+  // The file does not name its channels.
   const bool identifiers = value_type_of(file.array).kind == "u4";
   const std::string channel = file.array.parts() > 1 ? "vector" : identifiers ? "id" : "Z";
   DepthMap map;

@@ -31,7 +31,7 @@
 namespace fathom::image {
 namespace {
 
-/// A channel, and what the numbers in it stand for: names[n] for n.
+/// A channel with the names of its numbers: names[n] for n.
 struct NamedChannel {
   std::string channel;
   const std::vector<std::string>& names;
@@ -52,10 +52,9 @@ std::vector<char> serialized(const std::vector<NamedChannel>& channels) {
   return bytes;
 }
 
-/// EXR's attribute of the type "idmanifest" that names what the numbers in channels stand for. The
-/// bytes are those of Imf::CompressedIDManifest, which, in OpenEXR 3.1, is copied
-/// without a look at whether there is memory for the copy.
-/// The size as it was comes first, in eight bytes, little endian; then zlib's stream.
+/// EXR's attribute of the type "idmanifest", which names the numbers in channels. The bytes are the
+/// bytes of Imf::CompressedIDManifest, which OpenEXR 3.1 copies without checking for lack of
+/// memory: first the uncompressed size in eight bytes, little endian, then zlib's stream.
 /// Fails    std::bad_alloc.
 Imf::OpaqueAttribute id_manifest(const std::vector<NamedChannel>& channels) {
   const std::vector<char> plain = serialized(channels);
@@ -155,8 +154,8 @@ ExrNumbers exr_numbers(const Camera& camera) {
           {"screenWindowWidth", {camera.width / std::abs(camera.projection.fx)}}};
 }
 
-/// Puts them into a header, in binary32. What a header cannot hold (a mirrored screen window, a
-/// matrix beyond binary32) is left out or neutral.
+/// Puts them into a header, in binary32. Values that a header cannot hold (a mirrored screen
+/// window, a matrix beyond binary32) are left out or neutral.
 void set_numbers(Imf::Header& header, const ExrNumbers& numbers) {
   set_window(header, numbers);
   for (const char* name : matrix_names) {

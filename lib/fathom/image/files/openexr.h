@@ -63,9 +63,8 @@ class ByteOutput : public Imf::OStream {
   /// file has been opened.
   void table_of_chunks_ends_here() { end_of_table_ = position_; }
   /// Makes sure that the file, which has been closed by now, has all its chunks.
-  /// Fails    std::bad_alloc where chunks are missing: if a task of OpenEXR's pool cannot compress
-  ///          one, for want of memory, OpenEXR 3.1 takes it for incomplete, stops, and says
-  ///          nothing.
+  /// Fails    std::bad_alloc where chunks are missing: if a task of OpenEXR's pool runs out of
+  ///          memory, OpenEXR 3.1 takes the chunk for incomplete and stops without an error.
   void require_chunks(std::size_t chunks) const {
     constexpr std::size_t entry = sizeof(std::uint64_t);
     for (std::size_t i = 0; i < chunks; ++i) {
@@ -86,10 +85,10 @@ class ByteOutput : public Imf::OStream {
 /// OpenEXR has one pool for the whole process, which grows to that number and never shrinks.
 int reserve_exr_threads(int threads);
 
-/// What OpenEXR says about a failure, on one line.
+/// OpenEXR's message about a failure, on one line.
 std::string exr_reason(const std::exception& failure);
 
-/// What the format calls it.
+/// OpenEXR's name of the compression.
 Imf::Compression compression_of(Compression compression);
 /// How many rows of pixels are compressed together.
 std::uint32_t rows_of_a_chunk(Compression compression);

@@ -217,7 +217,7 @@ void take_name_tables(DepthMap& map) {
   }
 }
 
-/// What the pixels of a PNG are, by its header and texts.
+/// The meaning of a PNG's pixels, by its header and texts.
 enum class Pixels { codes, normals, mask, other };
 
 Pixels pixels_of(const Reading& reading, const DepthMap& texts) {
@@ -288,7 +288,7 @@ DepthMap decode_png(ByteView bytes, const std::string& name, const MapMemory& me
   DepthMap map;
   map.width = png_get_image_width(reading.png, reading.info);
   map.height = png_get_image_height(reading.png, reading.info);
-  // Texts stand before the pixels, by which normals and masks are told from pictures.
+  // The texts before the pixels distinguish normals and masks from pictures.
   read_texts(reading, map);
   const Pixels kind = pixels_of(reading, map);
   if (kind == Pixels::other)

@@ -12,9 +12,9 @@
 #include "fathom/files/byte_order.h"
 #include "fathom/image/files/map_codecs.h"
 
-/// [ZIP]: for each file a local header, its name and its bytes; then the directory, which says all
-/// of it again with the places of the local headers; last, where the directory begins. All numbers
-/// are little endian.
+/// [ZIP]: for each file a local header, its name and its bytes; then the directory, which repeats
+/// the local headers and adds their offsets; last, the offset of the directory. All numbers are
+/// little endian.
 namespace fathom::image {
 using namespace files;
 
@@ -94,7 +94,7 @@ class Directory {
     throw InputError(name_ + ": ZIP archives from 4 GiB on (ZIP64) are not read");
   }
 
-  /// It ends the file, but for a comment of at most 65535 bytes.
+  /// It ends the file, except for a comment of at most 65535 bytes.
   [[nodiscard]] std::size_t find_end() const {
     if (bytes_.size() < end_size) fail("expected a directory");
     const std::size_t last = bytes_.size() - end_size;
@@ -209,7 +209,7 @@ Bytes ZipWriter::take() {
   const auto count = static_cast<std::uint16_t>(files_);
   append(bytes_, directory_);
   put_number(bytes_, end_magic);
-  put_number<std::uint32_t>(bytes_, 0);  // this disk, and that of the directory
+  put_number<std::uint32_t>(bytes_, 0);  // the number of this disk, and of the directory's disk
   put_number(bytes_, count);
   put_number(bytes_, count);
   put_number(bytes_, static_cast<std::uint32_t>(directory_.size()));

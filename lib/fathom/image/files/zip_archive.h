@@ -29,13 +29,14 @@ class ZipWriter {
   std::size_t files_ = 0;
 };
 
-/// A file in an archive, which its directory says lies within it and overlaps no other.
+/// A file in an archive. According to the directory it lies within the archive and overlaps no
+/// other file.
 struct ZipEntry {
   std::string name;
   bool deflated = false;
   std::uint32_t crc = 0;
   files::ByteView stored;
-  /// Unpacked, in bytes: what is stored, or no more than DEFLATE can make of it.
+  /// Unpacked size in bytes: the stored size, or at most the size that DEFLATE can expand it to.
   std::size_t size = 0;
 };
 

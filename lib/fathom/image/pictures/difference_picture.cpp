@@ -33,8 +33,8 @@ Rgb heat(double t) {
   return colour_at(ColourMap::magma, 0.4 + 0.6 * t);
 }
 
-/// The colours of differences, by their logarithm: from the least one, or one that is small enough
-/// to be drawn as the least.
+/// The colours of differences, by their logarithm. The scale starts at the least difference, or at
+/// a number small enough to be drawn as the least.
 struct LogarithmicScale {
   double least = 1, greatest = 1;
 
@@ -65,7 +65,7 @@ std::string label(double difference, DifferenceMeasure by) {
   return text.data();
 }
 
-/// Marks at both ends and at the powers of two (of ulps alone), ten or a thousand, whichever are
+/// Marks at both ends and at the powers of two (only for ulps), ten or a thousand, whichever are
 /// few enough.
 std::vector<ColourBar::Mark> marks_of(const LogarithmicScale& scale, DifferenceMeasure by) {
   if (!(scale.greatest > scale.least)) return {{0.5, label(scale.greatest, by)}};

@@ -15,7 +15,7 @@ namespace fathom::image {
 struct ColourBar {
   /// The colour at t in [0, 1], from the low end to the high one.
   std::function<Rgb(double)> colour;
-  /// Marks: where in [0, 1], and what is written there. Both ends come first and are always drawn.
+  /// Marks: places in [0, 1] with their labels. Both ends come first and are always drawn.
   struct Mark {
     double t;
     std::string text;
@@ -43,11 +43,12 @@ std::vector<ColourBar::Mark> linear_marks(double low, double high);
 
 RgbImage lay_out(const Sheet& sheet);
 
-/// The greatest side of a picture that is enlarged, and of one that is not reduced, in pixels.
+/// In pixels: pictures with sides up to the first number are enlarged; with a side above the second
+/// they are reduced.
 inline constexpr std::uint32_t enlarged_up_to = 240, reduced_from = 2048;
 
 /// `picture` with every pixel enlarged to a block of k × k if it is small, or only every k-th pixel
-/// of every k-th row if it is large; the remark says so in a few words, or is empty.
+/// of every k-th row if it is large; the remark describes the change in a few words, or is empty.
 struct FittedPicture {
   RgbImage image;
   std::string remark;

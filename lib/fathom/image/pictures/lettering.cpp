@@ -54,9 +54,9 @@ void stamp(RgbImage& image, const FT_Bitmap& glyph, int left, int top, Rgb colou
     }
 }
 
-/// FreeType's memory, from operator new. FreeType goes on without some of what it finds no memory
-/// for (modules, hinting), or crashes; so here it is noted that there was none. (Where a program
-/// ends when operator new finds nothing, this one ends there.)
+/// Allocates FreeType's memory with operator new, and records failures: without memory FreeType
+/// continues without modules or hinting, or crashes. (If a program's operator new ends the program
+/// on failure, it ends here.)
 struct FontMemory {
   FT_MemoryRec_ functions{.user = this, .alloc = allocate, .free = release, .realloc = reallocate};
   bool exhausted = false;

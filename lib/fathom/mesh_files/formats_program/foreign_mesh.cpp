@@ -26,7 +26,7 @@ Value value_at(const MessageList<float>& numbers, std::size_t vertex) {
   return value;
 }
 
-/// The faces of one part; its vertices follow those that the mesh had before.
+/// The faces of one part; its vertices follow the vertices that the mesh had before.
 void add_faces(const ForeignMesh& foreign, std::size_t first_vertex, const std::string& file,
                mesh::FaceCollector& faces) {
   std::vector<std::uint32_t> ring;
@@ -87,8 +87,9 @@ void ForeignMeshBuilder::add_positions(const ForeignMesh& foreign, Mesh& mesh) c
   }
 }
 
-/// The lists of attributes become as long as the list of vertices: what a part lacks is filled in,
-/// texture coordinates and normals with zeros to which no corner refers, colours with white.
+/// Makes the lists of attributes as long as the list of vertices. Attributes that a part lacks are
+/// filled in: texture coordinates and normals with zeros to which no corner refers, colours with
+/// white.
 void ForeignMeshBuilder::add_attributes(const std::vector<Part>& parts, Mesh& mesh) {
   const auto has = [&](const Part& part, auto list, std::size_t width) {
     const MessageList<float>& numbers = part.foreign->*list;

@@ -9,12 +9,12 @@
 #include "fathom/mesh_files/expansion_budget.h"
 #include "fathom/mesh_files/formats_program/messages.h"
 
-/// Meshes as fathom-formats describes them, made into ours. Nothing that it says is trusted.
+/// Converts the meshes in replies of fathom-formats, without trusting any of their numbers.
 namespace fathom::mesh_files::formats_program {
 
 /// One mesh within an answer, which must outlive it.
 struct ForeignMesh {
-  /// Three, two, three and four numbers per vertex; no numbers where there is no such attribute.
+  /// Three, two, three and four numbers per vertex; empty if there is no such attribute.
   MessageList<float> positions, texture_coordinates, normals, colours;
   /// For each face, how many corners it has; the vertices of all corners.
   MessageList<std::uint32_t> face_sizes, corners;
@@ -24,7 +24,7 @@ struct ForeignMesh {
 
 ForeignMesh read_foreign_mesh(MessageReader& answer);
 
-/// Makes one Mesh of some of the meshes of a file, and counts what is worth a warning.
+/// Makes one Mesh of some of the meshes of a file, and counts findings that deserve a warning.
 class ForeignMeshBuilder {
  public:
   /// `meshes` and `budget` must outlive this.

@@ -11,9 +11,9 @@
 #include <type_traits>
 #include <vector>
 
-/// What the library and the program fathom-formats say to each other over a socket: a request is a
+/// The messages between the library and the program fathom-formats over a socket. A request is a
 /// RequestHead, its parameters and the bytes to read; a reply is a ReplyHead and its bytes. Numbers
-/// are as this machine has them. For the .cpp files of this room and of that program only.
+/// have the machine's format. For the .cpp files of this room and of that program only.
 namespace fathom::mesh_files::formats_program {
 
 /// The program is started as `fathom-formats --serve VERSION`, and ends with this status where its
@@ -110,8 +110,8 @@ class MessageList {
   std::span<const std::byte> bytes_;
 };
 
-/// Takes from a message what a MessageWriter put there, whatever there is: what claims to be longer
-/// than the message is a BadMessage.
+/// Reads a message of a MessageWriter without trusting it: a part that claims to be longer than the
+/// message is a BadMessage.
 class MessageReader {
  public:
   explicit MessageReader(std::span<const std::byte> bytes) : rest_(bytes) {}

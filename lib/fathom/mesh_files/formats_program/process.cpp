@@ -21,7 +21,7 @@ namespace {
 constexpr const char* program_name = "fathom-formats";
 constexpr std::uint64_t mebibyte = std::uint64_t{1} << 20;
 
-/// Beside the running program, in the build folder and where it is installed.
+/// It is next to the running program, in the build folder and when installed.
 std::filesystem::path beside_this_program() {
   std::error_code error;
   return std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / program_name;
@@ -46,8 +46,8 @@ std::array<int, 2> socket_pair(const std::string& program) {
   return ends;
 }
 
-/// How the program is started: the socket is its standard input, it says nothing, and has nothing
-/// else that is open here. (A library that prints must not spoil the one line of a failure.)
+/// The program starts with the socket as standard input, without output, and without any other open
+/// file of this process. (The output of a library must not mix with the one line of a failure.)
 struct StartActions {
   posix_spawn_file_actions_t files{};
   posix_spawnattr_t attributes{};

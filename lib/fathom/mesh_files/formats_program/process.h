@@ -26,7 +26,7 @@ struct Limits {
   std::uint64_t memory = 0;
   std::uint32_t seconds = 0;
 };
-/// `max_expansion` is that of ReadOptions.
+/// `max_expansion`: see ReadOptions.
 Limits limits_of(std::uint64_t bytes, std::uint64_t max_expansion);
 
 /// Why there is no answer: "it crashed (Segmentation fault)". Callers name the file.
@@ -37,16 +37,16 @@ class Refusal : public std::runtime_error {
 
 class Process {
  public:
-  /// Starts the program that the options name, or the one beside the running program. `file` is
-  /// what needs it, for messages.
+  /// Starts the program that the options name, or else the program next to the running one. `file`
+  /// is the file that needs it, for messages.
   /// Fails    InputError: it is not there, or cannot be started.
   Process(const ReadOptions& options, const std::string& file);
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
   ~Process();
 
-  /// The answer to one request; its bytes are taken from the budget.
-  /// Fails    Refusal; InputError where there is too little left of the budget.
+  /// The reply to one request; its bytes are taken from the budget.
+  /// Fails    Refusal; InputError if the budget is exceeded.
   std::vector<std::byte> ask(Task task, std::span<const std::byte> parameters,
                              std::span<const std::byte> bytes, ExpansionBudget& budget);
 
@@ -61,8 +61,8 @@ class Process {
   pid_t process_ = -1;
 };
 
-/// What a library says of a file, as the end of a one-line message: it can be long, and of several
-/// lines.
+/// A library's message about a file, shortened to the end of a one-line message: it can be long and
+/// of several lines.
 inline std::string as_reason(std::string text) {
   constexpr std::size_t longest = 300;
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();

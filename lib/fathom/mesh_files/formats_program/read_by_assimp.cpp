@@ -23,7 +23,7 @@ constexpr std::size_t deepest_transform = 200;
   throw InputError(file + ": assimp could not read it: " + as_reason(why));
 }
 
-/// One node of the file as it is told, depth first.
+/// One node of the file, depth first.
 struct ForeignNode {
   std::uint32_t depth = 0;
   std::string name;
@@ -45,7 +45,7 @@ struct Level {
   WorldFromMesh world_from_node;
   /// How many transforms it is composed of.
   std::size_t transforms = 0;
-  /// Why nothing can be placed here, if anything speaks against it.
+  /// Why nothing can be placed here; empty if something can.
   std::string fault;
 };
 

@@ -78,8 +78,8 @@ class GltfAccessor {
  public:
   /// Fails    InputError if it is malformed or reaches beyond its buffer view.
   GltfAccessor(const text::JsonValue& description, GltfBufferViews& views, ExpansionBudget& budget);
-  /// Of elements that follow each other closely in `bytes`, whatever bufferView the description
-  /// names: for what a decoder has made. `bytes` must outlive this.
+  /// An accessor of elements that are packed in `bytes`, whatever bufferView the description names:
+  /// for the output of decoders. `bytes` must outlive this.
   /// Fails    InputError if it is malformed, or there are too few bytes.
   GltfAccessor(const text::JsonValue& description, Bytes bytes);
 
@@ -91,9 +91,9 @@ class GltfAccessor {
   [[nodiscard]] unsigned width() const { return width_; }
   [[nodiscard]] const text::JsonValue& description() const { return description_; }
 
-  /// The first width() are the element, the others 0.
+  /// The first width() numbers are the element, the rest is 0.
   using Element = std::array<double, 4>;
-  /// Calls visit(i, element) for each element in order. Numbers are exact, but for normalized
+  /// Calls visit(i, element) for each element in order. Numbers are exact, except normalized
   /// integers, which are divided by the largest and rounded once.
   template <class Visit>
   void for_each(const Visit& visit) const;
@@ -108,7 +108,7 @@ class GltfAccessor {
   explicit GltfAccessor(const text::JsonValue& description);
   [[nodiscard]] std::uint64_t element_size() const;
   void open_sparse(GltfBufferViews& views, const text::JsonValue& sparse, ExpansionBudget& budget);
-  /// Calls visit(i, bytes) for each element in order, null for one that is zero.
+  /// Calls visit(i, bytes) for each element in order, with null for zero elements.
   template <class Visit>
   void for_each_place(const Visit& visit) const;
   template <class T, class Visit>
@@ -121,7 +121,7 @@ class GltfAccessor {
   unsigned width_ = 1;
   bool normalized_ = false;
   std::optional<GltfLayout> elements_;
-  /// Elements that are given separately: how many, which in increasing order, and what they are.
+  /// Sparse elements: their count, their increasing indices, and their values.
   std::uint64_t replaced_count_ = 0;
   GltfComponent replaced_type_ = GltfComponent::uint32;
   GltfLayout replaced_, replacements_;
@@ -136,7 +136,7 @@ class GltfAccessors {
 
   /// The accessor that `reference` names by its number.
   std::shared_ptr<const GltfAccessor> at(const text::JsonValue& reference);
-  /// An accessor's JSON alone: of what is compressed, the accessor may have no bytes.
+  /// Only an accessor's JSON: accessors of compressed data may have no bytes.
   [[nodiscard]] text::JsonValue description(const text::JsonValue& reference) const;
   [[nodiscard]] const text::JsonValue& root() const { return root_; }
   [[nodiscard]] GltfBufferViews& views() const { return views_; }

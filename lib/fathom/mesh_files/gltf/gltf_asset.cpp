@@ -36,7 +36,7 @@ std::string GltfMaterials::name(std::size_t material) const {
 
 namespace {
 
-/// What is read as the extension says.
+/// Extensions that are implemented.
 bool is_supported(std::string_view name) {
   static const std::set<std::string_view> names{
       "KHR_mesh_quantization", "EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression",
@@ -50,8 +50,8 @@ bool is_of_textures(std::string_view name) {
          name.starts_with("MSFT_texture_") || name.starts_with("MSFT_packing_");
 }
 
-/// What is about light, matter, sound, meaning or behaviour, and leaves every triangle of the asset
-/// at rest where it is.
+/// Extensions for light, materials, sound, metadata or behaviour, which do not move any triangle of
+/// the asset at rest.
 bool is_not_of_geometry(std::string_view name) {
   static const std::set<std::string_view> names{
       "AGI_articulations",        "AGI_stk_metadata",

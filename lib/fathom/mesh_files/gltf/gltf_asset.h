@@ -44,12 +44,13 @@ void for_each_entry(const text::JsonValue& list, const Visit& visit) {
 /// The name of an entry of a top-level list; "mesh 3" where it has none.
 std::string name_or_number(const text::JsonValue& entry, const char* kind, std::uint64_t index);
 
-/// The materials of an asset. What is wrong with them is no failure: depth does not need them.
+/// The materials of an asset. Faults of materials are ignored: depth does not need them.
 class GltfMaterials {
  public:
   explicit GltfMaterials(const text::JsonValue& root);
 
-  /// The number of the material of a primitive, if it has one that is in the file.
+  /// The number of a primitive's material; nullopt if the primitive has no material or an unknown
+  /// one.
   [[nodiscard]] std::optional<std::size_t> of(const text::JsonValue& primitive) const;
   [[nodiscard]] std::string name(std::size_t material) const;
 
@@ -58,19 +59,19 @@ class GltfMaterials {
   std::optional<text::JsonValue> list_;
 };
 
-/// Refuses an asset that requires an extension which could put its triangles elsewhere than where
-/// they are read. Warns of those that change textures if `attributes` were asked for: no image of
-/// an asset is opened.
+/// Refuses an asset that requires an extension that could change the place of its triangles and is
+/// not implemented. Warns of extensions that change textures if `attributes` are requested: no
+/// image of an asset is opened.
 /// Fails    InputError that names the extension.
 /// Source   [GLTF20] 3.12 (extensions)
 void check_required_extensions(const text::JsonValue& root, bool attributes,
                                const std::string& file, Warnings& warnings);
 
-/// Whether the asset says that it uses an extension, or that it cannot be read without it.
+/// Whether the asset lists an extension as used, or as required.
 bool uses_extension(const text::JsonValue& root, const char* name);
 bool requires_extension(const text::JsonValue& root, const char* name);
 
-/// What an extension says of a part of the asset.
+/// The data of an extension in a part of the asset.
 std::optional<text::JsonValue> find_extension(const text::JsonValue& part, const char* name);
 
 }  // namespace fathom::mesh_files

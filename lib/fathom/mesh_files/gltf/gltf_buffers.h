@@ -20,12 +20,12 @@
 namespace fathom::mesh_files {
 
 /// The file that a relative URI names, looked for from the folder of an asset. Percent signs are
-/// decoded. A backslash, which some exporters write for a slash, is one if no file has it in its
-/// name.
+/// decoded. A backslash, which some exporters write for a slash, counts as a slash unless a file
+/// has it in its name.
 ///
 /// Unless `outside_files`, the path must stay in the folder: "../x", "%2e%2e/x" and "/etc/passwd"
-/// are refused without a look at the file system. Where symbolic links lead is not looked at here;
-/// see files::Boundary.
+/// are refused without looking at the file system. Symbolic links are not followed here; see
+/// files::Boundary.
 /// Fails    InputError: no relative URI, or one that leaves the folder.
 /// Source   [GLTF20] 2.8 (URIs)
 std::filesystem::path file_of_uri(const text::JsonValue& uri, const std::filesystem::path& folder,
@@ -47,7 +47,7 @@ GltfContainer split_gltf(Bytes file, const std::string& name);
 /// The decoded bytes of a "data:…;base64,…" URI, or nullopt if it is not one or is damaged.
 std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri);
 
-/// The buffers of an asset, loaded when they are asked for.
+/// The buffers of an asset, each loaded at its first use.
 class GltfBuffers {
  public:
   /// `container`, `root` and `budget` must outlive this. Relative URIs start from the folder of
@@ -56,8 +56,8 @@ class GltfBuffers {
               const std::filesystem::path& path, const ReadOptions& options,
               ExpansionBudget& budget);
 
-  /// Buffer `index`, exactly as long as the asset says; memory is taken only for bytes that are
-  /// there. `reference` is blamed if there is no such buffer.
+  /// Buffer `index`, with exactly the length in the asset; memory is allocated only for existing
+  /// bytes. Failures name `reference` if there is no such buffer.
   Bytes at(std::uint64_t index, const text::JsonValue& reference);
 
   struct ExternalFile {

@@ -29,8 +29,8 @@ MeshoptFilter read_filter(const JsonValue& extension) {
   filter->fail("expected NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL");
 }
 
-/// An accessor's component type and how many numbers an element has, for Draco to convert to; what
-/// is no accessor is found when one is made of it.
+/// An accessor's component type and the numbers of an element, to which Draco converts. Invalid
+/// accessors are refused later, when they are opened.
 DracoAttribute as_described(std::uint32_t number, const JsonValue& accessor) {
   const std::string type = accessor.at("type").string();
   const std::uint32_t width = type == "SCALAR" ? 1

@@ -20,8 +20,8 @@ class Process;
 enum class Task : std::uint32_t;
 }  // namespace formats_program
 
-/// Starts the program when something is first to be decoded. What it has decoded stays as long as
-/// this does, and is taken from the budget.
+/// Starts the program at the first request. Decoded bytes are kept as long as this object, and are
+/// taken from the budget.
 class GltfDecoders {
  public:
   /// `options` and `budget` must outlive this; `file` is the name for messages.
@@ -30,18 +30,19 @@ class GltfDecoders {
   GltfDecoders& operator=(const GltfDecoders&) = delete;
   ~GltfDecoders();
 
-  /// The bytes of a buffer view of `length` bytes, made of those of `compressed`; `extension` is
-  /// its EXT_meshopt_compression or KHR_meshopt_compression.
+  /// The `length` bytes of a buffer view, decoded from `compressed`; `extension` is its
+  /// EXT_meshopt_compression or KHR_meshopt_compression.
   /// Fails    InputError: they cannot be decoded.
   Bytes decode_view(const text::JsonValue& extension, std::uint64_t length, Bytes compressed);
 
-  /// What is wanted of a primitive: an attribute by Draco's number, as an accessor describes it.
+  /// The requested parts of a primitive: an attribute by Draco's number, as an accessor describes
+  /// it.
   struct Wanted {
     std::uint32_t number = 0;
     text::JsonValue accessor;
   };
   struct Primitive {
-    /// Of type `indices` says, three for each triangle.
+    /// Of the type `indices`, three for each triangle.
     Bytes corners;
     /// The elements of each attribute, one for each vertex, in the order in which they were wanted.
     std::vector<Bytes> attributes;

@@ -44,8 +44,7 @@ constexpr NamedAttribute named_attributes[] = {
     {"NORMAL", &GltfPrimitiveAccessors::normals},
     {"COLOR_0", &GltfPrimitiveAccessors::colours}};
 
-/// Of programs, some take what Draco gives for triangles whatever the mode says, others for a
-/// strip.
+/// Some programs take Draco's indices for triangles whatever the mode is, others for a strip.
 void expect_triangles(const JsonValue& primitive) {
   const auto mode = primitive.find("mode");
   if (mode && mode->integer(0, largest_integer) != 4)

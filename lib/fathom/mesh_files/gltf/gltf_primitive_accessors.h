@@ -17,10 +17,9 @@ struct GltfPrimitiveAccessors {
   std::shared_ptr<const GltfAccessor> positions, texture_coordinates, normals, colours, indices;
 };
 
-/// Opens the accessors of a primitive; all but positions and indices only if `attributes` are asked
-/// for. Primitives that name the same accessor get the same object. Whatever a primitive is made of
-/// comes from here. A primitive that Draco has compressed is decoded into accessors of its own,
-/// where the asset does not also have what it is made of as it is.
+/// Opens the accessors of a primitive; all but positions and indices only if `attributes` are
+/// requested. Primitives that name the same accessor get the same object. A primitive that is only
+/// available compressed by Draco is decoded into new accessors.
 GltfPrimitiveAccessors open_primitive(const text::JsonValue& primitive, GltfAccessors& accessors,
                                       bool attributes);
 

@@ -241,9 +241,9 @@ void GltfPrimitives::read_positions(const GltfAccessor& positions, Mesh& mesh) {
   });
 }
 
-/// The lists of attributes stay as long as the list of vertices: what a primitive lacks is filled
-/// in, texture coordinates and normals with zeros to which no corner refers, colours with white,
-/// which is what glTF means by none.
+/// Keeps the lists of attributes as long as the list of vertices. Attributes that a primitive lacks
+/// are filled in: texture coordinates and normals with zeros to which no corner refers, colours
+/// with white, which glTF prescribes.
 void GltfPrimitives::read_attributes(const GltfPrimitiveAccessors& accessors, Vertices& vertices,
                                      Mesh& mesh) {
   using Element = GltfAccessor::Element;

@@ -54,7 +54,8 @@ class GltfPrimitives {
   const Vertices& vertices_of(const GltfPrimitiveAccessors& accessors, Mesh& mesh);
   void read_positions(const GltfAccessor& positions, Mesh& mesh);
   void read_attributes(const GltfPrimitiveAccessors& accessors, Vertices& vertices, Mesh& mesh);
-  /// Appends an attribute of the vertices; false if there is none that can be used.
+  /// Appends an attribute of the vertices; false if the primitive has no usable attribute of this
+  /// kind.
   template <class Value, class Convert>
   bool read_attribute(const GltfAccessor* accessor, bool (*is_of_type)(const GltfAccessor&),
                       const Vertices& vertices, const Value& missing, std::vector<Value>& values,

@@ -249,7 +249,7 @@ class GltfReader {
   GltfAccessors& accessors_;
   GltfMaterials materials_;
   GltfPrimitives primitives_;
-  /// Whether nodes and meshes are asked for by name.
+  /// Whether names of nodes and meshes are requested.
   bool segments_;
   std::string file_;
   Warnings& warnings_;

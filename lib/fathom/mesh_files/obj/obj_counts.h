@@ -16,13 +16,14 @@ namespace fathom::mesh_files {
 /// A line that gives the triangles after it a name.
 struct ObjSegmentLine {
   Segmentation by;
-  /// What follows the keyword, as it stands in the file.
+  /// The text after the keyword, unchanged.
   std::string_view rest;
   /// How many triangles come before it in its piece of the file.
   std::uint64_t triangle;
 };
 
-/// The lines of a piece of the file, without those that no triangle follows before the next.
+/// The lines of a piece of the file, except lines that are followed by another line of the same
+/// segmentation without a triangle in between.
 class ObjSegmentLines {
  public:
   void add(const ObjSegmentLine& line);
@@ -39,10 +40,10 @@ Segmentation obj_segmentation(std::string_view keyword);
 
 /// Makes segments of lines, one segmentation at a time.
 ///
-/// A name is what follows the keyword, without the blanks around it: it may hold blanks and '#',
-/// and the several groups of a `g` are one name. Bytes that are not UTF-8 are taken for ISO 8859-1.
-/// `g` alone means the group `default`; `o` and `usemtl` alone mean none, as does everything before
-/// the first line.
+/// A name is the text after the keyword, without the blanks around it: it may contain blanks and
+/// '#', and several groups of a `g` are one name. Bytes that are not UTF-8 are taken for ISO
+/// 8859-1. `g` without a name means the group `default`. `o` and `usemtl` without a name end the
+/// segment; triangles before the first line have no segment.
 class ObjSegments {
  public:
   explicit ObjSegments(Segmentation by) : segments_{by, {}, {}} {}
@@ -121,8 +122,8 @@ struct ObjCounts {
   [[nodiscard]] bool in_the_plane() const { return vertices > 0 && short_points == vertices; }
 };
 
-/// Counts what a piece of the file has, and keeps the lines that name segments, where these are
-/// wanted.
+/// Counts the statements of a piece of the file, and keeps the lines that name segments, if they
+/// are requested.
 ObjCounts count_statements(std::string_view text, const std::string& file, char line_end,
                            ObjSegmentLines* segments);
 

@@ -200,8 +200,8 @@ class PieceReader {
       corner.normal = read_attribute_index(at, at_.normals, total_.normals, odd_.normals);
   }
 
-  /// The place that an index means, from 1 or, if negative, back from the last of `so_far`;
-  /// no_index if there is none.
+  /// The place of an index, which counts from 1 or, if negative, back from the last of `so_far`;
+  /// no_index if it is out of range.
   static std::uint32_t place_of(std::int64_t index, std::uint64_t so_far, std::uint64_t count) {
     if (index > 0 && static_cast<std::uint64_t>(index) <= count)
       return static_cast<std::uint32_t>(index - 1);
@@ -222,7 +222,8 @@ class PieceReader {
     return place;
   }
 
-  /// The same for what a corner can do without: an index of nothing is noted, however long it is.
+  /// The same for optional parts of a corner: indices out of range are noted, however long they
+  /// are.
   std::uint32_t read_attribute_index(const char*& at, std::uint64_t so_far, std::uint64_t count,
                                      Occurrences& missing) {
     std::int64_t index = 0;

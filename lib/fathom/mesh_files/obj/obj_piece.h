@@ -10,7 +10,7 @@
 /// A piece of an OBJ. For this room's .cpp files only.
 namespace fathom::mesh_files {
 
-/// What a piece of the file has that cannot be used or is not usual, though its geometry is clear.
+/// Unusable or unusual parts of a piece of the file that do not affect its geometry.
 struct ObjOddities {
   Occurrences textures, normals, colours, weights;
 
@@ -22,8 +22,8 @@ struct ObjOddities {
   }
 };
 
-/// Reads one piece of the file into its place in the mesh, which has room for all of them. `before`
-/// counts what comes before the piece, `total` what the file has.
+/// Reads one piece of the file into its place in the mesh, which has room for all pieces. `before`
+/// counts the statements before the piece, `total` all statements of the file.
 /// Fails    InputError, naming file and line.
 ObjOddities read_obj_piece(std::string_view text, const std::string& file, char line_end,
                            const ObjCounts& before, const ObjCounts& total, Mesh& mesh);

@@ -17,7 +17,8 @@ namespace fathom::mesh_files {
 inline constexpr text::TextCursor::Syntax obj_syntax{.comments = true, .continuation = true};
 enum class Statement { vertex, texture, normal, face, line, point, segment, ignored, unknown };
 
-/// Nearly all keywords are one letter long: they are told apart first, without comparing strings.
+/// Nearly all keywords are one letter long: these are distinguished first, without comparing
+/// strings.
 inline Statement statement_named(char keyword) {
   switch (keyword) {
     case 'v':
@@ -67,7 +68,7 @@ inline Plain plain_kind(const char* at, const char* last) {
   return at == last ? Plain::other : plain_characters[static_cast<unsigned char>(*at)];
 }
 
-/// Moves `at` behind the word there, of a number; false where there is none.
+/// Moves `at` behind the number at `at`; false if there is no number.
 template <char least, char greatest>
 [[gnu::always_inline]] inline bool skip_word(const char*& at, const char* last) {
   if (plain_kind(at, last) != Plain::number) return false;

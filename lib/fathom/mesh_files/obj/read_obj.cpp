@@ -43,8 +43,8 @@ void make_room(const ObjCounts& total, const ReadOptions& options, const std::st
     memory::resize_large(mesh.texture_triangles, total.triangles);
   if (total.face_normals && total.normals > 0)
     memory::resize_large(mesh.normal_triangles, total.triangles);
-  // If no face refers to them they belong to nobody; without indices, those of the vertices would
-  // be used.
+  // Attributes to which no face refers are removed: without indices of their own, the indices of
+  // the vertices would apply to them.
   if (!total.face_textures) mesh.texture_coordinates.clear();
   if (!total.face_normals) mesh.normals.clear();
 }

@@ -10,7 +10,7 @@
 namespace fathom::mesh_files {
 
 /// The colours of the vertices of an OFF file. Whether its numbers are fractions of 1 or of 255 is
-/// known at the end: they are of 255 if all are integers and one of them is greater than 1.
+/// decided at the end: they are fractions of 255 if all are integers and any is greater than 1.
 class OffColours {
  public:
   using Colour = std::array<float, 4>;

@@ -6,8 +6,8 @@
 
 namespace fathom::mesh_files {
 
-/// What the first word of an OFF file says: OFF with any of the prefixes ST, C, N, 4 and n, in
-/// capitals or, all of it, in small letters.
+/// The first word of an OFF file: OFF with any of the prefixes ST, C, N, 4 and n, in capitals or
+/// entirely in small letters.
 struct OffKeyword {
   bool normals = false, colours = false, texture = false;
   /// The colours of vertices come before their normals: the prefixes were NC, as MeshLab writes

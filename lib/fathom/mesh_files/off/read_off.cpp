@@ -18,7 +18,7 @@ using namespace text;
 
 namespace {
 
-/// What the first word and the counts say.
+/// The contents of the first word and the counts.
 struct OffHeader {
   OffKeyword keyword;
   std::uint64_t vertices = 0, faces = 0;
@@ -28,14 +28,14 @@ struct OffHeader {
   [[nodiscard]] bool has_attributes() const {
     return keyword.normals || keyword.colours || keyword.texture;
   }
-  /// The words of a vertex behind its coordinates, but for those of its colour.
+  /// The number of words of a vertex after its coordinates, without its colour.
   [[nodiscard]] std::uint64_t normal_and_texture_words() const {
     return (keyword.normals ? 3U : 0U) + (keyword.texture ? 2U : 0U);
   }
 };
 
-/// Whether a vertex or a face has a line of its own, with whatever stands behind it, or is so many
-/// words, wherever the lines end.
+/// Whether each vertex or face has its own line, on which other words may follow, or is a number of
+/// words regardless of line ends.
 enum class OffLayout { lines, words };
 
 class OffReader {
@@ -122,8 +122,8 @@ class OffReader {
     }
   }
 
-  /// 3 or 4 words more than normals and texture coordinates take are a colour, whether the keyword
-  /// says so or not. Of a line with any other number of words only the point is used.
+  /// 3 or 4 words beyond normals and texture coordinates are a colour, even without the keyword.
+  /// For lines with any other number of words only the point is used.
   void read_rest_of_vertex_line(std::uint64_t i) {
     TextCursor ahead = cursor_;
     std::uint64_t words = 0;

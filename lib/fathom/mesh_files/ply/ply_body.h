@@ -13,7 +13,7 @@
 
 namespace fathom::mesh_files {
 
-/// What the properties of a vertex mean to us.
+/// The meanings of a vertex's properties.
 enum PlySlot : int {
   slot_x = 0,
   slot_normal = 3,
@@ -106,7 +106,7 @@ class PlyBody {
     throw InputError(file + ": element vertex lacks x, y or z, expected all three");
   }
 
-  /// There must be room in what is left of the file for the rows that the header claims.
+  /// The rest of the file must have room for the rows that the header claims.
   void expect_room(const PlyElement& element) {
     mesh::expect_countable(element.count, ("rows of element " + element.name).c_str(), file_);
     const std::uint64_t size = Rows::least_row_size(element);
@@ -249,7 +249,7 @@ class PlyBody {
     }
   }
 
-  /// A label as it is, counted where it is none.
+  /// A label, unchanged; numbers that are not labels are counted.
   std::uint32_t usable(std::uint32_t label) {
     if (label == unsegmented) ++unusable_labels_;
     return label;

@@ -46,8 +46,8 @@ class FaceIndex {
     end_.offset = offset;
   }
 
-  /// A face at or before the one that triangle `number` comes from, less than 256 faces before it
-  /// or with no triangle in between.
+  /// A face at or before the face of triangle `number`: less than 256 faces before it, or with no
+  /// triangle in between.
   [[nodiscard]] FacePlace before(std::uint64_t number) const {
     if (even_) return {number, number, start_ + number * row_size_};
     const auto after = std::upper_bound(

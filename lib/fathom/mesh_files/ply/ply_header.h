@@ -68,19 +68,19 @@ struct PlyLabels {
   std::optional<std::size_t> in_face, in_vertex;
 };
 
-/// The first property in the order of this list that is an integer for itself, of faces first:
-/// label, category_id, category, class_id, class, semantic_id, semantic, segment_id, segment,
-/// object_id, object, instance_id, instance. Warns of one of these names, where there is no such
-/// property, that cannot be a label: a list, or one of floats.
+/// The first property in the order of this list that is a single integer, first of faces, then of
+/// vertices: label, category_id, category, class_id, class, semantic_id, semantic, segment_id,
+/// segment, object_id, object, instance_id, instance. Without such a property, warns of a property
+/// of one of these names that cannot be a label: a list, or floats.
 PlyLabels find_ply_labels(const PlyHeader& header, const std::string& file, Warnings& warnings);
 
-/// A number of the file as a label; `unsegmented` where it is none.
+/// A number of the file as a label; `unsegmented` if it cannot be a label.
 inline std::uint32_t label_from(std::int64_t number) {
   const bool is_label = number >= 0 && number < std::int64_t{unsegmented};
   return is_label ? static_cast<std::uint32_t>(number) : unsegmented;
 }
 
-/// The label of a triangle, by those of its corners.
+/// The label of a triangle, from the labels of its corners.
 inline std::uint32_t common_label(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   return a == b && b == c ? a : unsegmented;
 }

@@ -55,7 +55,8 @@ class PlyVertices {
   /// Fails    InputError if the vertex is not finite, which it was when the file was checked, or
   ///          cannot be read any more.
   [[nodiscard]] MeshPoint operator[](std::uint32_t vertex) const;
-  /// Whether they have labels; the label of one, `unsegmented` where it is none.
+  /// Whether vertices have labels; and the label of a vertex, `unsegmented` if its number is not a
+  /// label.
   [[nodiscard]] bool have_labels() const {
     return layout_.label_type.has_value() || !list_.labels.empty();
   }

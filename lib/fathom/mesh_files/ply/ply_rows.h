@@ -19,8 +19,7 @@
 
 static_assert(std::endian::native == std::endian::little, "little endian PLY is read as it lies");
 
-/// The values of the rows of a PLY file, one after another, whatever its encoding. (ply_text.h has
-/// those of text.)
+/// The values of the rows of a PLY file, one after another, whatever its encoding.
 namespace fathom::mesh_files {
 
 /// Where the coordinates lie in a row of an element whose rows all have one size.
@@ -49,8 +48,8 @@ class BinaryRows {
   /// Number of the next byte in the file.
   [[nodiscard]] std::uint64_t position() const { return bytes_.position(); }
 
-  /// A row at once, where its three coordinates are all that is wanted of it. False of a row that
-  /// is not at hand or has one that is not finite: it is then still to be read, value by value.
+  /// Reads a row at once if only its three coordinates are needed. False if the row is not in the
+  /// buffer or has a coordinate that is not finite: it must then be read value by value.
   bool take_point(const PlyPointLayout& layout, std::array<double, 3>& point) {
     if (!bytes_.has_at_hand(layout.row_size)) return false;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -110,7 +109,7 @@ class BinaryRows {
         return take<std::uint32_t>();
     }
   }
-  /// A label, `unsegmented` where it is none.
+  /// A label; `unsegmented` if the number cannot be a label.
   std::uint32_t label(PlyType type) { return label_from(integer(type, "")); }
   void skip(PlyType type, std::uint64_t count = 1) {
     if (count > rest() / size_of(type)) fail_end();
@@ -155,7 +154,7 @@ struct PlyStrip {
   std::array<std::uint32_t, 2> last{};
 };
 
-/// The properties of a face that are read: their places among those of its element.
+/// The properties of a face that are read, as places among the properties of its element.
 struct PlyFaceColumns {
   std::size_t indices = 0;
   std::optional<std::size_t> label = std::nullopt;

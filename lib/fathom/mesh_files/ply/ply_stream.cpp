@@ -8,9 +8,9 @@
 #include "fathom/mesh_files/ply/ply_layout.h"
 #include "fathom/mesh_files/streams.h"
 
-// The file is read through once, with the rows and checks of the ordinary reader, or, where that is
-// not asked for, taken for what its size lets suppose; what is kept is where things are. Faces are
-// read again, from the file, whenever triangles are asked for.
+// The file is read once, with the rows and checks of the ordinary reader; or, if that is not
+// requested, its layout is derived from its size. Only the places of vertices and faces are kept.
+// Faces are read again from the file for every request of triangles.
 namespace fathom::mesh_files {
 using namespace mesh;
 using namespace files;
@@ -21,7 +21,7 @@ constexpr std::size_t window_size = std::size_t{1} << 20;
 
 /// What reading the file through leaves behind.
 struct Scan {
-  /// What is taken for granted instead.
+  /// The layout that is assumed instead.
   std::optional<PlySupposedTriangles> supposed;
   bool big_endian = false;
   std::optional<PlyVertexLayout> layout;
@@ -104,8 +104,7 @@ class ScanSink {
   }
 
   void note_used(std::uint32_t vertex) {
-    // A vertex takes at least three bytes: one that cannot be there will be noticed when it is
-    // read.
+    // A vertex takes at least three bytes; missing vertices are noticed when they are read.
     if (vertex >= file_.size() / 3) return;
     if (vertex >= scan_.used.size()) {
       scan_.used.resize(std::max<std::size_t>(std::size_t{vertex} + 1, 2 * scan_.used.size()));
@@ -256,7 +255,7 @@ class PlyStream : public TriangleStream {
   enum class Reading { one, many };
 
   /// Calls visit(origin, corners) for `count` triangles from `first` on, corners being numbers of
-  /// vertices: those of the faces and those of the strips, in the order of the file.
+  /// vertices: triangles of faces and of strips, in the order of the file.
   template <class Visit>
   void walk(std::uint32_t first, std::uint32_t count, Reading reading, const Visit& visit) const {
     const FacePlace& faces = scan_.faces.end();
@@ -399,7 +398,7 @@ void scan_file(const RandomAccessFile& file, const PlyHeader& header, Scan& scan
       .read(warnings);
 }
 
-/// What reading through a file of nothing but triangles leaves behind, but for its bounds.
+/// The result of reading a file in which all faces are triangles, except its bounds.
 Scan scan_of(const PlySupposedTriangles& supposed, bool big_endian) {
   Scan scan;
   scan.big_endian = big_endian;

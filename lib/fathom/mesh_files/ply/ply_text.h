@@ -12,11 +12,11 @@ namespace fathom::mesh_files {
 
 /// The values of a PLY body that is text.
 ///
-/// Rows are lines, as in nearly all files. A file that has another number of lines than of rows may
-/// be a stream of words, whatever lines they are on, which is how other programs read all files;
-/// but then there must be exactly as many words as the header says, and no face of fewer than three
-/// corners. A value that is missing or too many in a file of lines is thus a failure, at its place,
-/// and not made up for by the next row.
+/// Rows are lines, as in nearly all files. A file with another number of lines than rows may be a
+/// stream of words with arbitrary line ends, which is how other programs read all files. It must
+/// then have exactly as many words as the header claims, and no face of fewer than three corners.
+/// So a missing or extra value in a file of lines is a failure at its place, and is not compensated
+/// by the next row.
 class PlyTextRows {
  public:
   PlyTextRows(std::string_view body, const std::string& file, const PlyHeader& header)
@@ -78,7 +78,7 @@ class PlyTextRows {
                    " to " + std::to_string(greatest));
     return value;
   }
-  /// A label, `unsegmented` where the word is none: a mesh can do without.
+  /// A label; `unsegmented` if the word is not a label, because a mesh does not need labels.
   std::uint32_t label(PlyType) {
     go_to_word("a value");
     const std::string_view word = cursor_.word();
@@ -127,7 +127,7 @@ class PlyTextRows {
   /// In the whole body.
   std::uint64_t rows_ = 0;
   const std::string& file_;
-  /// What is wrong with the first row that is no line; empty while rows are lines.
+  /// The fault of the first row that is not a line; empty while rows are lines.
   std::string break_;
 };
 

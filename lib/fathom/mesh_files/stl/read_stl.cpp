@@ -60,7 +60,7 @@ class AsciiStlReader {
     return false;
   }
 
-  /// The next word in small letters; `expected` is for the message if there is none.
+  /// The next word in small letters; `expected` is for the message at the end of the file.
   std::string_view next_word(const char* expected) {
     if (!go_to_word()) cursor_.fail(std::string("the file ends, expected '") + expected + "'");
     const std::string_view word = cursor_.word();
@@ -132,7 +132,7 @@ class AsciiStlReader {
     mesh_.normal_triangles.push_back({n, n, n});
   }
 
-  /// "normal" and three numbers, which nobody needs: the corners say what the facet is.
+  /// "normal" and three numbers, which are not needed: the corners define the facet.
   std::array<double, 3> read_normal() {
     const std::uint64_t line = cursor_.line();
     const TextCursor before = cursor_;

@@ -25,8 +25,8 @@ std::uint64_t count_binary_stl(std::span<const std::byte> head, std::uint64_t si
 std::array<float, 12> read_stl_triangle(const std::byte* record, std::uint64_t number,
                                         const std::string& file);
 
-/// Whether the size of a file is that of a binary STL of as many triangles as it counts. `head` has
-/// the first 84 bytes or all.
+/// Whether a file has the size of a binary STL with the number of triangles in its header. `head`
+/// has the first 84 bytes or all.
 bool is_binary_stl_by_size(std::span<const std::byte> head, std::uint64_t size);
 
 /// Whether STL is binary: its size matches its count of triangles, or it does not begin, after
