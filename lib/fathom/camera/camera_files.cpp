@@ -220,7 +220,7 @@ void read_pixel_centre(const JsonValue& value, Projection& projection) {
   read_number(value, "pixel_center", projection.pixel_centre);
 }
 
-/// Of a camera whose size is known.
+/// Needs a camera with its size.
 Projection read_projection(const JsonValue& value, const Camera& camera,
                            const DirectionReader& directions) {
   Projection projection;

@@ -24,8 +24,8 @@ struct ImportedCamera {
   /// Its name is the image's in the other program: COLMAP's NAME, NeRF's file_path, BOP's image id.
   /// Passes find_fault() if there is neither an `absence` nor a `fault`.
   Camera camera;
-  /// Where `camera` is the pinhole part of a lens that has no model here, or no valid numbers:
-  /// which file, which lens.
+  /// Set if `camera` is only the pinhole part of a lens without a model here, or without valid
+  /// numbers: the file and the lens.
   std::string distortion;
   /// Why there is no camera to take: the image was not tracked or not reconstructed, or its lens
   /// has no pinhole part.

@@ -16,11 +16,11 @@ namespace fathom {
 DepthFormat depth_format_of(const Camera& camera, Mapping mapping, Storage storage, double c = 1);
 
 struct DepthBufferOptions {
-  /// With the camera's near and far.
+  /// The format, with the camera's near and far.
   DepthFormat format;
   /// Also compute how far the decoded depth is off, and which surface the format lets win.
   bool against_exact = false;
-  /// Of `render` only engine, culling, threads and progress matter; as the map was rendered.
+  /// The options of the rendered map; only engine, culling, threads and progress matter.
   RenderOptions render;
   /// For against_exact: which of equal stored depths wins.
   EqualDepths equal_depths = EqualDepths::first_wins;

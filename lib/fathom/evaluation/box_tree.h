@@ -21,8 +21,8 @@ inline constexpr double point_error = 0x1p-49;
 /// The same of the difference of such a point and a corner (evaluation_difference).
 inline constexpr double difference_error = 0x1p-48;
 
-/// Of the distance of a point from a box (evaluation_gap), and of both bounds on its distance from
-/// a triangle (evaluation_place, evaluation_plane).
+/// The error of the distance of a point from a box (evaluation_gap), and of both bounds on its
+/// distance from a triangle (evaluation_place, evaluation_plane).
 inline constexpr double distance_error = 0x1p-44;
 
 }  // namespace fathom::evaluation::bounds
@@ -44,11 +44,11 @@ Box box_of(std::span<const Vector> points);
 class PlacedCloud;
 
 /// A tree of boxes around triangles or points, which must outlive it: each box contains the corners
-/// as PlacedTriangles or PlacedCloud has them. The same whatever the number of threads.
+/// as PlacedTriangles or PlacedCloud has them. Does not depend on the number of threads.
 class BoxTree {
  public:
   explicit BoxTree(const PlacedTriangles& triangles);
-  /// Of points that are the same exactly, a leaf may have one only.
+  /// Of exactly equal points, a leaf may contain only one.
   explicit BoxTree(const PlacedCloud& points);
 
   struct Node {

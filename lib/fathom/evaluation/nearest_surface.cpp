@@ -90,7 +90,7 @@ bool is_inside(const WorldPoint& from, const WorldPoint& to, const WorldPoint& p
   return dot(cross(between(from, to), between(from, p)), normal).sign() != Sign::negative;
 }
 
-/// Of a point and a point of a cloud within bounds::point_error and bounds::corner_error of the
+/// Needs a point and a point of a cloud within bounds::point_error and bounds::corner_error of the
 /// exact ones: a box without extent (validation/proofs, evaluation_gap).
 DistanceBounds distance_bounds(const Vector& p, const Vector& q) {
   const double distance = length(minus(p, q));

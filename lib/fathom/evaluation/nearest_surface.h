@@ -26,7 +26,7 @@ struct DistanceBounds {
   double lower = 0, upper = 0;
 };
 
-/// Of a point and corners within bounds::point_error and bounds::corner_error of the exact ones.
+/// Needs a point and corners within bounds::point_error and bounds::corner_error of the exact ones.
 DistanceBounds distance_bounds(const PlacedTriangles::Corners& corners, const Vector& p);
 
 /// The square of the distance of a point from the nearest point of a triangle, which may be without

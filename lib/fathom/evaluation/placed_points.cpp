@@ -220,7 +220,7 @@ class RemainingPoints {
   /// No point that is nearer than the density has a coordinate that differs by more.
   double reach_;
   double cell_;
-  /// Of each list the last point.
+  /// The last point of each list.
   std::vector<std::uint32_t> newest_;
   std::vector<Remaining> points_;
 };

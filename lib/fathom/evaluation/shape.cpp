@@ -62,7 +62,7 @@ class Surface : public Shape {
   BoxTree tree_;
   NearestSurface nearest_{source_, triangles_, tree_};
   std::vector<SurfacePoint> points_;
-  /// Where cameras are given.
+  /// Only with cameras.
   std::optional<RayScene> rays_;
   std::vector<rays::CameraSight> sights_;
 };
@@ -99,17 +99,17 @@ class Cloud : public Shape {
   NearestPoint nearest_{points_, tree_};
 };
 
-/// Of a triangle: its corners, its place in the tree's order, at most one node for each, its share
-/// of the area.
+/// Memory of a triangle: its corners, its place in the tree's order, at most one node, its share of
+/// the area.
 constexpr double bytes_of_triangle = sizeof(PlacedTriangles::Corners) + sizeof(std::uint32_t) +
                                      sizeof(BoxTree::Node) + sizeof(double);
-/// Of a triangle where cameras are given: its part of a tree of rays, and its corners and box while
-/// that is built.
+/// Additional memory of a triangle with cameras: its part of a tree of rays, and its corners and
+/// box while that is built.
 constexpr double bytes_of_seen_triangle = 106 + sizeof(PlacedTriangles::Corners) + 28;
-/// Of a point of a cloud: itself, its place in the tree's order, at most half a node.
+/// Memory of a point of a cloud: itself, its place in the tree's order, at most half a node.
 constexpr double bytes_of_cloud_point =
     sizeof(Vector) + sizeof(std::uint32_t) + sizeof(BoxTree::Node) / 2.0;
-/// Of a point while a cloud is thinned: itself, its numbers, and at most two lists.
+/// Memory of a point while a cloud is thinned: itself, its numbers, and at most two lists.
 constexpr double bytes_of_thinned_point = sizeof(Vector) + 5 * sizeof(std::uint32_t);
 
 }  // namespace

@@ -165,9 +165,9 @@ SurfaceDistances summary_of(const Distances& distances, const SurfaceComparisonO
   return summary;
 }
 
-/// Of a point: its distance, and that again to be sorted.
+/// Memory of a point: its distance, and a copy for sorting.
 constexpr double bytes_of_point = sizeof(Distance) + sizeof(double);
-/// Of a point that is kept, of each shape, while its list grows.
+/// Memory of a kept point, for both shapes, while its list grows.
 constexpr double bytes_of_kept_point =
     sizeof(std::array<double, 3>) + 2 * 2 * sizeof(MeasuredPoint);
 

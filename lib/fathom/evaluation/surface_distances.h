@@ -41,7 +41,7 @@ struct SurfaceDistances {
   [[nodiscard]] bool has_figures() const { return seen > outliers; }
   /// Without the outliers; scene units.
   double mean = 0, rms = 0;
-  /// By nearest rank.
+  /// Percentiles by nearest rank.
   double median = 0, p90 = 0, p99 = 0, max = 0;
   /// For each threshold, the share of the points whose distance is less, of all that count.
   std::vector<double> shares;
@@ -69,7 +69,7 @@ struct SurfaceComparisonOptions {
 
 /// Refuses options that mean nothing.
 /// Fails    UsageError for no points, a threshold, density or greatest distance that is not a
-///          positive number, and threads that cannot be asked for.
+///          positive number, and a number of threads out of range.
 void require_meaningful(const SurfaceComparisonOptions& options);
 
 /// Refuses two sides that cannot be compared so, and cameras that see along bent rays.

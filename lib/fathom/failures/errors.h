@@ -41,7 +41,7 @@ class InputError : public Error {
   using Error::Error;
 };
 
-/// An output cannot be written or cannot hold what was asked for (exit status 4).
+/// An output cannot be written or cannot hold the requested data (exit status 4).
 class OutputError : public Error {
  public:
   using Error::Error;

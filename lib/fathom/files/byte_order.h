@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <type_traits>
 
-/// Numbers in files, whatever the machine's own byte order. Values move as integers, so that the
+/// Numbers in files, independent of the machine's byte order. Values move as integers, so that the
 /// bits of a NaN survive.
 namespace fathom {
 

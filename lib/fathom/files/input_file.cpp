@@ -25,7 +25,7 @@ bool lies_in(const std::filesystem::path& file, const std::filesystem::path& fol
   return in_folder == folder.end() && in_file != file.end();
 }
 
-/// Where an open file lies, without symbolic links.
+/// The path of an open file, without symbolic links.
 std::filesystem::path place_of(const Descriptor& file, const std::string& name) {
   std::error_code error;
   auto place = std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(file.get()), error);

@@ -16,7 +16,7 @@
 /// Which files another file may name: a scene file its meshes, a glTF asset its buffers.
 namespace fathom::files {
 
-/// A folder that files named by other files must lie in, at whatever depth.
+/// A folder that contains, at any depth, all files that other files may name.
 struct Boundary {
   std::filesystem::path folder;
   /// Ends the message of a refusal: "FILE: lies outside FOLDER, RULE".

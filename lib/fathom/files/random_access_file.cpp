@@ -73,7 +73,7 @@ FileBlocks::FileBlocks(const RandomAccessFile& file)
     : file_(file), blocks_(std::make_unique<std::array<Block, block_count>>()) {}
 
 void FileBlocks::load(Block& block, std::uint64_t number) const {
-  block.number = UINT64_MAX;  // as long as it is not whole
+  block.number = UINT64_MAX;  // until the block is complete
   const std::uint64_t begin = number * block_size;
   const std::uint64_t there = file_.size() > begin ? file_.size() - begin : 0;
   const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(there, block_size));

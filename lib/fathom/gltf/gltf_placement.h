@@ -18,10 +18,11 @@ struct GltfPlacement {
   std::array<double, 3> scale{1, 1, 1};
 };
 
-/// T·R·S, exactly; R is the polynomial matrix of the quaternion, whatever its length.
+/// T·R·S, exactly; R is the polynomial matrix of the quaternion, which may have any length.
 WorldFromMesh transform_of(const GltfPlacement& placement);
 
-// Where the nodes of a glTF lie. Only for .cpp files of this room, of mesh_files/ and of camera/.
+// The placement of the nodes of a glTF. Only for .cpp files of this module, of mesh_files/ and of
+// camera/.
 // Source   [GLTF20] 3.5.3 (transformations)
 
 /// The transform of a node in its parent: a matrix, or a GltfPlacement.

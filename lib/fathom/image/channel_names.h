@@ -35,7 +35,7 @@ DepthMap with_own_channel_names(DepthMap map);
 /// A name for a channel that those who make data sets know, or for a mask.
 struct ContentsName {
   std::string_view name;
-  /// From which the mask is made, if it is one.
+  /// The channel that is meant, or that the mask is made from.
   Channel channel;
   bool is_mask;
 };

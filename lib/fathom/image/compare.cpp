@@ -47,7 +47,7 @@ BackgroundRule rule_for(const DepthMap& map, const ImageChannel& channel,
   return {.value = std::isfinite(*given) ? given : std::nullopt};
 }
 
-/// The only depth channel of a map, whatever its name.
+/// The only depth channel of a map, regardless of its name.
 const ImageChannel* lone_depth(const DepthMap& map) {
   const ImageChannel* found = nullptr;
   for (const ImageChannel& channel : map.channels) {

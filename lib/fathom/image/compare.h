@@ -63,7 +63,7 @@ struct ChannelComparison {
   std::uint64_t beyond_tolerance = 0;
 
   DifferenceSummary absolute, relative, ulp;
-  /// Where CompareOptions::metrics asks for them, of channels of depth: either of the two.
+  /// If CompareOptions::metrics requests them, for depth channels: one of the two.
   std::optional<DepthMetrics> depth_metrics;
   std::optional<DisparityMetrics> disparity_metrics;
   /// Notes for the reader, one per line: a guessed background, different types, …

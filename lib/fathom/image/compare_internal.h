@@ -78,7 +78,7 @@ PairedNames paired_channels(const DepthMap& truth, const DepthMap& other,
 struct PixelDifference {
   enum class Kind { neither, equal, different, only_truth, only_other, incommensurable };
   Kind kind = Kind::neither;
-  /// By the measure that was asked for; above 0 where `kind` is `different`.
+  /// By the requested measure; above 0 if `kind` is `different`.
   double difference = 0;
 };
 

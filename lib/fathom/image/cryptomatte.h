@@ -57,7 +57,7 @@ struct MatteLayer {
   std::vector<std::string> channels;
   /// The names by their ids, in the manifest or, for other ids, as digits: "0x3ae39a58".
   std::map<std::uint32_t, std::string> names;
-  /// As in Mattes.
+  /// As in Mattes: the number of shares at each pixel, then the shares.
   std::vector<std::uint32_t> counts;
   std::vector<MatteShare> shares;
 };

@@ -81,9 +81,10 @@ std::vector<std::byte> encode_map(const DepthMap& map, const std::string& name, 
 /// may legitimately unpack to far more memory than its reader expects.
 struct MapMemory {
   MemoryAllowance allowance = available_memory();
-  /// A file that unpacks to more than so many times its size is a small one.
+  /// A file counts as small if it unpacks to more than this many times its size.
   static constexpr double usual_ratio = 100;
-  /// The limit of those; nullopt: none but `allowance`. Two channels of 8192×8192 binary32 values.
+  /// The limit of small files; nullopt: only `allowance`. Two channels of 8192×8192 binary32
+  /// values.
   std::optional<MemoryAllowance> of_small_file =
       MemoryAllowance{std::uint64_t{1} << 29, "such a small file may unpack to", ""};
 };

@@ -26,9 +26,9 @@ inline constexpr std::uint64_t any_pixels = 0xFFFFFFFFFFFFFFFF;
 
 struct MapFormatDescription {
   MapFormat format;
-  /// In messages.
+  /// The name in messages.
   std::string_view name;
-  /// Of files' names, in small letters. The second may be empty.
+  /// Suffixes of file names, in small letters. The second may be empty.
   std::array<std::string_view, 2> suffixes;
   HeldChannels channels;
   /// Whether read_map() reads files of the format.

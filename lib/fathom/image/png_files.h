@@ -62,7 +62,7 @@ std::string_view name_of(NormalAxes axes);
 /// How normals are stored in a PNG. A pixel without a surface is black: 0, 0, 0, which no unit
 /// normal has.
 struct NormalCoding {
-  /// Of a colour: 8 or 16.
+  /// Bits of a colour: 8 or 16.
   int bits = 8;
   NormalAxes axes = NormalAxes::opencv;
 };

@@ -10,8 +10,8 @@
 #include "fathom/files/byte_order.h"
 #include "fathom/files/file_bytes.h"
 
-/// libpng without longjmp over C++ objects: whoever calls libpng keeps everything with a destructor
-/// in a struct outside the function that calls setjmp.
+/// libpng without longjmp over C++ objects: callers of libpng keep everything with a destructor in
+/// a struct outside the function that calls setjmp.
 namespace fathom::image {
 
 /// libpng's message when it gives up; libpng then jumps back to setjmp.

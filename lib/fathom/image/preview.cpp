@@ -37,8 +37,8 @@ Square square_around(const RgbImage& picture, std::size_t pixel, std::uint32_t r
           std::min(y + reach + 1, picture.height)};
 }
 
-/// How far squares reach: 0 where pixels can be seen as they are. Large pictures are drawn by every
-/// k-th pixel, which a square must not slip through.
+/// How far squares reach: 0 if single pixels are visible. Large pictures are drawn by every k-th
+/// pixel, which a square must not slip through.
 std::uint32_t reach_of_squares(const RgbImage& picture, std::size_t wrong) {
   const std::uint32_t side = std::max(picture.width, picture.height);
   const bool is_seen = side <= enlarged_up_to || wrong > picture.pixels.size() / 200;

@@ -18,7 +18,7 @@ struct RowShare {
   }
   [[nodiscard]] bool has_band(std::uint32_t band) const { return process_of_band(band) == process; }
   [[nodiscard]] bool has_row(std::uint32_t row) const { return process_of_row(row) == process; }
-  /// How many bands, of an image of so many rows.
+  /// The number of bands of this process, for an image of `rows` rows.
   [[nodiscard]] std::uint32_t bands(std::uint32_t rows) const {
     const std::uint32_t all = (rows + rows_per_band - 1) / rows_per_band;
     return all / processes + (process < all % processes ? 1 : 0);

@@ -12,7 +12,7 @@
 namespace fathom {
 namespace {
 
-/// In sixteenths of a pixel from the centre.
+/// Offsets in sixteenths of a pixel from the centre.
 /// Source   [DX11] D3D11_STANDARD_MULTISAMPLE_PATTERN; [VK13] Standard Sample Locations has the
 ///          same positions, counted from the upper left corner.
 using Sixteenths = std::vector<std::array<int, 2>>;

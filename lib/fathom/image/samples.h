@@ -36,7 +36,7 @@ class Samples {
   explicit Samples(std::size_t count)
       : data_(static_cast<T*>(allocate_zeros(bytes_of(count)))), size_(count) {}
   Samples(std::size_t count, T value) : Samples(count) { std::fill(begin(), end(), value); }
-  /// Holds whatever the memory holds.
+  /// Holds the current values of the memory.
   static Samples lent(T* memory, std::size_t count) {
     Samples samples;
     samples.data_ = memory;

@@ -10,7 +10,7 @@ namespace fathom::memory {
 void prefer_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
 #ifdef MADV_HUGEPAGE
   constexpr std::size_t page = 4096;
-  // By how much the next multiple lies behind the beginning.
+  // The distance from the beginning to the next multiple.
   const auto before = [&](std::size_t size) {
     return (size - reinterpret_cast<std::uintptr_t>(memory) % size) % size;
   };

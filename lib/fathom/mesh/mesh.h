@@ -44,7 +44,7 @@ struct Mesh {
   MeshArray<CornerIndices> texture_triangles;
   MeshArray<CornerIndices> normal_triangles;
 
-  /// At most one for each Segmentation, where the file has them and they were asked for
+  /// At most one for each Segmentation, if the file has them and they were requested
   /// (ReadOptions::segments).
   std::vector<TriangleSegments> segments;
 

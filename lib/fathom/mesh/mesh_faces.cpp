@@ -26,7 +26,7 @@ struct FanRange {
   std::size_t first, end;
 };
 
-/// The corners of a fan, as they are in `list`.
+/// The corners of a fan, from `list`.
 void ring_of_fan(std::span<const CornerIndices> list, FanRange fan,
                  std::vector<std::uint32_t>& ring) {
   ring.assign({list[fan.first][0], list[fan.first][1]});

@@ -8,7 +8,7 @@
 namespace fathom::mesh {
 namespace {
 
-/// Up to so many corners, edges are compared pair by pair: nothing is allocated for it.
+/// Rings of up to this many corners compare their edges pair by pair, without allocating memory.
 constexpr std::size_t few_corners = 64;
 
 /// Which half of the directions from a to b is in: +1 for angles in [0, π), −1 for [π, 2π).

@@ -86,7 +86,7 @@ class CornerTree {
 
   const std::vector<Point2>& points_;
   std::vector<Corner> list_;
-  /// Where a corner stands in the list.
+  /// The place of a corner in the list.
   std::vector<Corner> place_;
   std::vector<Node> nodes_;
   std::uint64_t questions_ = 0;

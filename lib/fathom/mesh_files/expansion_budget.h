@@ -16,7 +16,7 @@ namespace fathom::mesh_files {
 /// EXT_mesh_gpu_instancing is 12 bytes and becomes an Object with its own transform and name. (A
 /// glTF vertex of 4 bytes becomes 24, the index of a strip of one byte a triangle of 12.) The
 /// default is nearly twice that, and free_bytes are enough for 2,800,000 vertices or 150,000
-/// objects, whatever the file.
+/// objects of any file.
 class ExpansionBudget {
  public:
   static constexpr std::uint64_t free_bytes = std::uint64_t{64} << 20;
@@ -34,7 +34,7 @@ class ExpansionBudget {
   /// Takes `count` times `size` bytes.
   /// Fails    InputError "FILE: …" if that is more than there is left.
   void take(std::uint64_t count, std::uint64_t size);
-  /// Takes an object of so many bytes that places so many triangles.
+  /// Takes an object of `bytes` bytes that places `triangles` triangles.
   void take_object(std::uint64_t bytes, std::uint64_t triangles);
 
  private:

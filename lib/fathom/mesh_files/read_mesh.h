@@ -21,12 +21,12 @@
 /// for messages. All fail with InputError: "FILE: line N: …" (text) or "FILE: byte N: …" (binary).
 namespace fathom::mesh_files {
 
-/// Wavefront OBJ: v, vt, vn and f lines, and, if asked for, o, g and usemtl (obj_counts.h has how
-/// names are read); s, mtllib and the like are ignored, other keywords are ignored with a warning.
-/// Indices count from 1, negative ones backwards from the last one read; positive ones may point
-/// forward. `v x y z w` is the point (x/w, y/w, z/w), with a warning unless w is 1. `v x y z r g b
-/// [a]` has a colour; vertices without a colour are white. If no vertex has a z, every z is 0, with
-/// a warning. A corner whose texture coordinate or normal is not in the file has none, with a
+/// Wavefront OBJ: v, vt, vn and f lines and, if requested, o, g and usemtl (names: ObjSegments); s,
+/// mtllib and similar keywords are ignored, other keywords are ignored with a warning. Indices
+/// count from 1, negative ones backwards from the last one read; positive ones may point forward.
+/// `v x y z w` is the point (x/w, y/w, z/w), with a warning unless w is 1. `v x y z r g b [a]` has
+/// a colour; vertices without a colour are white. If no vertex has a z, every z is 0, with a
+/// warning. A corner whose texture coordinate or normal is not in the file has none, with a
 /// warning. Read in parallel, with a result that does not depend on it.
 Mesh read_obj(std::string_view text, const std::string& file, const ReadOptions& options,
               Warnings& warnings);

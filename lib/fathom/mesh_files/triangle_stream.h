@@ -24,12 +24,11 @@ struct TriangleChunk {
 /// the numbers and corners that read_scene() gives them, bit for bit.
 ///
 /// The file has been read through once and checked, with the messages of the ordinary readers,
-/// unless that was not asked for (ReadOptions::check_when_opened); it must not change while the
-/// stream exists; where it is seen to have, reading fails. Memory: for an STL none that grows with
-/// the file; for a PLY 4 MiB of its vertices, or all of them mapped (ReadOptions::map_large_files),
-/// and if not all faces have three corners, they take 24 bytes for every 256 of the file's faces;
-/// strips take 48 for every 1024 corners. (If vertices have list properties: 24 bytes per vertex
-/// instead.)
+/// unless ReadOptions::check_when_opened is false. It must not change while the stream exists;
+/// reading fails if a change is noticed. Memory: for an STL none that grows with the file; for a
+/// PLY 4 MiB of its vertices, or all of them mapped (ReadOptions::map_large_files), and if not all
+/// faces have three corners, they take 24 bytes for every 256 of the file's faces; strips take 48
+/// for every 1024 corners. (If vertices have list properties: 24 bytes per vertex instead.)
 ///
 /// Several threads may read at the same time.
 class TriangleStream {
@@ -50,10 +49,10 @@ class TriangleStream {
   };
   [[nodiscard]] virtual std::optional<Bounds> bounds() const = 0;
 
-  /// Where the file was opened without being read through (ReadOptions::check_when_opened), looks
-  /// at one of `parts` equal parts of what reading triangles does not look at. False: the file is
-  /// not what its size let suppose, and has to be opened again and read through.
-  /// Fails    InputError, as when it is read through.
+  /// For a file that was opened without reading it (ReadOptions::check_when_opened): checks one of
+  /// `parts` equal parts of the data that reading triangles does not check. False: the file does
+  /// not have the layout that its size suggested, and must be opened again and read completely.
+  /// Fails    InputError, as when the whole file is read.
   [[nodiscard]] virtual bool check_part(std::uint64_t /*part*/, std::uint64_t /*parts*/) const {
     return true;
   }
@@ -76,7 +75,7 @@ class TriangleStream {
     return unsegmented;
   }
 
-  /// The file and, if it was asked for, its hash.
+  /// The file and, if requested, its hash.
   Source source;
 };
 

@@ -14,7 +14,7 @@ namespace fathom {
 ///          the numbers of cameras with lenses stay below.
 class BigInterval {
  public:
-  /// The narrowest interval of so many bits that contains x.
+  /// The narrowest interval of `bits` bits that contains x.
   BigInterval(const Dyadic& x, long bits) : BigInterval(x, x, bits) {}
   /// Contains low and high; low ≤ high.
   BigInterval(const Dyadic& low, const Dyadic& high, long bits);

@@ -7,8 +7,8 @@
 #include "fathom/numeric/certified_value.h"
 
 /// Logarithms and exponentials of double-words, with bounds on their errors: about 80 bits, for
-/// values that are rounded to binary32 or to a code (transcendental.h gives as many bits as are
-/// asked for).
+/// values that are rounded to binary32 or to a code (transcendental.h computes as many bits as the
+/// caller needs).
 ///
 /// Method ([Tan89], [Tan90]). y = 2^e·c·(1 + r) with c a multiple of 1/64 and |r| ≤ 0.0112, so that
 /// log y = e·log 2 + log c + log(1 + r); exp y = 2^(k/64)·exp(r) with |r| ≤ 0.00542. Constants are

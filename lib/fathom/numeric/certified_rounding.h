@@ -16,8 +16,8 @@ namespace fathom {
 /// Magnitudes for which the bounds of the fast engine's channels are derived.
 inline constexpr double least_safe = 0x1p-100, greatest_safe = 0x1p100;
 
-/// By how much of the value an interval is widened for the rounding of its ends, and by how much a
-/// distance is for its own (validation/proofs/depth/rounding_*.gappa.in).
+/// The relative widening of an interval for the rounding of its ends, and of a distance for its own
+/// rounding (validation/proofs/depth/rounding_*.gappa.in).
 inline constexpr double interval_widening = 0x1p-51, distance_room = 1 + 0x1p-50;
 /// How much of the leading word certainly is of the number.
 inline constexpr double sign_room = 1 - 0x1p-50;

@@ -17,7 +17,7 @@ class ExactPolynomial {
   /// A constant.
   ExactPolynomial(const Dyadic& constant);
   ExactPolynomial(double constant) : ExactPolynomial(Dyadic(constant)) {}
-  /// By ascending powers.
+  /// Coefficients by ascending powers.
   explicit ExactPolynomial(std::vector<Dyadic> coefficients);
   /// The variable itself.
   static ExactPolynomial variable() { return ExactPolynomial({Dyadic(), Dyadic(1.0)}); }
@@ -52,11 +52,11 @@ T horner(const std::vector<T>& coefficients, const T& x) {
 /// p times a positive number, so that the coefficients are integers without a common divisor.
 ExactPolynomial primitive(const ExactPolynomial& p);
 
-/// Counts real roots exactly, each once, whatever its multiplicity.
-/// Sturm's theorem, with primitive pseudo-remainders.
+/// Counts real roots exactly, each once, regardless of its multiplicity. Sturm's theorem, with
+/// primitive pseudo-remainders.
 class SturmChain {
  public:
-  /// Of a polynomial other than 0.
+  /// The chain of a polynomial other than 0.
   explicit SturmChain(const ExactPolynomial& p);
   [[nodiscard]] int real_roots() const;
   [[nodiscard]] int positive_roots() const;
@@ -77,15 +77,14 @@ std::optional<double> greatest_before_positive_root(const ExactPolynomial& p);
 ///
 /// With P the irreducible factor of f that has the root q and leading coefficient p, Res(P, h) is
 /// an integer other than 0, the product of p^m and all h(qᵢ), qᵢ the roots of P; each of the others
-/// is at most ‖h‖₁·max(1, |qᵢ|)^m; and p·Π max(1, |qᵢ|), the measure of P, is at most that of f,
-/// which is at most ‖f‖₂ (Landau).
-/// (Mignotte, Mathematics for Computer Algebra.)
+/// is at most ‖h‖₁·max(1, |qᵢ|)^m; and p·Π max(1, |qᵢ|), the measure of P, is at most the measure
+/// of f, which is at most ‖f‖₂ (Landau). (Mignotte, Mathematics for Computer Algebra.)
 long zero_bound_bits(const ExactPolynomial& f, const ExactPolynomial& h);
 
 /// A quadratic form on three coordinates with exact coefficients: squares of linear forms, and sums
 /// of such squares, on the directions of rays.
 struct QuadraticForm {
-  /// Of x², y², z², xy, xz and yz.
+  /// The coefficients of x², y², z², xy, xz and yz.
   std::array<Dyadic, 6> coefficients;
 
   QuadraticForm& operator+=(const QuadraticForm& other);

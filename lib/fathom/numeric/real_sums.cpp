@@ -73,7 +73,7 @@ void to_even_exponent(const Dyadic& x, mpz_ptr significand, long& exponent) {
   if (is_odd) --exponent;
 }
 
-/// Bounds of √x with at least so many bits.
+/// Bounds of √x with at least `bits` bits.
 Enclosure root(const Dyadic& x, long bits) {
   Integer m, s, rest;
   long exponent = 0;

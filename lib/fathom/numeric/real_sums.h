@@ -16,7 +16,7 @@ Real real_sum(std::vector<Ratio> terms);
 Real real_quotient(std::vector<Ratio> over, std::vector<Ratio> under);
 
 /// Encloses the quotients of all numbers of two enclosures.
-/// Needs    an `under` of which both ends are positive.
+/// Needs    both ends of `under` are positive.
 Enclosure quotient(const Enclosure& over, const Enclosure& under);
 
 /// A sum Σ qᵢ·√rᵢ of roots, with rational qᵢ and dyadic rᵢ > 0.
@@ -44,7 +44,7 @@ class RootSum {
   };
   /// The terms by classes: each has one radicand, and the sum of the factors.
   [[nodiscard]] std::vector<Term> by_classes() const;
-  /// With an error of about 2⁻ᵇⁱᵗˢ of the greatest term.
+  /// An enclosure with an error of about 2⁻ᵇⁱᵗˢ of the greatest term.
   [[nodiscard]] Enclosure enclose(long bits) const;
 
   std::vector<Term> terms_;

@@ -23,11 +23,11 @@ struct BopInstance {
 /// An image of a BOP scene. The world is the camera's frame, in which the file has its poses.
 struct BopImage {
   std::uint64_t id = 0;
-  /// Named as the files of the image are: "000017".
+  /// The camera; its name is the name of the image's files: "000017".
   Camera camera;
-  /// Millimetres of a unit of its depth image.
+  /// The unit of its depth image in millimetres.
   double depth_scale = 1;
-  /// In the order of the file.
+  /// The instances in the order of the file.
   std::vector<BopInstance> instances;
 };
 
@@ -46,13 +46,13 @@ class BopModels {
   BopModels(const std::filesystem::path& folder, const std::vector<BopImage>& images,
             const ReadOptions& options, Warnings& warnings);
 
-  /// What some instances show: an object for each, in their order. Valid until the next call.
+  /// The scene of some instances: an object for each, in their order. Valid until the next call.
   const Scene& scene_of(std::span<const BopInstance> instances);
   [[nodiscard]] const std::vector<Source>& sources() const { return scene_.sources; }
 
  private:
   Scene scene_;
-  /// The objects of the models as they are in their files, and the numbers of the models.
+  /// The objects of the models' files, and the numbers of the models.
   std::vector<Object> models_;
   std::vector<std::uint32_t> numbers_;
 };

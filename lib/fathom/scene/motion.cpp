@@ -32,12 +32,12 @@ ObjectMotion read_object(const JsonValue& object) {
   return motion;
 }
 
-/// Of a message about one of its objects.
+/// The beginning of messages about one of its objects.
 std::string start_of(const Motion& motion, const std::string& object) {
   return motion.file + ": object " + printable(object) + ": ";
 }
 
-/// What somebody filled in.
+/// Checks a motion that a caller filled in.
 void require_meaningful(const Motion& motion) {
   for (const ObjectMotion& m : motion.objects) {
     const std::string name = start_of(motion, m.object);

@@ -10,7 +10,7 @@
 /// Objects that move: a scene at any time.
 namespace fathom {
 
-/// Where an object is at a time, from where the scene places it: applied after its placement.
+/// The displacement of an object at a time, applied after its placement in the scene.
 struct Keyframe {
   double time = 0;
   WorldFromMesh world_from_placed;

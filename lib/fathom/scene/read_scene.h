@@ -11,7 +11,7 @@
 namespace fathom {
 
 /// Reads meshes (OBJ, PLY, STL, OFF, glTF/GLB) and scene files (JSON) in the order given into one
-/// scene. Formats are recognised by content, whatever the suffix is. "-" is standard input.
+/// scene. Formats are recognised by content, regardless of the suffix. "-" is standard input.
 ///
 /// Fails    InputError: one line, "FILE: line N: the fault and the expectation" (text), or
 ///          "FILE: byte N: …" (binary). More than 2³² − 2 triangles in all are an error.

@@ -134,7 +134,7 @@ const char* name_of(Segmentation by) {
   return "labels";
 }
 
-/// A number for each of so many triangles, or one for all.
+/// Numbers must be one for each of `triangles` triangles, or a single one for all.
 Fault find_fault_of_segments(const TriangleSegments& segments, std::size_t triangles) {
   const char* const name = name_of(segments.by);
   const bool are_labels = segments.by == Segmentation::label;
@@ -262,7 +262,7 @@ Fault find_fault_of_draw_states(const Scene& scene) {
   return std::nullopt;
 }
 
-/// With the vertices and triangles of the meshes for which `looked_at` holds.
+/// Also checks the vertices and triangles of the meshes for which `looked_at` holds.
 Fault find_fault(const Scene& scene, const std::vector<bool>& looked_at) {
   if (auto fault = find_fault_of_objects(scene)) return fault;
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {

@@ -21,7 +21,7 @@ WorldFromMesh read_transform(const text::JsonValue& value);
 
 /// One mesh of a scene file.
 struct PlacedFile {
-  /// As the scene file gives it; relative paths start from the scene file's folder.
+  /// The path in the scene file; relative paths start from the scene file's folder.
   std::filesystem::path file;
   std::optional<std::string> name;
   std::optional<WorldFromMesh> transform;

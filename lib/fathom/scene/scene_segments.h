@@ -17,10 +17,11 @@ namespace fathom {
 ///
 /// Names are numbered from 0 through all objects in their order, and within a mesh as it lists
 /// them: a name has one number, in however many files it stands. Labels are the numbers of their
-/// files. A view: the scene must outlive it unchanged. Several threads may ask at the same time.
+/// files. Refers to the scene, which must outlive it unchanged. Several threads may ask at the
+/// same time.
 class SceneSegments {
  public:
-  /// Of these segmentations.
+  /// The segments of these segmentations.
   /// Fails    InputError if an object names no mesh.
   SceneSegments(const TriangleSource& triangles, const std::vector<Segmentation>& wanted);
 
@@ -42,7 +43,7 @@ class SceneSegments {
  private:
   /// Where the numbers of an object's triangles are.
   struct OfObject {
-    /// Of all triangles, if the mesh has no numbers for them.
+    /// The number of all triangles, if the mesh has no numbers for them.
     std::uint32_t number = unsegmented;
     const TriangleSegments* of_mesh = nullptr;
     /// The scene's number for each of the mesh's; empty for labels.

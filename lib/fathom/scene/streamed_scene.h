@@ -25,7 +25,7 @@ struct StreamedScene {
 StreamedScene stream_scene(const std::vector<std::filesystem::path>& files,
                            const ReadOptions& options, Warnings& warnings);
 
-/// As of a Scene.
+/// The same as for a Scene.
 std::uint64_t triangle_count(const StreamedScene& scene);
 TriangleOrigin origin_of(const StreamedScene& scene, std::uint32_t number);
 

@@ -10,8 +10,8 @@
 
 namespace fathom {
 
-/// Triangles by number, whether the scene is in memory or in files. A view: the scene must outlive
-/// it unchanged. Thread-safe.
+/// Triangles by number, whether the scene is in memory or in files. Refers to the scene, which
+/// must outlive it unchanged. Thread-safe.
 /// Fails    std::out_of_range unless `number` is below count(); InputError if a file of a
 ///          StreamedScene has changed or cannot be read any more, or if the requested triangle has
 ///          a fault. require_valid() (scene_fault.h) checks the whole scene.

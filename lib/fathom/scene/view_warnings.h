@@ -53,8 +53,8 @@ struct ViewWarning {
 /// Fails    never; a camera with a fault (find_fault) gets no warning.
 std::vector<ViewWarning> warnings_of_camera(const Camera& camera);
 
-/// Of a camera that looks at a scene, given how many pixels of its map show it:
-/// - none: what there is to see lies behind the camera, outside the image or the range of depth, or
+/// Warnings about a camera that looks at a scene, given how many pixels of its map show the scene:
+/// - none: the scene lies behind the camera, outside the image or the range of depth, or
 ///   between pixel centres; and which other reading of the matrix would show it, if one does;
 /// - a speck: the scene is a thousand times too small (metres mixed with poses in millimetres);
 /// - every pixel: the eye is inside a closed object whose triangles face outwards, or the object

@@ -12,7 +12,7 @@ inline std::string counted(std::uint64_t count, std::string_view one, std::strin
   return std::to_string(count).append(" ").append(count == 1 ? one : many);
 }
 
-/// Of a thing whose plural is formed with an s: "1 pixel", "2 pixels".
+/// The same for a plural with s: "1 pixel", "2 pixels".
 inline std::string counted(std::uint64_t count, std::string_view one) {
   return counted(count, one, std::string(one) + "s");
 }

@@ -80,7 +80,7 @@ class JsonDocument {
   [[nodiscard]] JsonValue root() const { return {*value_, file_, ""}; }
 
  private:
-  /// By a pointer, so that whoever reads JSON by this header does not compile nlohmann's.
+  /// A pointer, so that users of this header do not compile nlohmann's.
   std::unique_ptr<const nlohmann::json> value_;
   std::string file_;
 };

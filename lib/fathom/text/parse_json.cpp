@@ -65,7 +65,7 @@ class Builder {
   struct Level {
     Json* value;
     JsonStep step;
-    /// Of an object that does not sort its keys itself.
+    /// The keys of an object type that does not sort them itself.
     std::set<std::string> keys;
   };
 

@@ -9,8 +9,8 @@
 
 #include "fathom/failures/errors.h"
 
-/// The one door through which JSON comes in, from files, from texts within files, and from other
-/// processes. Only for .cpp files and internal headers.
+/// The only function that parses JSON: of files, of texts within files, and of other processes.
+/// Only for .cpp files and internal headers.
 namespace fathom::text {
 
 /// How many lists and objects may stand in each other. Copying, comparing and writing nlohmann's
@@ -35,7 +35,7 @@ class JsonFault : public InputError {
   [[nodiscard]] Kind kind() const { return kind_; }
   /// How many bytes had been read, the one at fault included; only for Kind::syntax.
   [[nodiscard]] std::size_t byte() const { return byte_; }
-  /// From the root to the value at fault.
+  /// The steps from the root to the faulty value.
   [[nodiscard]] const std::vector<JsonStep>& path() const { return path_; }
 
  private:
@@ -47,7 +47,7 @@ class JsonFault : public InputError {
 /// Reads a document into `root`; Json is nlohmann::json or nlohmann::ordered_json. Where it fails,
 /// `root` holds what had been read by then.
 ///
-/// Cost     n log n of n bytes, whatever they are.
+/// Cost     n log n of n bytes, for all inputs.
 /// Fails    JsonFault where the text is no JSON, NUL behind it included, and for what nlohmann
 ///          would accept: a key twice in one object, a number beyond binary64, more than
 ///          `deepest_json` levels.

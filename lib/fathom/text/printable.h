@@ -15,7 +15,7 @@ struct Utf8Character {
   std::size_t size;
 };
 
-/// Of a text that is not empty.
+/// Needs a text that is not empty.
 Utf8Character first_character(std::string_view text);
 
 /// A text as UTF-8: itself, or, where it is not, each of its bytes as the character that it is in

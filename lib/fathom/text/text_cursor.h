@@ -156,7 +156,7 @@ class TextCursor {
   /// Reads a decimal integer [+-] digits at `first`, and returns the position after it; nullptr if
   /// there is no integer or it does not fit.
   static const char* parse_integer(const char* first, const char* last, std::int64_t& value) {
-    constexpr std::size_t most_digits = 18;  // any of so many fit
+    constexpr std::size_t most_digits = 18;  // all numbers of this many digits fit
     const char* at = first;
     const DigitRun digits = read_digits(at, last);
     if (digits.count == 0 || digits.count > most_digits)

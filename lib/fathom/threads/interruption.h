@@ -6,11 +6,11 @@
 /// Ends long work early, from another thread.
 namespace fathom {
 
-/// Thrown where work ends because that was asked for. Not an Error (errors.h): nothing is wrong.
+/// Thrown when work ends on request. Not an Error (errors.h): nothing is wrong.
 struct Interrupted {};
 
-/// Where a request to end the work of a thread would be: true once it has been made; nullptr where
-/// nobody can make one.
+/// Points to a flag that is true as soon as the end of a thread's work is requested; nullptr if no
+/// request is possible.
 using InterruptionRequest = const std::atomic<bool>*;
 
 /// The request that the work of this thread obeys.

@@ -11,7 +11,7 @@
 #include <utility>
 
 /// Parallel work, and reports of its progress. oneTBB does it, in one .cpp: its headers take
-/// seconds to compile. All of it runs in StandardArithmetic, whatever the threads do otherwise.
+/// seconds to compile. All of it runs in StandardArithmetic.
 namespace fathom {
 
 /// Calls work(0), …, work(count − 1), several at the same time, in the threads of with_threads() or
@@ -26,16 +26,16 @@ void parallel_for(Index first, Index end, const Work& work) {
               [&](std::size_t i) { work(static_cast<Index>(first + static_cast<Index>(i))); });
 }
 
-/// The most threads that can be asked for.
+/// The greatest number of threads that can be requested.
 inline constexpr int most_threads = 1024;
 
-/// Refuses a number of threads that cannot be asked for.
+/// Refuses numbers of threads outside that range.
 /// Fails    UsageError "threads: expected …" unless 0 ≤ threads ≤ most_threads.
 void require_thread_count(int threads);
 
-/// Runs `work` with as many threads as asked for; 0: all. Several threads may call at the same
-/// time, and `work` may call again; no setting of the process changes. Therefore the number is
-/// limited to TBB's threads: as many as the machine has, unless the program changes that
+/// Runs `work` with this many threads; 0: all. Several threads may call at the same time, and
+/// `work` may call again; no setting of the process changes. Therefore the number is limited to
+/// TBB's threads: as many as the machine has, unless the program changes that
 /// (tbb::global_control).
 /// Fails    UsageError as require_thread_count().
 void run_with_threads(int threads, const std::function<void()>& work);

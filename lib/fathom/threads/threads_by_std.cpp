@@ -68,7 +68,7 @@ class Pieces {
 
   std::size_t count_;
   const std::function<void(std::size_t)>& work_;
-  /// Of the thread that asked for the work.
+  /// The request of the thread that started the work.
   InterruptionRequest request_ = current_interruption();
   std::atomic<std::size_t> next_ = 0;
   std::mutex mutex_;

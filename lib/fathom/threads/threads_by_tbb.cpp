@@ -55,9 +55,9 @@ class PossibleThreads {
   bool short_of_threads_ = false;
 };
 
-/// Arenas that nobody works in, by the number of their threads. oneTBB 2021.8 loses 7 KB with each
-/// arena that ends, so arenas are kept for the next call. Each call has one to itself: calls that
-/// shared one would wait for each other.
+/// Idle arenas, by the number of their threads. oneTBB 2021.8 loses 7 KB with each arena that ends,
+/// so arenas are kept for the next call. Each call has one to itself: calls that shared one would
+/// wait for each other.
 class IdleArenas {
  public:
   std::unique_ptr<tbb::task_arena> take(int threads) {
@@ -106,7 +106,7 @@ ProcessThreads& process_threads() {
   return *found;
 }
 
-/// Runs `work` in an arena of so many threads, or of as many as the system gives.
+/// Runs `work` in an arena of this many threads, or of as many as the system starts.
 template <class Work>
 void run_in_arena(int threads, const Work& work) {
   ProcessThreads& shared = process_threads();

@@ -24,7 +24,7 @@ using ProjectionMatrix = std::array<std::array<double, 4>, 3>;
 
 /// P = K·[I | t] of a rectified camera, from rectified camera 0.
 struct RectifiedCamera {
-  /// Of the folder with its images.
+  /// The name of the folder with its images.
   std::string name;
   std::string where;
   ProjectionMatrix P{};
@@ -118,7 +118,7 @@ std::array<Ratio, 3> offset_of(const ProjectionMatrix& P) {
 /// [A⁻¹ | t − A⁻¹·b] of camera 0's pose [A | b] in the world, each entry rounded once.
 Pose beside(const Pose& world_from_camera0, const std::array<Ratio, 3>& t,
             const std::string& where) {
-  // The inverse's rotation as it is; of its translation the exact one, plus t.
+  // The rotation of the inverse; its exact translation, plus t.
   Pose pose = camera_from_world(world_from_camera0, PoseDirection::camera_to_world,
                                 CameraAxes::opencv, where);
   const auto exact = exact_inverse(world_from_camera0);

@@ -49,8 +49,6 @@ double number_of(const std::string& word, const std::string& where);
 /// The numbers that are left on a line, as number_of().
 std::vector<double> rest_of(Line& line);
 
-/// From a lens and the poses of a data set to its cameras: what all layouts share. Only for .cpp
-/// files of this room.
 /// Fails    InputError, beginning with `where`.
 
 /// fx s cx, 0 fy cy, 0 0 1.

@@ -217,7 +217,7 @@ DepthMap read_part(Imf::InputPart& part, std::size_t file_bytes, const MapMemory
       Samples<std::uint32_t> values(pixels);
       add(channel.name(), Imf::UINT, values.data());
       map.channels.push_back({channel.name(), std::move(values)});
-    } else {  // FLOAT as it is, HALF widened
+    } else {  // FLOAT unchanged, HALF widened
       Samples<float> values(pixels);
       add(channel.name(), Imf::FLOAT, values.data());
       map.channels.push_back({channel.name(), std::move(values)});

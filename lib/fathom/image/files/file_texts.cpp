@@ -33,7 +33,7 @@ std::string text_name_of(std::string_view channel) {
   return "fathom." + std::string(channel) + "s";
 }
 
-/// The channel whose names a text has.
+/// The channel whose names a text lists.
 std::optional<std::string_view> channel_of_text(std::string_view text_name) {
   const auto found = std::ranges::find_if(
       named_channels, [&](std::string_view channel) { return text_name_of(channel) == text_name; });

@@ -98,7 +98,7 @@ ImageVector operator-(const ImageVector& a, const ImageVector& b) {
   return {a.u - b.u, a.v - b.v};
 }
 
-/// Of an orthographic camera, so that nothing is divided.
+/// For orthographic cameras, whose projection does not divide.
 ImageVector image_of(const Camera& camera, const WorldPoint& X) {
   const HomogeneousImagePoint p = to_image(camera.projection, to_camera(camera.world_to_camera, X));
   return {p.U, p.V};

@@ -19,7 +19,7 @@ class TiffDirectory {
   void add_short(std::uint16_t tag, std::span<const std::uint16_t> values);
   void add_long(std::uint16_t tag, std::span<const std::uint32_t> values);
   void add_double(std::uint16_t tag, std::span<const double> values);
-  /// With the zero byte that ends it; the text has none.
+  /// Adds a terminating zero byte; the text must not contain one.
   void add_text(std::uint16_t tag, const std::string& text);
 
   void add_short(std::uint16_t tag, std::uint16_t value) { add_short(tag, std::span(&value, 1)); }

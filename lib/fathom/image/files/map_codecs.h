@@ -73,7 +73,7 @@ std::vector<std::size_t> check_exr_claims(files::ByteView bytes, const std::stri
 struct DeepClaims {
   /// As check_exr_claims() returns them.
   std::vector<std::size_t> defused;
-  /// Of the samples of all rows, unpacked.
+  /// The unpacked size of the samples of all rows.
   std::uint64_t sample_bytes = 0;
 };
 /// The same for deep scan lines in one part.

@@ -108,7 +108,7 @@ Matrix4 ndc_from_world(const Camera& camera) {
   return m;
 }
 
-/// nullptr unless there are so many under the name.
+/// nullptr unless the name has exactly this many numbers.
 const std::vector<double>* numbers_named(const ExrNumbers& numbers, const std::string& name,
                                          std::size_t count) {
   const auto found = numbers.find(name);

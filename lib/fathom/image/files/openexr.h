@@ -17,7 +17,7 @@
 namespace fathom::image {
 
 /// OpenEXR reading from bytes in memory. At the positions `defused` (see check_exr_claims()) it
-/// sees the letter X, whatever is there.
+/// reads the letter X.
 class ByteInput : public Imf::IStream {
  public:
   ByteInput(files::ByteView bytes, const std::string& name, std::vector<std::size_t> defused)
@@ -80,9 +80,9 @@ class ByteOutput : public Imf::OStream {
   std::size_t position_ = 0, end_of_table_ = 0;
 };
 
-/// Lets OpenEXR use so many threads, 0 meaning all of the machine's, and returns their number,
-/// which is less where the system gives no more.
-/// OpenEXR has one pool for the whole process, which grows to that number and never shrinks.
+/// Lets OpenEXR use this many threads (0: all of the machine). Returns the number of threads, which
+/// is smaller if the system starts no more. OpenEXR has one pool for the whole process, which grows
+/// to that number and never shrinks.
 int reserve_exr_threads(int threads);
 
 /// OpenEXR's message about a failure, on one line.

@@ -244,7 +244,7 @@ ImageChannel mask_from(const Reading& reading, std::uint64_t pixels) {
   return {"mask", std::move(mask)};
 }
 
-/// Codes, or identifiers if the file says so (png_file.cpp).
+/// Codes or, if the file declares them, identifiers.
 ImageChannel channel_from(Samples<std::uint16_t> codes, DepthMap& map) {
   const std::string channel = take_text(map, channel_text).value_or("Z");
   if (take_text(map, type_text) != "identifier") return {channel, std::move(codes)};

@@ -40,7 +40,7 @@ namespace {
 
 using Normal = std::array<float, 3>;
 
-/// Where the three are 0, no surface is.
+/// 0 in all three means no surface.
 bool is_none(const Normal& n) {
   return n == Normal{0, 0, 0};
 }

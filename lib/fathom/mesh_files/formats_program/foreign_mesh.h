@@ -32,7 +32,7 @@ class ForeignMeshBuilder {
                      ExpansionBudget& budget)
       : meshes_(meshes), file_(std::move(file)), attributes_(attributes), budget_(budget) {}
 
-  /// Of the meshes with these numbers, one after the other.
+  /// Joins the meshes with these numbers, one after the other.
   /// Fails    InputError: a vertex that does not exist, a coordinate that is not finite.
   Mesh build(const MessageList<std::uint32_t>& numbers);
 

@@ -13,7 +13,7 @@
 
 /// The messages between the library and the program fathom-formats over a socket. A request is a
 /// RequestHead, its parameters and the bytes to read; a reply is a ReplyHead and its bytes. Numbers
-/// have the machine's format. For the .cpp files of this room and of that program only.
+/// have the machine's format. Only for .cpp files of this module and of that program.
 namespace fathom::mesh_files::formats_program {
 
 /// The program is started as `fathom-formats --serve VERSION`, and ends with this status where its
@@ -42,9 +42,9 @@ struct DracoAttribute {
 
 struct RequestHead {
   Task task = Task::assimp;
-  /// Of processor time that the program may take for this request.
+  /// Limit of processor time for this request.
   std::uint32_t seconds = 0;
-  /// Of addresses that the program may have, in bytes.
+  /// Limit of the program's address space, in bytes.
   std::uint64_t memory = 0;
   std::uint64_t parameter_bytes = 0;
   std::uint64_t bytes = 0;

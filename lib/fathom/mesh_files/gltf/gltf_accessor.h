@@ -16,7 +16,7 @@
 #include "fathom/mesh_files/gltf/gltf_decoders.h"
 #include "fathom/text/json_value.h"
 
-/// The parts of buffers that accessors look at. For this room's .cpp files only.
+/// The parts of buffers that accessors look at. Only for .cpp files of this module.
 /// Source   [GLTF20] 3.6.1.2 (buffer views)
 namespace fathom::mesh_files {
 
@@ -33,8 +33,8 @@ class GltfBufferViews {
   GltfBufferViews(const text::JsonValue& root, GltfBuffers& buffers, GltfDecoders& decoders)
       : root_(root), buffers_(buffers), decoders_(decoders) {}
 
-  /// The view that `reference` names by its number. Whatever an accessor reads comes from here. A
-  /// compressed view is decoded, once, where the asset does not also have its bytes as they are.
+  /// The view that `reference` names by its number. All reads of accessors use this function. A
+  /// compressed view is decoded, once, unless the asset also has its uncompressed bytes.
   /// Fails    InputError if there is no such view, it reaches beyond its buffer, or it cannot be
   ///          decoded.
   GltfBufferView at(const text::JsonValue& reference);
@@ -51,7 +51,7 @@ class GltfBufferViews {
   std::map<std::uint64_t, Bytes> decoded_;
 };
 
-// The numbers of a glTF asset. For this room's .cpp files only.
+// The numbers of a glTF asset. Only for .cpp files of this module.
 // Source   [GLTF20] 3.6.2 (accessors), 3.6.2.3 (sparse)
 
 /// The numeric types of accessors, with glTF's codes.
@@ -127,7 +127,7 @@ class GltfAccessor {
   GltfLayout replaced_, replacements_;
 };
 
-/// The accessors of an asset, each opened when it is first asked for.
+/// The accessors of an asset, each opened at its first use.
 class GltfAccessors {
  public:
   /// `root`, `views` and `budget` must outlive this.
@@ -140,7 +140,7 @@ class GltfAccessors {
   [[nodiscard]] text::JsonValue description(const text::JsonValue& reference) const;
   [[nodiscard]] const text::JsonValue& root() const { return root_; }
   [[nodiscard]] GltfBufferViews& views() const { return views_; }
-  /// To be asked before elements are copied anywhere.
+  /// Must be called before elements are copied.
   [[nodiscard]] ExpansionBudget& budget() const { return budget_; }
 
  private:

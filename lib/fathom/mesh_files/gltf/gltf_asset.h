@@ -13,7 +13,7 @@
 /// lists. For this room's .cpp files only.
 namespace fathom::mesh_files {
 
-/// Of the integers of a glTF file, if nothing else limits one.
+/// The greatest integer of a glTF file if nothing else limits it.
 inline constexpr std::uint64_t largest_integer = std::numeric_limits<std::uint64_t>::max();
 
 inline std::uint64_t optional_integer(const text::JsonValue& object, const char* key,

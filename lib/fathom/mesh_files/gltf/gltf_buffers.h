@@ -15,7 +15,7 @@
 #include "fathom/mesh_files/read_options.h"
 #include "fathom/text/json_value.h"
 
-/// Where the bytes of a glTF asset come from. For this room's .cpp files only.
+/// The sources of the bytes of a glTF asset. Only for .cpp files of this module.
 /// Source   [GLTF20] 3.6.1 (buffers), 4 (GLB)
 namespace fathom::mesh_files {
 
@@ -81,7 +81,7 @@ class GltfBuffers {
   files::InputFile::Reading reading_;
   ExpansionBudget& budget_;
   std::map<std::uint64_t, Bytes> loaded_;
-  /// By where they lie: many buffers may name the same file.
+  /// Loaded files by their paths: many buffers may name the same file.
   std::map<std::filesystem::path, Bytes> loaded_files_;
   std::vector<std::vector<std::byte>> storage_;
   std::vector<std::unique_ptr<files::InputFile>> files_;

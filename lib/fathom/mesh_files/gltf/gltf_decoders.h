@@ -11,7 +11,7 @@
 #include "fathom/text/json_value.h"
 
 /// The compressed parts of a glTF asset, which the program fathom-formats decodes by others'
-/// libraries. For this room's .cpp files only.
+/// libraries. Only for .cpp files of this module.
 /// Source   [KDMC18], [EMC20]
 namespace fathom::mesh_files {
 

@@ -33,7 +33,7 @@ namespace {
 
 constexpr const char* draco_extension = "KHR_draco_mesh_compression";
 
-/// Of each attribute, what glTF calls it and where it is wanted.
+/// glTF's name of an attribute, and its member here.
 struct NamedAttribute {
   const char* name;
   std::shared_ptr<const GltfAccessor> GltfPrimitiveAccessors::*accessor;

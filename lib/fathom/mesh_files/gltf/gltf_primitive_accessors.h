@@ -6,13 +6,12 @@
 #include "fathom/mesh_files/gltf/gltf_accessor.h"
 #include "fathom/text/json_value.h"
 
-/// What a glTF primitive is made of. For this room's .cpp files only.
-/// Source   [GLTF20] 3.7.2 (geometry)
-/// Primitives that are compressed by Draco. For this room's .cpp files only.
-/// Source   [KDMC18]
+/// The parts of a glTF primitive, also of primitives compressed by Draco. Only for .cpp files of
+/// this module.
+/// Source   [GLTF20] 3.7.2 (geometry); [KDMC18]
 namespace fathom::mesh_files {
 
-/// The accessors of a primitive; null where it has none, or none was asked for.
+/// The accessors of a primitive; null if it is missing or was not requested.
 struct GltfPrimitiveAccessors {
   std::shared_ptr<const GltfAccessor> positions, texture_coordinates, normals, colours, indices;
 };
@@ -23,8 +22,8 @@ struct GltfPrimitiveAccessors {
 GltfPrimitiveAccessors open_primitive(const text::JsonValue& primitive, GltfAccessors& accessors,
                                       bool attributes);
 
-/// The extension of a primitive that has to be decoded: of one whose positions are not also there
-/// as they are, and of every one of an asset that requires the extension.
+/// The Draco extension of a primitive that must be decoded: of a primitive without uncompressed
+/// positions, and of every primitive if the asset requires the extension.
 std::optional<text::JsonValue> draco_of(const text::JsonValue& primitive,
                                         const GltfAccessors& accessors);
 

@@ -13,7 +13,7 @@
 #include "fathom/mesh_files/gltf/gltf_asset.h"
 #include "fathom/mesh_files/gltf/gltf_primitive_accessors.h"
 
-/// Triangles of glTF meshes. For this room's .cpp files only.
+/// Triangles of glTF meshes. Only for .cpp files of this module.
 /// Source   [GLTF20] 3.7.2 (geometry); [KMQ22]
 namespace fathom::mesh_files {
 

@@ -48,9 +48,9 @@ class ObjSegments {
  public:
   explicit ObjSegments(Segmentation by) : segments_{by, {}, {}} {}
 
-  /// The lines of the next piece, before which there are so many triangles.
+  /// The lines of the next piece, which `triangles_before` triangles precede.
   void add(const std::vector<ObjSegmentLine>& lines, std::uint64_t triangles_before);
-  /// Of a mesh of so many triangles; without numbers if none has a name.
+  /// The segments of a mesh of `triangles` triangles; without numbers if no triangle has a name.
   TriangleSegments finish(std::uint64_t triangles);
 
  private:
@@ -110,7 +110,7 @@ struct ObjCounts {
     if (corners > 2) triangles += corners - 2;
   }
 
-  /// Of so many words, or at least six.
+  /// A vertex of `words` words; 6 means at least six.
   void add_vertex(int words) {
     ++vertices;
     if (colours) return;

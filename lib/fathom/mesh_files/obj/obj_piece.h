@@ -7,7 +7,7 @@
 #include "fathom/mesh_files/obj/obj_counts.h"
 #include "fathom/mesh_files/occurrences.h"
 
-/// A piece of an OBJ. For this room's .cpp files only.
+/// A piece of an OBJ. Only for .cpp files of this module.
 namespace fathom::mesh_files {
 
 /// Unusable or unusual parts of a piece of the file that do not affect its geometry.

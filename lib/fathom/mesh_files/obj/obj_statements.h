@@ -7,11 +7,10 @@
 #include "fathom/mesh_files/obj/obj_counts.h"
 #include "fathom/text/text_cursor.h"
 
-/// What lines of an OBJ begin with. For this room's .cpp files only.
-/// The plainest lines of an OBJ: vertices and faces that have no comment, are not joined to another
-/// line and end with an LF, as most of a large file are. They are counted in a third of the time
-/// that it takes to look for all that a line may have, as words are passed over several characters
-/// at a time, and read without looking for it either. For this room's .cpp files only.
+/// Keywords of OBJ lines, and the plainest lines: vertices and faces that have no comment, are not
+/// joined to another line and end with an LF, like most lines of a large file. Counting them takes
+/// a third of the time of general lines, because words are skipped several characters at a time;
+/// reading them is as simple. Only for .cpp files of this module.
 namespace fathom::mesh_files {
 
 inline constexpr text::TextCursor::Syntax obj_syntax{.comments = true, .continuation = true};

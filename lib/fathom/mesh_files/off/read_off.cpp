@@ -94,7 +94,8 @@ class OffReader {
                  " " + what);
   }
 
-  /// To the next word on whatever line; by lines it must be on this one, as the cursor will see.
+  /// Moves to the next word on any line; in a file of lines the cursor checks that it is on this
+  /// line.
   void go_to_word(OffLayout layout) {
     if (layout == OffLayout::lines || !cursor_.at_line_end()) return;
     if (!cursor_.next_line_with_words()) cursor_.fail("the file ends");

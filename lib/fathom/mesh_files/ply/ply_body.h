@@ -23,7 +23,7 @@ enum PlySlot : int {
   slot_count = 13
 };
 
-/// The values of a vertex that were asked for, each in the slot of its kind.
+/// The requested values of a vertex, each in the slot of its kind.
 using PlyVertex = std::array<double, slot_count>;
 
 /// Walks over the rows of all elements in the order of the file, checks everything, and passes
@@ -161,7 +161,7 @@ class PlyBody {
     rows.take_point(layout, point);
   };
 
-  /// Where the coordinates lie if they are floats of one type and nothing else is wanted of a
+  /// Where the coordinates lie if they are floats of one type and no other property is read of a
   /// vertex.
   static std::optional<PlyPointLayout> point_layout(const PlyElement& element,
                                                     const std::vector<int>& plan) {
@@ -207,7 +207,7 @@ class PlyBody {
     if (slot >= slot_colour) row[slot] = colour_component(row[slot], property.type);
   }
 
-  /// In [0, 1]: integers are fractions of the greatest of their type.
+  /// A number in [0, 1]: integers are fractions of the greatest number of their type.
   static double colour_component(double value, PlyType type) {
     if (type == PlyType::uint8) value /= 255;
     if (type == PlyType::uint16) value /= 65535;

@@ -20,7 +20,7 @@ inline std::uint64_t triangles_of(std::size_t corners) {
   return corners < 3 ? 0 : corners - 2;
 }
 
-/// Where the faces are.
+/// The places of the faces.
 class FaceIndex {
   static constexpr std::uint64_t faces_per_entry = 256;
 
@@ -33,7 +33,7 @@ class FaceIndex {
     end_ = {count, count, start_ + count * row_size};
   }
 
-  /// The next face has so many corners, and its row ends before `offset`.
+  /// The next face has `corners` corners, and its row ends before `offset`.
   void add(std::size_t corners, std::uint64_t offset) {
     const std::uint64_t size = offset - end_.offset;
     if (end_.face == 0) row_size_ = size;
@@ -87,7 +87,7 @@ struct StripPlace {
   PlyStrip strip;
 };
 
-/// Where the corners of strips are.
+/// The places of the corners of strips.
 class StripIndex {
   static constexpr std::uint64_t steps_per_entry = 1024;
 

@@ -51,7 +51,7 @@ struct PlyHeader {
   [[nodiscard]] const PlyElement* find(std::string_view name) const;
 };
 
-/// Only so many bytes of a file are searched for the end of its header.
+/// The end of the header is searched only in this many bytes of a file.
 inline constexpr std::size_t longest_ply_header = std::size_t{128} << 10;
 
 /// Reads the header of a PLY file; lines end with LF, CR LF or CR, as the first one does. Other

@@ -19,7 +19,7 @@
 
 static_assert(std::endian::native == std::endian::little, "little endian PLY is read as it lies");
 
-/// The values of the rows of a PLY file, one after another, whatever its encoding.
+/// The values of the rows of a binary PLY file, one after another.
 namespace fathom::mesh_files {
 
 /// Where the coordinates lie in a row of an element whose rows all have one size.
@@ -145,7 +145,7 @@ class BinaryRows {
   const std::string& file_;
 };
 
-/// Where reading has got to in a list of triangle strips.
+/// The position of the reader in a list of triangle strips.
 struct PlyStrip {
   /// Indices that are left in the list.
   std::uint64_t left = 0;
@@ -167,8 +167,7 @@ struct PlyFace {
   std::uint32_t label = unsegmented;
 };
 
-/// What faces consist of: lists of indices of vertices, labels, and properties that nobody asked
-/// for.
+/// Reads faces: lists of indices of vertices, labels, and properties that are skipped.
 template <class Rows>
 class PlyRowReader {
  public:

@@ -49,7 +49,8 @@ class AsciiStlReader {
     mesh_.normal_triangles.reserve(corners / 3);
   }
 
-  /// To the next word that is not in a comment, on this line or a later one; false at the end.
+  /// Moves to the next word that is not in a comment, on this line or a later one; false at the
+  /// end.
   bool go_to_word() {
     while (cursor_.next_line_with_words()) {
       const char* at = cursor_.position();
@@ -106,7 +107,7 @@ class AsciiStlReader {
     } else {
       cursor_.fail(inside_ ? "expected 'facet' or 'endsolid'" : "expected 'solid' or 'facet'");
     }
-    cursor_.skip_line();  // a name, whatever it is
+    cursor_.skip_line();  // any name
   }
 
   void read_facet() {
