@@ -51,7 +51,7 @@ struct NamedPose {
 
 /// K and poses at hand, in the order of the poses: one K for all of them, or one for each.
 /// `input` begins messages.
-/// Fails    InputError where there are as many K as neither.
+/// Fails    InputError if there is neither one K nor one for each pose.
 std::vector<ImportedCamera> import_matrices(const std::vector<NamedPose>& poses,
                                             const std::vector<IntrinsicMatrix>& K,
                                             const MatrixConvention& convention, std::uint32_t width,
@@ -78,7 +78,7 @@ std::vector<ImportedCamera> import_tum(const std::filesystem::path& trajectory,
 /// "freiburg1", "freiburg2", "freiburg3"; freiburg1 and freiburg2 have distortion. Nothing for
 /// another name.
 std::optional<ImportedCamera> tum_lens(const std::string& name);
-/// A given lens in their place. Fails    UsageError where K is not given.
+/// A given lens in their place. Fails    UsageError if `given` has no K.
 ImportedCamera tum_lens(const GivenLens& given);
 
 /// 7-Scenes: a folder of frame-XXXXXX.pose.txt, in the order of their names and called

@@ -15,7 +15,7 @@ namespace fathom {
 
 /// The image of a point.
 struct ImageOfPoint {
-  /// Pixels, u right, v down; NaN where a perspective camera has no image of the point: at or
+  /// Pixels, u right, v down; NaN if a perspective camera has no image of the point: at or
   /// behind its eye's plane, depth ≤ 0.
   double u = 0, v = 0;
   /// Planar depth in scene units.

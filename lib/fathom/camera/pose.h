@@ -29,7 +29,7 @@ Dyadic determinant_of_rotation(const Pose& pose);
 CameraPoint to_camera(const Pose& world_to_camera, const WorldPoint& X);
 
 /// Camera to world, [R⁻¹ | −R⁻¹·t]: each entry is the exact one, rounded to nearest once.
-/// Fails    InputError where R is singular.
+/// Fails    InputError if R is singular.
 Pose camera_to_world(const Pose& world_to_camera);
 
 }  // namespace fathom
@@ -65,7 +65,7 @@ struct Adjugate {
 };
 Adjugate adjugate(const Pose& pose);
 
-/// [A⁻¹ | −A⁻¹·b] of a pose [A | b], exactly; nothing where A is singular.
+/// [A⁻¹ | −A⁻¹·b] of a pose [A | b], exactly; nothing if A is singular.
 std::optional<std::array<std::array<Ratio, 4>, 3>> exact_inverse(const Pose& pose);
 /// The same, each entry rounded once.
 std::optional<Pose> inverse(const Pose& pose);

@@ -50,7 +50,7 @@ struct DepthBufferStatistics {
 ///
 /// Exact    each value follows from the exact depth of the visible triangle and is rounded once.
 ///          Both engines give the same bits; the reference uses exact numbers alone.
-/// Fails    UsageError for a format that means nothing or a map without `id`; InputError where map,
+/// Fails    UsageError for a format that means nothing or a map without `id`; InputError if map,
 ///          scene or camera has a fault (find_fault), or the map is of another size or scene.
 /// Needs    depths of visible surfaces between the format's near and far,
 ///          which they are if these are the camera's.

@@ -16,7 +16,7 @@ namespace fathom::evaluation {
 /// triangles where the R₂ sequence puts them. Weights are at least 0, with a sum of at most 1, and
 /// multiples of 2⁻²⁵. They depend on the surface and `count` only.
 /// Exact    a point is on its triangle; the areas by which they are dealt out are rounded
-/// Fails    InputError where the triangles have no area that binary64 can tell from 0
+/// Fails    InputError if the area of the triangles is 0 in binary64
 /// Source   [Rob18]
 std::vector<SurfacePoint> surface_points(const PlacedTriangles& triangles, std::uint32_t count);
 
@@ -66,7 +66,7 @@ class PlacedCloud {
 };
 
 /// The number of vertices of all objects.
-/// Fails    InputError where an object names no mesh.
+/// Fails    InputError if an object names no mesh.
 std::uint64_t point_count(const Scene& scene);
 
 /// The points that remain of a cloud that is thinned: in its order, each point that is not nearer

@@ -14,7 +14,7 @@
 namespace fathom {
 
 /// Whether a scene is a point cloud: it has vertices, and no triangles.
-/// Fails    InputError where an object names no mesh
+/// Fails    InputError if an object names no mesh
 bool is_cloud(const Scene& scene);
 
 /// A point of a shape and how far it is from the other one; scene units.

@@ -21,7 +21,7 @@ class Error : public std::runtime_error {
   Error(const Setting& setting, const std::string& message)
       : std::runtime_error(setting.name + ": " + message), setting_(setting.name) {}
 
-  /// The name of the setting; empty where the error is about no setting. A program whose users know
+  /// The name of the setting; empty if the error is about no setting. A program whose users know
   /// it by another name puts that in its place at the beginning of the message.
   [[nodiscard]] const std::string& setting() const { return setting_; }
 

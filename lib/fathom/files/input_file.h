@@ -23,7 +23,7 @@ struct Boundary {
   std::string rule;
 };
 
-/// The boundary of every file that another file names, where `folder` confines them; none where it
+/// The boundary of every file that another file names, where `folder` confines them; none if it
 /// is empty.
 std::vector<Boundary> boundaries_of(const std::filesystem::path& folder);
 
@@ -67,7 +67,7 @@ class InputFile {
   }
 
   /// Checks that all bytes come from one state of the file; call it when the bytes have been used.
-  /// Fails    InputError where a regular file was written to while it was read or, if it is mapped,
+  /// Fails    InputError if a regular file was written to while it was read or, if it is mapped,
   ///          since. (A mapped file that is cut within its last page ends in zeros, without a
   ///          signal.)
   void expect_unchanged() const;

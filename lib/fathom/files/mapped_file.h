@@ -35,7 +35,7 @@ class MappedFile {
   MappedRange* range_ = nullptr;
 };
 
-/// The name of the file that is mapped at this address, as it can be shown; nullptr where none is.
+/// The printable name of the file that is mapped at this address; nullptr if there is no such file.
 /// May be called by a signal handler.
 const char* mapped_file_at(const void* address) noexcept;
 

@@ -36,7 +36,7 @@ class RandomAccessFile {
   ///          read.
   void read(std::uint64_t offset, std::span<std::byte> bytes) const;
 
-  /// Fails    InputError where the file has been written to or cut since it was opened.
+  /// Fails    InputError if the file has been written to or cut since it was opened.
   void expect_unchanged() const;
 
  private:

@@ -15,7 +15,7 @@ bool is_name(const std::string& name) {
   return !name.empty() && name.find_first_of(std::string(",=\0", 3)) == std::string::npos;
 }
 
-/// "Z=Y,distance=D" as pairs; nothing where it is not of that form.
+/// "Z=Y,distance=D" as pairs; empty for a text of another form.
 std::vector<ChannelName> names_in(const std::string& text) {
   std::vector<ChannelName> names;
   for (std::size_t begin = 0; begin <= text.size();) {

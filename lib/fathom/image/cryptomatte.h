@@ -42,7 +42,7 @@ struct Mattes {
 /// Adds the layer to a map: binary32 channels LAYERnn.R, .G, .B, .A (id and coverage of two ranks
 /// each), six ranks or as many as the fullest pixel has, and the texts "cryptomatte/…" with the
 /// manifest.
-/// Fails    InputError where the map has a fault (find_fault), or there is not a count for each of
+/// Fails    InputError if the map has a fault (find_fault), or there is not a count for each of
 ///          its pixels and a share for each that is counted.
 void add_mattes(DepthMap& map, const Mattes& mattes);
 
@@ -74,7 +74,7 @@ struct MatteExtent {
 /// The layers of a map, from its texts "cryptomatte/KEY/name" and its channels LAYERnn.R, .G, .B,
 /// .A. The shares of a pixel end at the first one whose coverage is not positive. A layer without
 /// channels is left out.
-/// Fails    InputError where the map has a fault (find_fault).
+/// Fails    InputError if the map has a fault (find_fault).
 std::vector<MatteLayer> matte_layers(const DepthMap& map);
 
 /// The names that occur, in the order of names.
@@ -83,7 +83,7 @@ std::vector<MatteExtent> extents(const MatteLayer& layer);
 /// The map with other channels instead of LAYERnn.R, .G, .B, .A: `LAYER`, the number of the name
 /// that covers most of a pixel, or no_surface; `LAYER.coverage`, the share that it covers; then the
 /// second name, `LAYER.2` and `LAYER.2.coverage`, and so on. The names are in `tables`.
-/// Fails    InputError where the map has a fault (find_fault).
+/// Fails    InputError if the map has a fault (find_fault).
 DepthMap with_matte_names(DepthMap map);
 
 }  // namespace fathom

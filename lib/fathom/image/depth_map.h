@@ -38,7 +38,7 @@ struct DepthMap {
   /// For 16-bit codes: code = round-half-even(scale·D), 0 where there is no surface.
   std::optional<double> png_scale;
   /// How many pixels show a surface whose code would be above 65535 and that has 0 instead, as if
-  /// it showed none; nullopt where such a depth is refused.
+  /// it showed none; nullopt if such a depth is refused.
   std::optional<std::uint64_t> codes_beyond;
 
   /// Names of the objects that channel `object` numbers.
@@ -84,7 +84,7 @@ void require_valid(const DepthMap& map);
 
 /// The camera that a map carries: its own, or the one in its text `fathom.camera`; nullopt if it
 /// carries none. `name` is the map's for messages.
-/// Fails    InputError where the text is not one camera.
+/// Fails    InputError if the text is not one camera.
 std::optional<Camera> camera_of(const DepthMap& map, const std::string& name);
 
 /// The texts that a file of the map has, its camera among them.

@@ -30,7 +30,7 @@ std::vector<std::byte> exr_beginning(const DepthMap& band, std::uint32_t height,
 
 /// The bytes of the chunks of a band, whose first row begins one. The same for any number of
 /// threads (0: all).
-/// Fails    OutputError where a channel is stored otherwise than EXR has it.
+/// Fails    OutputError if a channel has a type that EXR lacks.
 std::vector<std::vector<std::byte>> exr_chunks(const DepthMap& band, Compression compression,
                                                int threads, const std::string& name);
 

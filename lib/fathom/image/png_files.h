@@ -39,7 +39,7 @@ std::vector<std::byte> encode_mask(std::span<const std::uint8_t> mask, std::uint
 /// of 1 and 0: 255 where its channel `mask` is not 0, if it has one; or else where it shows a
 /// surface (surface_mask() of Z, or of the first channel), or this object.
 /// Fails    InputError if the map has a fault; UsageError if an object is asked for and the map has
-///          no channel `object`; OutputError where a text does not fit PNG.
+///          no channel `object`; OutputError if a text does not fit PNG.
 std::vector<std::byte> encode_mask(const DepthMap& map, const std::string& name,
                                    std::optional<std::uint32_t> object = std::nullopt);
 

@@ -32,7 +32,7 @@ class Samples {
   using const_iterator = const T*;
 
   Samples() = default;
-  /// Fails    std::bad_alloc, also where the bytes are too many to count.
+  /// Fails    std::bad_alloc, also if the bytes are too many to count.
   explicit Samples(std::size_t count)
       : data_(static_cast<T*>(allocate_zeros(bytes_of(count)))), size_(count) {}
   Samples(std::size_t count, T value) : Samples(count) { std::fill(begin(), end(), value); }

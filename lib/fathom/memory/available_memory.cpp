@@ -78,7 +78,7 @@ std::optional<Mount> mount_of(const fs::path& root, const Hierarchy& hierarchy) 
   return std::nullopt;
 }
 
-/// The group's folder below the place of the mount; empty where the group is not to be seen there.
+/// The group's folder below the mount point; empty if the group is not visible there.
 fs::path below(const fs::path& group, const Mount& mount) {
   const fs::path below = group.lexically_relative(mount.group);
   return below.empty() || *below.begin() == ".." ? fs::path() : below;

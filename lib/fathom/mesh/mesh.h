@@ -24,7 +24,7 @@ struct Mesh {
   /// Three indices into `vertices` per triangle; at most 2³² − 2 triangles.
   MeshArray<CornerIndices> triangles;
   /// For each triangle the number of the face of its file that it comes from, counted from 0 over
-  /// all faces, including skipped ones. Empty where triangle t is face t.
+  /// all faces, including skipped ones. Empty if triangle t is face t.
   std::vector<std::uint32_t> face_of_triangle;
   /// The number of faces in the file, including skipped ones.
   std::uint64_t face_count = 0;
@@ -34,13 +34,13 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 2>> lines;
   std::vector<std::uint32_t> points;
 
-  /// Optional attributes as in the file; empty where the file has none.
+  /// Optional attributes as in the file; empty if the file has none.
   std::vector<std::array<double, 2>> texture_coordinates;
   std::vector<std::array<double, 3>> normals;
   /// Linear or not, as in the file; components in [0, 1].
   std::vector<std::array<float, 4>> colours;
-  /// For each triangle, indices of its corners into the lists above (no_index where a corner has
-  /// none). Empty where an attribute is given per vertex, so that the indices of `triangles` apply.
+  /// For each triangle, indices of its corners into the lists above (no_index if a corner has
+  /// none). Empty if an attribute is given per vertex, so that the indices of `triangles` apply.
   MeshArray<CornerIndices> texture_triangles;
   MeshArray<CornerIndices> normal_triangles;
 

@@ -38,7 +38,7 @@ class SharedTriangles {
  public:
   /// Nothing is shared: for meshes that need no sums.
   SharedTriangles() = default;
-  /// Fails    InputError where a triangle has a corner beyond the vertices.
+  /// Fails    InputError if a triangle has a corner beyond the vertices.
   SharedTriangles(const Mesh& mesh, NormalSource source);
 
   /// The vertex that represents all vertices that share the normal of this vertex.

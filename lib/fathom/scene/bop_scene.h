@@ -40,7 +40,7 @@ std::vector<BopImage> read_bop_images(const std::filesystem::path& folder, std::
 
 /// The models obj_000001.ply and so on that images show, from a folder. Lengths are as in the
 /// files.
-/// Fails    InputError, also where a model is missing.
+/// Fails    InputError, also if a model is missing.
 class BopModels {
  public:
   BopModels(const std::filesystem::path& folder, const std::vector<BopImage>& images,

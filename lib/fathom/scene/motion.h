@@ -43,8 +43,8 @@ WorldFromMesh transform_at(const ObjectMotion& motion, double time);
 /// A scene whose objects are placed again for each requested time.
 class MovingScene {
  public:
-  /// Fails    InputError where no object has a name of the motion's, keyframes are missing or their
-  ///          times do not increase.
+  /// Fails    InputError if the scene has no object with a name in the motion, keyframes are
+  ///          missing or their times do not increase.
   MovingScene(Scene scene, Motion motion);
 
   /// The scene at a time; it lasts until the next call.

@@ -72,7 +72,7 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Object> objects;
   std::vector<Source> sources;
-  /// How a pipeline draws each object; empty where it draws all of them as it always does.
+  /// How a pipeline draws each object; empty if all objects have the default state.
   std::vector<DrawState> draw_states;
 };
 
@@ -80,7 +80,7 @@ struct Scene {
 DrawState draw_state_of(const Scene& scene, std::size_t object);
 
 /// The number of triangles in all objects.
-/// Fails    InputError where an object names no mesh, or there are more than can be numbered.
+/// Fails    InputError if an object names no mesh, or there are more than can be numbered.
 std::uint64_t triangle_count(const Scene& scene);
 
 /// Where triangle `number` of the scene comes from.

@@ -25,9 +25,9 @@ class SceneSegments {
   /// Fails    InputError if an object names no mesh.
   SceneSegments(const TriangleSource& triangles, const std::vector<Segmentation>& wanted);
 
-  /// The number of the segment that a triangle belongs to, `unsegmented` where it belongs to none
-  /// or the segmentation was not wanted.
-  /// Fails    InputError where a file of a StreamedScene has changed or cannot be read any more,
+  /// The number of the segment that a triangle belongs to, `unsegmented` if it belongs to no
+  /// segment or the segmentation was not requested.
+  /// Fails    InputError if a file of a StreamedScene has changed or cannot be read any more,
   ///          and where the scene has a fault there (scene_fault.h).
   [[nodiscard]] std::uint32_t number(Segmentation by, const TriangleOrigin& origin) const;
   /// The same of an object as a whole, where it is one segment for itself.

@@ -31,7 +31,7 @@ TriangleOrigin origin_of(const StreamedScene& scene, std::uint32_t number);
 
 /// A scene in memory with the same objects, sources and world_bounds(), in which each mesh is a
 /// single triangle that spans its bounds, or empty if it has none: enough to make cameras from.
-/// Fails    InputError where the scene has a fault (find_fault).
+/// Fails    InputError if the scene has a fault (find_fault).
 Scene outline_of(const StreamedScene& scene);
 
 }  // namespace fathom

@@ -115,7 +115,8 @@ std::string in_camera_frame(const Vector& p) {
                      p[0], p[1], p[2]);
 }
 
-/// On which side of the image the box of all that is in front lies; nothing where on none.
+/// The side of the image on which the box of all points in front lies; nullptr if it is not on one
+/// side.
 const char* side_of_image(const Sight& sight, const Camera& camera) {
   if (sight.last[0] < 0) return "to the left of";
   if (sight.first[0] > camera.width) return "to the right of";
@@ -167,7 +168,7 @@ std::optional<ViewWarning> warning_of_nothing(const Scene& scene, const Camera& 
           in_camera_frame(middle) + advice_for(scene, camera)};
 }
 
-/// The eye in the frame of an object's mesh; nothing where its transform has no inverse.
+/// The eye in the frame of an object's mesh; nullopt if the object's transform has no inverse.
 std::optional<Vector> eye_in_mesh(const Object& object, const Vector& eye) {
   if (object.placed_as_is) return eye;
   const Pose placement = rounded_placement(object);

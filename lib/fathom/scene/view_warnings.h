@@ -60,9 +60,9 @@ std::vector<ViewWarning> warnings_of_camera(const Camera& camera);
 /// - every pixel: the eye is inside a closed object whose triangles face outwards, or the object
 ///   is a thousand times too large (millimetres mixed with poses in metres).
 /// `scene` may be the outline of a scene that stays in its files (outline_of).
-/// Cost     none where a part of the image shows the scene and a part does not; of a map without
+/// Cost     none if a part of the image shows the scene and a part does not; of a map without
 ///          background, one look at every triangle; else some.
-/// Fails    InputError where the scene or the camera has a fault (find_fault).
+/// Fails    InputError if the scene or the camera has a fault (find_fault).
 std::vector<ViewWarning> warnings_of_view(const Scene& scene, const Camera& camera,
                                           std::uint64_t shown_pixels);
 

@@ -17,7 +17,7 @@ std::string json_string(std::string_view text);
 /// an object, members of an object.
 std::string joined_in(char open, const std::vector<std::string>& parts, char close);
 
-/// The strings of a list, or nothing where the text is not JSON of that kind.
+/// The strings of a list, or nothing if the text is not JSON of that kind.
 std::optional<std::vector<std::string>> strings_of_json(std::string_view text);
 
 /// The members of an object that are strings, as pairs of key and value in its order; nothing if

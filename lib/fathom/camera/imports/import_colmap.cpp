@@ -293,7 +293,7 @@ std::vector<ImportedCamera> finished(std::vector<ImportedCamera> images, const s
   return images;
 }
 
-/// The folders in a folder, in the order of their names; none where it cannot be read.
+/// The folders in a folder, in the order of their names; none if it cannot be read.
 std::vector<std::filesystem::path> folders_in(const std::filesystem::path& folder) {
   constexpr std::size_t most = 1000;
   std::vector<std::filesystem::path> found;

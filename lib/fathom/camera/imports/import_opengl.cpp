@@ -27,7 +27,7 @@ constexpr Matrix4 identity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 
 struct OpenGlView {
   Matrix4 projection = identity, modelview = identity;
   std::uint32_t width = 0, height = 0;
-  /// The clip depth of the near plane; nothing where near and far are not taken over.
+  /// The clip depth of the near plane; nullopt if near and far are not imported.
   std::optional<double> nearest = -1;
 };
 

@@ -42,7 +42,7 @@ Integer read_integer(Line& line, const char* what) {
 /// A finite number, its decimal text rounded once.
 double read_number(Line& line, const char* what);
 
-/// The same of a single word; NaN where the word stands for no finite number ("nan", "-inf").
+/// The same of a single word; NaN if the word means a number that is not finite ("nan", "-inf").
 /// `where` begins the message.
 double number_of(const std::string& word, const std::string& where);
 

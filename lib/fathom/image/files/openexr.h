@@ -63,7 +63,7 @@ class ByteOutput : public Imf::OStream {
   /// file has been opened.
   void table_of_chunks_ends_here() { end_of_table_ = position_; }
   /// Makes sure that the file, which has been closed by now, has all its chunks.
-  /// Fails    std::bad_alloc where chunks are missing: if a task of OpenEXR's pool runs out of
+  /// Fails    std::bad_alloc if chunks are missing: if a task of OpenEXR's pool runs out of
   ///          memory, OpenEXR 3.1 takes the chunk for incomplete and stops without an error.
   void require_chunks(std::size_t chunks) const {
     constexpr std::size_t entry = sizeof(std::uint64_t);

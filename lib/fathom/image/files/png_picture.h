@@ -34,7 +34,7 @@ PngPicture picture_of_mask(std::span<const std::uint8_t> mask, std::uint32_t wid
                            std::uint32_t height);
 
 /// Appends the texts of a map and the names of its objects, by which read_map() reads them.
-/// Fails    OutputError where a text does not fit PNG.
+/// Fails    OutputError if a text does not fit PNG.
 void add_texts_of_map(PngPicture& picture, const DepthMap& map, const std::string& name);
 
 }  // namespace fathom::image

@@ -145,7 +145,7 @@ std::vector<std::byte> Process::ask(Task task, std::span<const std::byte> parame
   throw Refusal({reinterpret_cast<const char*>(answer.data()), answer.size()});
 }
 
-/// False where the program has ended.
+/// False if the program has ended.
 bool Process::send(std::span<const std::byte> bytes) const {
   while (!bytes.empty()) {
     const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);

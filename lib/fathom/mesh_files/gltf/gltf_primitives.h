@@ -19,7 +19,7 @@ namespace fathom::mesh_files {
 
 class GltfPrimitives {
  public:
-  /// `accessors` and `materials` must outlive this; `materials` is null where they are not wanted.
+  /// `accessors` and `materials` must outlive this; `materials` is null if they are not wanted.
   GltfPrimitives(GltfAccessors& accessors, const GltfMaterials* materials, bool attributes,
                  bool lines_and_points)
       : accessors_(accessors),

@@ -56,7 +56,7 @@ class PieceReader {
   }
 
  private:
-  /// False where the line is another one: then nothing happens.
+  /// False, without any effect, for other lines.
   bool read_plain_triangle() {
     std::array<std::uint32_t, 3> corners;
     if (!mesh_files::read_plain_triangle(cursor_, total_.vertices, corners)) return false;

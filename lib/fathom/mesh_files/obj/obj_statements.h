@@ -79,7 +79,7 @@ template <char least, char greatest>
   while (plain_kind(at, last) == Plain::blank) ++at;
 }
 
-/// Counts the words from `at` on. The end of the line; null where it is not plain.
+/// Counts the words from `at` on. Returns the end of the line; null if the line is not plain.
 inline const char* count_plain_vertex(const char* at, const char* last, ObjCounts& counts) {
   int words = 0;
   for (skip_blanks(at, last); plain_kind(at, last) != Plain::line_end; ++words) {
@@ -130,7 +130,7 @@ inline bool count_plain_line(text::TextCursor& cursor, ObjCounts& counts) {
   return end != nullptr;
 }
 
-/// Where the words begin that follow the keyword and one blank; null where another statement
+/// Where the words begin that follow the keyword and one blank; null if another statement
 /// stands.
 inline const char* plain_words_after(char keyword, const text::TextCursor& cursor) {
   const char* const at = cursor.position();
@@ -145,8 +145,8 @@ inline bool ends_plain_word(std::size_t k, const char*& at, const char* last) {
   return true;
 }
 
-/// Reads "f 1 2 3", with indices of so many vertices, as places of the corners. False where the
-/// line is another one: then the cursor stays.
+/// Reads "f 1 2 3", with indices of so many vertices, as places of the corners. False for other
+/// lines; then the cursor does not move.
 inline bool read_plain_triangle(text::TextCursor& cursor, std::uint64_t vertices,
                                 std::array<std::uint32_t, 3>& corners) {
   const char* at = plain_words_after('f', cursor);

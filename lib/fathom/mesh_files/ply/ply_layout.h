@@ -81,7 +81,7 @@ class PlyVertices {
 /// place.
 class PlySupposedTriangles {
  public:
-  /// nullopt where the file has another size, no faces, rows of other lengths, strips of triangles,
+  /// nullopt if the file has another size, no faces, rows of other lengths, strips of triangles,
   /// faces before vertices, or a header that is wrong, which reading the file will tell.
   static std::optional<PlySupposedTriangles> of(const PlyHeader& header, std::uint64_t file_size);
 
