@@ -1,6 +1,7 @@
-"""What the library's tables list, channels, formats of maps and names of options, is in the help, the docstrings, the C
-header and the pages that list it for users."""
+"""What the library's tables list, channels, formats of maps, lens models and names of options, is in the help, the
+docstrings, the C header and the pages that list it for users."""
 
+import json
 import os
 import pathlib
 import re
@@ -171,6 +172,44 @@ def test_projections_are_those_of_camera_files():
     for word in lens.projections:
         camera = fathom.Camera(1, 1, 1, 1, 0, 0, pixel_centre=0.5, projection=word)
         assert f'"projection": "{word}"' in _core.camera_to_json(camera._handle)
+
+
+def refused_camera(**keys):
+    with pytest.raises(ValueError, match="expected") as refusal:
+        fathom.Camera.from_json(json.dumps({"width": 1, "height": 1, **keys}))
+    return re.split(r", | or ", str(refusal.value).partition("expected ")[2].removeprefix("one of "))
+
+
+def parameters_of(model):
+    """In the order of the model, which is that of the keys that camera files have."""
+    keys = refused_camera(model=model, no_key=0)
+    if "params" not in keys:
+        return []
+    return [key for key in keys[keys.index("max_radius") + 1:keys.index("pixel_centre")] if key != "skew"]
+
+
+def lenses_in(table):
+    """The parameters of each model in the first two columns of a page's table. A row may have two models, and their
+    parameters on the two sides of a semicolon; and it may continue the row of another model."""
+    lenses = {}
+    for names, texts in re.findall(r"^\| ([A-Z][^|]*) \| ([^|]*) \|", table, re.M):
+        models = without_remarks(names).replace(",", "").split()
+        lists = texts.split("; ")[:len(models)]
+        assert len(lists) == len(models), names
+        for model, text in zip(models, lists):
+            base, then, more = text.rpartition(", then ")
+            lenses[model] = (lenses[base.removeprefix("as ")] if then else []) + more.replace("none", "").split()
+    return lenses
+
+
+@pytest.mark.parametrize("table", [
+    between(read("docs/specification.md"), "**Lenses.**", "**Which preimage.**"),
+    between(read("docs/lenses.md"), "\n## Models\n", "\n## "),
+], ids=["specification", "lenses"])
+def test_every_lens_model_is_listed_with_its_parameters(table):
+    models = refused_camera(model="no model")
+    assert len(models) >= 18
+    assert lenses_in(table) == {model: parameters_of(model) for model in models}
 
 
 @pytest.mark.parametrize("words, text", [
