@@ -119,8 +119,9 @@ void MpiArguments::add_to(Command& command) {
   command.option(
       "--memory", "SIZE", into(memory, parse_memory),
       "Maximum memory of each rank, e.g. 512M or 2G, at least 128M; scenes that a rank has to read "
-      "whole come on top (default: an equal share of three quarters of the machine's memory). Data "
-      "that does not fit is kept in files in $TMPDIR. The map does not depend on it");
+      "whole, and 17 bytes per pixel of a camera with a lens, come on top (default: an equal share "
+      "of three quarters of the machine's memory). Data that does not fit is kept in files in "
+      "$TMPDIR. The map does not depend on it");
   command.option("--traffic", "FILE", traffic,
                  "Write the bytes that ranks sent to each other and their times, one line of JSON "
                  "per map; '-' is standard output");

@@ -102,7 +102,7 @@ void ValidateArguments::add_to(Command& command) {
   command.option(
       "--camera", "FILE", camera,
       "Camera file (JSON), or a map, which contains its camera; of a path, --map takes the "
-      "camera with its name (a.npy that of a.jpg)");
+      "camera with its name (a.npy that of a.jpg). --map also takes a camera with a lens");
   command.option(
       "--model", "NAME", into(model, parse_model),
       "Model of the renderer (default with --map: auto, the best fit). With --against, judge the "
@@ -135,7 +135,10 @@ ValidationScene named_by_files(const ValidateArguments& arguments, const Console
     const auto [width, height] = arguments.size;
     camera = frame_scene(scene, {}, {.width = width, .height = height});
   } else {
-    camera = read_camera(arguments.camera, "", console);
+    camera = read_camera(arguments, "", console);
+    require_straight(camera,
+                     "these renderers draw the images of pinhole cameras; --map judges a "
+                     "map of a lens");
   }
   camera = validation::with_clip_planes(scene, camera);
   return {std::filesystem::path(arguments.scenes.front()).stem(), std::move(scene), camera};
@@ -143,9 +146,11 @@ ValidationScene named_by_files(const ValidateArguments& arguments, const Console
 
 }  // namespace
 
-Camera read_camera(const std::string& file, const std::string& map, const Console& console) {
+Camera read_camera(const ValidateArguments& arguments, const std::string& map,
+                   const Console& console) {
+  const std::string& file = arguments.camera;
   if (file.empty()) throw UsageError("--camera FILE is missing");
-  const std::vector<Camera> cameras = read_camera_file(file, console);
+  const std::vector<Camera> cameras = read_cameras_with_lenses(file, arguments.limits, console);
   if (cameras.size() > 1 && !map.empty()) return camera_called_as(map, cameras);
   if (cameras.size() != 1) {
     throw UsageError(fmt::format(

@@ -53,6 +53,22 @@ def test_faults_are_named(spot, camera, depths, spoil, kind):
     assert found.findings[0].pixels > 100
 
 
+@pytest.mark.parametrize("model, params", [("SIMPLE_RADIAL", [70, 40, 30, -0.3]),
+                                           ("OPENCV", [70, 70, 40, 30, -0.2, 0.03, 0.003, -0.002])])
+def test_maps_of_lenses_are_judged(spot, model, params):
+    pose = [[1, 0, 0, 0], [0, -1, 0, 0.1], [0, 0, -1, 2]]
+    camera = fathom.Camera(80, 60, model=model, params=params, pixel_centre=0.5, world_to_camera=pose)
+    maps = spot.render(camera, channels=("Z", "distance"))
+    right = fathom.validate(maps["Z"], spot, camera)
+    assert right.is_good and right.counts == {CLASSES[0]: 80 * 60} and right.camera == camera
+    pinhole = fathom.Camera(80, 60, 70, 70, 40, 30, pixel_centre=0.5, world_to_camera=pose)
+    for map, kind in ((maps["distance"], "ray-distance"), (spot.render(pinhole)["Z"], "lens-ignored")):
+        found = fathom.validate(map, spot, camera)
+        assert [each.kind for each in found.findings] == [kind] and found.unexplained < found.findings[0].pixels / 10
+    with pytest.raises(ValueError, match="a graphics pipeline draws straight edges"):
+        fathom.validate(maps["Z"], spot, camera, "gl-unorm24")
+
+
 def test_quantities_are_estimated(spot, camera, depths):
     moved = fathom.Camera.from_json(camera.to_json().replace(f'"cx": {camera.cx:g}', f'"cx": {camera.cx + 0.25:g}'))
     assert moved != camera

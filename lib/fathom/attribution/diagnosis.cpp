@@ -319,6 +319,7 @@ bool Search::by_relations(bool gross) {
 }
 
 bool Search::by_deviation() {
+  if (truth_.lens) return false;  // the derivatives are those of a pinhole
   const std::optional<FittedDeviation> fit = fitted_deviation(truth_, other_, model_, searched_);
   if (!fit) return false;
   BestTrial best(truth_, unexplained());

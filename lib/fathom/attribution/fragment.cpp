@@ -5,6 +5,8 @@
 #include <cmath>
 #include <variant>
 
+#include "fathom/attribution/model/lens_samples.h"
+
 namespace fathom::attribution {
 
 /// Newton's method on r·(1 + k1·r² + k2·r⁴) = the given radius.
@@ -25,6 +27,7 @@ std::array<double, 2> undistorted(double x, double y, double k1, double k2) {
 
 SampleGrid::SampleGrid(const Camera& camera, const SamplePosition& sample)
     : projection_(camera.projection), sample_(sample) {
+  if (sample.lens) return;
   if (sample.k1 == 0 && sample.k2 == 0) return;
   for (const std::uint32_t row : {0U, camera.height / 2, camera.height - 1}) {
     for (const std::uint32_t column : {0U, camera.width / 2, camera.width - 1}) {
@@ -36,6 +39,7 @@ SampleGrid::SampleGrid(const Camera& camera, const SamplePosition& sample)
 }
 
 std::array<double, 2> SampleGrid::at(std::uint32_t column, std::uint32_t row) const {
+  if (sample_.lens) return sample_.lens->at(column, row);
   const double u = column + sample_.x, v = row + sample_.y;
   if (sample_.k1 == 0 && sample_.k2 == 0) return {u, v};
   const auto [x, y] = projection_.plane_point_at(u, v);

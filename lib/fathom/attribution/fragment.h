@@ -24,7 +24,7 @@ class SampleGrid {
  public:
   SampleGrid(const Camera& camera, const SamplePosition& sample);
 
-  /// Of the pixel's sample.
+  /// Of the pixel's sample; NaN if a lens has no ray there.
   [[nodiscard]] std::array<double, 2> at(std::uint32_t column, std::uint32_t row) const;
   /// How far it may be from where the pixel's sample is, in either direction, in pixels.
   [[nodiscard]] double reach() const { return reach_; }

@@ -60,7 +60,7 @@ void note_untried_models(Judgement& judgement, bool is_chosen) {
       unexplained(judgement) > 0 || (is_chosen && may_be_of_rasterizer(judgement)) ||
       std::any_of(findings.begin(), findings.end(),
                   [](const Finding& finding) { return finding.kind == "model"; });
-  if (!is_in_doubt || has_clip_planes(judgement.truth->camera)) return;
+  if (!is_in_doubt || has_clip_planes(judgement.truth->camera) || judgement.truth->lens) return;
   judgement.attribution.notes.push_back(
       {.kind = "model",
        .text =
@@ -108,7 +108,8 @@ Judgement judge_reading(const SizedMap& sized, const Scene& scene,
   if (!model) return judge(std::move(truth), sized.map, model);
   Judgement judgement{.model = *model, .truth = std::move(truth)};
   judgement.other = known_background(*judgement.truth, sized.map).map;
-  judgement.attribution = attribute_and_name(*judgement.truth, sized.map, *model);
+  judgement.model.sample.lens = judgement.truth->lens;
+  judgement.attribution = attribute_and_name(*judgement.truth, sized.map, judgement.model);
   return judgement;
 }
 
@@ -148,6 +149,10 @@ RendererModel model_for(const std::string& name, const Camera& camera) {
   const Setting setting{"model"};
   try {
     RendererModel model = model_named(name);
+    if (!std::holds_alternative<RayModel>(model.kind))
+      require_straight(camera,
+                       "a graphics pipeline draws straight edges; expected a model of "
+                       "rays: float32-ray or cycles");
     if (has_clip_planes_for(model, camera)) return model;
   } catch (const UsageError& error) {
     throw UsageError(setting, error.what());
@@ -164,7 +169,9 @@ Judgement judge(std::shared_ptr<const Truth> truth, const OtherMap& other,
   KnownBackground known = known_background(*judgement.truth, other);
   judgement.other = std::move(known.map);
   if (model) {
-    set_trial(judgement, judged_by(*judgement.truth, judgement.other, *model));
+    RendererModel through_lens = *model;
+    through_lens.sample.lens = judgement.truth->lens;
+    set_trial(judgement, judged_by(*judgement.truth, judgement.other, through_lens));
   } else {
     judge_by_any(judgement);
   }

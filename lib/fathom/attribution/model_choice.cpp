@@ -63,10 +63,23 @@ RendererModel put_right(RendererModel model, const Hypothesis& h) {
   model.sample.y = h.model.sample.y;
   model.sample.k1 = h.model.sample.k1;
   model.sample.k2 = h.model.sample.k2;
+  model.sample.lens = h.model.sample.lens;
   const auto* const from = std::get_if<RasterModel>(&h.model.kind);
   auto* const raster = std::get_if<RasterModel>(&model.kind);
   if (raster != nullptr) raster->affine = from != nullptr && from->affine;
   return model;
+}
+
+/// The named models that may have drawn a map of the truth's camera.
+std::vector<RendererModel> models_for(const Truth& truth) {
+  std::vector<RendererModel> models;
+  for (RendererModel& model : named_models()) {
+    if (!has_clip_planes_for(model, truth.camera)) continue;
+    if (truth.lens && !std::holds_alternative<RayModel>(model.kind)) continue;
+    model.sample.lens = truth.lens;
+    models.push_back(std::move(model));
+  }
+  return models;
 }
 
 /// The models that may have drawn a map, except one.
@@ -105,9 +118,8 @@ class Candidates {
 
 std::optional<ModelTrial> Candidates::explaining(bool of_vtk) {
   std::vector<ModelSurvey> possible;
-  for (RendererModel& model : named_models()) {
+  for (const RendererModel& model : models_for(truth_)) {
     if (is_of_vtk(model) != of_vtk || model.name == except_) continue;
-    if (!has_clip_planes_for(model, truth_.camera)) continue;
     surveys_.push_back(surveyed(truth_, other_, model));
     if (surveys_.back().may_explain_all()) possible.push_back(surveys_.back());
   }

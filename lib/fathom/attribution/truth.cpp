@@ -3,9 +3,11 @@
 #include <array>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
+#include "fathom/attribution/model/lens_samples.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/render.h"
 
@@ -53,8 +55,8 @@ std::vector<std::uint32_t> corner_numbers(const std::vector<RasterPart>& parts) 
 namespace {
 
 void set_maps(Truth& truth, const Scene& scene) {
-  const DepthMap map =
-      render(scene, truth.camera, {.channels = {Channel::Z, Channel::Zlow, Channel::id}}).map;
+  const RenderOptions options{.channels = {Channel::Z, Channel::Zlow, Channel::id}};
+  const DepthMap map = render(scene, whole_camera(truth), options).map;
   const auto& high = *map.values<float>("Z");
   const auto& low = *map.values<float>("Zlow");
   const auto& id = *map.values<std::uint32_t>("id");
@@ -80,11 +82,15 @@ Scene scene_of(const WorldMesh& world) {
 
 Truth make_truth(const Scene& scene, const Camera& camera) {
   const StandardArithmetic standard;
-  require_straight(camera);
-  Truth truth{.mesh = world_mesh(scene), .camera = camera};
+  Truth truth{.mesh = world_mesh(scene), .camera = without_lens(camera)};
+  if (bends_rays(camera.projection)) truth.lens = std::make_shared<LensSamples>(camera, 0.5, 0.5);
   truth.corner_numbers = corner_numbers(truth.mesh);
   set_maps(truth, scene);
   return truth;
+}
+
+const Camera& whole_camera(const Truth& truth) {
+  return truth.lens ? truth.lens->camera() : truth.camera;
 }
 
 Truth seen_by(const Truth& truth, const Camera& camera) {

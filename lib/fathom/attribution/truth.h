@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "fathom/attribution/model/renderer_input.h"
@@ -22,7 +23,7 @@ std::vector<std::uint32_t> corner_numbers(const std::vector<RasterPart>& parts);
 /// The exact map of a comparison, and reusable data for comparing.
 struct Truth {
   WorldMesh mesh;
-  /// With the near and far that both renderers cut at.
+  /// With the near and far that both renderers cut at; without its lens.
   Camera camera;
   /// For each point of the mesh: see corner_numbers().
   std::vector<std::uint32_t> corner_numbers;
@@ -30,10 +31,16 @@ struct Truth {
   /// visible triangles, no_surface there.
   std::vector<double> depths;
   std::vector<std::uint32_t> triangles;
+  /// Where the samples lie, if the camera has a lens.
+  std::shared_ptr<const LensSamples> lens = nullptr;
 };
 
-/// Renders it. Fails as render() and world_mesh() do.
+/// Renders it.
+/// Fails    as render(), world_mesh() and LensSamples do.
 Truth make_truth(const Scene& scene, const Camera& camera);
+
+/// The camera that it was made for, with its lens.
+const Camera& whole_camera(const Truth& truth);
 
 /// The same mesh as another camera sees it. Fails as render() does.
 Truth seen_by(const Truth& truth, const Camera& camera);

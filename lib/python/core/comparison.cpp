@@ -191,7 +191,7 @@ py::dict validate(const SharedMap& map, const std::string& channel, const Shared
     if (model != "auto") named = model_for(model, camera);
     return judge_map("map", other_map(*map, channel), *scene, camera, named);
   });
-  const Camera& seen_by = judged.truth->camera;
+  const Camera& seen_by = whole_camera(*judged.truth);
   const Shape shape{seen_by.height, seen_by.width};
   const Attribution& found = judged.attribution;
   Samples<std::uint8_t> classes(found.classes.size());

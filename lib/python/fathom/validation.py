@@ -109,7 +109,8 @@ def validate(
     map      a Map, or an H×W array of planar depths in scene units; its background value is detected. If its size is not
              the camera's, the reason is found: rows and columns exchanged, up to eight of them missing or added, the
              whole view larger or smaller
-    camera   the renderer's camera; with the renderer's near and far if it has a depth buffer
+    camera   the renderer's camera; with the renderer's near and far if it has a depth buffer. It may have a lens if all of its
+             rays go forwards
     model    the renderer's arithmetic, such as "gl-unorm24", "vtk-float32", "float32-ray" (`fathom validate --help` lists
              all); "auto": the model that fits best. If the named model leaves pixels unexplained and another model does
              not, a finding of kind "model" names the other model

@@ -90,6 +90,33 @@ TEST_F(ValidateProgram, NamesAHalfPixelShiftAndListsItsWorstPixels) {
   EXPECT_EQ(result["worst"][0]["corners"].size(), 3U);
 }
 
+TEST_F(ValidateProgram, JudgesMapsOfCamerasWithLenses) {
+  nlohmann::json lens = nlohmann::json::parse(folder.read("camera.json"));
+  for (const char* const limit : {"near", "far"}) lens.erase(limit);
+  lens["model"] = "OPENCV";
+  for (const char* const key : {"p1", "p2"}) lens[key] = 0.002;
+  lens["k1"] = -0.4;
+  lens["k2"] = 0.05;
+  folder.write("lens.json", lens.dump());
+  const auto run = [&](const std::vector<std::string>& arguments) {
+    return run_fathom(arguments, {.folder = folder.path()});
+  };
+  const auto judged = [&](const std::string& map, const std::string& model) {
+    return run({"validate", "--map", map, "--camera", "lens.json", "--model", model, cube});
+  };
+  ASSERT_EQ(run({"render", cube, "--camera", "lens.json", "-o", "lens.exr"}).status, 0);
+  const Outcome right = judged("lens.exr", "float32-ray");
+  EXPECT_EQ(right.status, 0) << right.out << right.err;
+  EXPECT_THAT(right.out, HasSubstr("1200 equal"));
+  const Outcome ignored = judged("map.exr", "float32-ray");
+  EXPECT_EQ(ignored.status, 1) << ignored.err;
+  EXPECT_THAT(ignored.out, HasSubstr("the lens OPENCV is left out"));
+  EXPECT_EQ(judged("lens.exr", "gl-float32").status, 2);
+  const Outcome against = run({"validate", "--against", "embree", cube, "--camera", "lens.json"});
+  EXPECT_EQ(against.status, 2);
+  EXPECT_THAT(against.err, HasSubstr("the lens OPENCV: these renderers draw"));
+}
+
 /// The pipeline of the textbooks is a renderer like any other: its stored depths are those of its
 /// model, and where a polygon offset has moved them, that is found.
 TEST_F(ValidateProgram, ExplainsWhatThePipelineStores) {

@@ -6,7 +6,12 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
+#include <utility>
 #include <variant>
+
+#include "fathom/attribution/fragment.h"
+#include "fathom/attribution/model/lens_samples.h"
 
 namespace fathom::attribution {
 namespace {
@@ -68,8 +73,14 @@ std::optional<Hypothesis> shifted(const Truth& truth, const OtherMap& other,
                            "the pixel centres",
                            best.x, best.y),
                model, other};
-  h.model.sample.x += best.x;
-  h.model.sample.y += best.y;
+  SamplePosition& sample = h.model.sample;
+  sample.x += best.x;
+  sample.y += best.y;
+  if (truth.lens) {
+    const Camera& camera = whole_camera(truth);
+    if (camera.projection.lens->directions) return std::nullopt;  // of centres only
+    sample.lens = std::make_shared<LensSamples>(camera, sample.x, sample.y);
+  }
   return h;
 }
 
@@ -118,27 +129,22 @@ std::optional<Hypothesis> mirrored(const OtherMap& other, const RendererModel& m
   return h;
 }
 
-/// Length of the viewing ray per unit of depth, of a perspective camera.
-double ray_length(const Camera& camera, std::size_t pixel) {
-  const std::size_t column = pixel % camera.width, row = pixel / camera.width;
-  const double u = static_cast<double>(column) + 0.5;
-  const double v = static_cast<double>(row) + 0.5;
-  const double y =
-      (v - camera.projection.cy - (0.5 - camera.projection.pixel_centre)) / camera.projection.fy;
-  const double x = (u - camera.projection.cx - (0.5 - camera.projection.pixel_centre) -
-                    camera.projection.skew * y) /
-                   camera.projection.fx;
-  return std::sqrt(1 + x * x + y * y);
-}
-
-std::optional<Hypothesis> ray_distance(const Camera& camera, const OtherMap& other,
+std::optional<Hypothesis> ray_distance(const Truth& truth, const OtherMap& other,
                                        const RendererModel& model) {
+  const Camera& camera = truth.camera;
   if (!is_perspective(camera.projection)) return std::nullopt;
   Hypothesis h{"ray-distance", "distances along the rays are given for planar depths", model,
                other};
   h.map.windows.clear();
-  for (std::size_t i = 0; i < h.map.depths.size(); ++i) {
-    h.map.depths[i] /= ray_length(camera, i);
+  const RoundedProjection projection(camera.projection);
+  const SampleGrid samples(camera, {.lens = truth.lens});
+  for (std::uint32_t row = 0; row < camera.height; ++row) {
+    for (std::uint32_t column = 0; column < camera.width; ++column) {
+      const auto [u, v] = samples.at(column, row);
+      if (std::isnan(u)) continue;  // no ray
+      const auto [x, y] = projection.plane_point_at(u, v);
+      h.map.depths[std::size_t{row} * camera.width + column] /= std::hypot(1, x, y);
+    }
   }
   return h;
 }
@@ -158,9 +164,12 @@ std::vector<MakeHypothesis> hypotheses(const Truth& truth, const OtherMap& other
       list.emplace_back([&other, &model, axes] { return mirrored(other, model, axes); });
     }
   }
-  list.emplace_back([&] { return ray_distance(truth.camera, other, model); });
+  list.emplace_back([&] { return ray_distance(truth, other, model); });
   list.emplace_back(
       [&] { return shifted(truth, other, model, found.sharpness.median_relative_width); });
+  if (truth.lens)
+    for (MakeHypothesis& make : lens_hypotheses(truth, other, model))
+      list.push_back(std::move(make));
   return list;
 }
 

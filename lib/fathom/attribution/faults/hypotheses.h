@@ -30,4 +30,11 @@ using MakeHypothesis = std::function<std::optional<Hypothesis>()>;
 std::vector<MakeHypothesis> hypotheses(const Truth& truth, const OtherMap& other,
                                        const RendererModel& model, const Attribution& found);
 
+/// The hypotheses for a camera with a lens: the lens is left out, only the vertices are bent by it,
+/// the map of a camera without it is looked up, the samples lie half a pixel off. The arguments
+/// outlive them.
+/// Needs    a truth with a lens.
+std::vector<MakeHypothesis> lens_hypotheses(const Truth& truth, const OtherMap& other,
+                                            const RendererModel& model);
+
 }  // namespace fathom::attribution

@@ -87,6 +87,8 @@ struct RayModel {
   bool depth_from_point = false;
 };
 
+class LensSamples;
+
 /// The position of the sample in the pixel, from its top left corner, and its error in either
 /// direction. In pixels.
 struct SamplePosition {
@@ -96,6 +98,9 @@ struct SamplePosition {
   /// the plane at depth 1 appears at r·(1 + k1·r² + k2·r⁴). Perspective only.
   /// Source   [Bro71], as OpenCV has it.
   double k1 = 0, k2 = 0;
+  /// Where the samples of a camera with a lens lie in the image of the camera without it; then x,
+  /// y, k1 and k2 say nothing.
+  std::shared_ptr<const LensSamples> lens = nullptr;
 };
 
 /// The properties that renderers of all kinds have, and the kind.

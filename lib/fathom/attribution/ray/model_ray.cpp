@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "fathom/attribution/fragment.h"
+#include "fathom/attribution/model/lens_samples.h"
 #include "fathom/attribution/model/renderer_model.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
@@ -252,7 +253,8 @@ PixelBox RayFragments::box(std::uint32_t triangle) const {
     box.add(x, y, margin, margin);
   }
   if (!before) return {};
-  return behind ? whole_image(c) : pixels_of(box, c, 0);
+  if (behind) return whole_image(c);
+  return sample_.lens ? sample_.lens->pixels_of(box) : pixels_of(box, c, 0);
 }
 
 void RayFragments::each(std::uint32_t triangle, const PixelBox& box,
@@ -262,6 +264,7 @@ void RayFragments::each(std::uint32_t triangle, const PixelBox& box,
   for (std::uint32_t row = box.first_row; row <= box.last_row; ++row) {
     for (std::uint32_t column = box.first_column; column <= box.last_column; ++column) {
       const auto [x, y] = grid_.at(column, row);
+      if (std::isnan(x)) continue;  // no ray
       const Ray ray = rays_.through(x, y);
       std::optional<Fragment> f = ray_on_triangle(points, ray, rays_, model_);
       if (!f) continue;
