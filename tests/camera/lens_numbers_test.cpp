@@ -84,9 +84,9 @@ TEST(LensModels, OpencvHasListsOfFourLengthsMore) {
     std::vector<std::size_t> counts;
     for (std::size_t count = 0; count < 20; ++count)
       if (!distortion_count_fault(entry, count)) counts.push_back(count);
-    const std::vector<std::size_t> own{entry.distortion.size()};
-    const bool is_opencv_14 = entry.model == LensModel::opencv_14;
-    EXPECT_EQ(counts, is_opencv_14 ? std::vector<std::size_t>{4, 5, 8, 12, 14} : own) << entry.name;
+    std::vector<std::size_t> expected{entry.distortion.size()};
+    if (entry.model == LensModel::opencv_14) expected = {4, 5, 8, 12, 14};
+    EXPECT_EQ(counts, expected) << entry.name;
   }
 }
 

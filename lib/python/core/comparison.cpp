@@ -20,6 +20,28 @@ namespace py = pybind11;
 namespace fathom::python {
 namespace {
 
+/// A `__repr__` that shows attributes as a call: Estimate(name='x', value=-0.5). Leaves out an
+/// attribute that is None.
+class Attributes {
+ public:
+  Attributes(std::string type, std::vector<std::string> names)
+      : type_(std::move(type)), names_(std::move(names)) {}
+
+  std::string operator()(const py::object& self) const {
+    std::string text;
+    for (const std::string& name : names_) {
+      const py::object value = self.attr(name.c_str());
+      if (value.is_none()) continue;
+      text += (text.empty() ? "" : ", ") + name + "=" + std::string(py::repr(value));
+    }
+    return type_ + "(" + text + ")";
+  }
+
+ private:
+  std::string type_;
+  std::vector<std::string> names_;
+};
+
 CompareOptions make_options(const std::string& channel, const std::string& other_channel,
                             const std::array<double, 3>& tolerances,
                             const std::array<std::optional<double>, 2>& backgrounds,
@@ -158,28 +180,6 @@ void bind_comparison(Module& core) {
 // Why another renderer's map differs from the truth.
 
 namespace {
-
-/// A `__repr__` that shows attributes as a call: Estimate(name='x', value=-0.5). Leaves out an
-/// attribute that is None.
-class Attributes {
- public:
-  Attributes(std::string type, std::vector<std::string> names)
-      : type_(std::move(type)), names_(std::move(names)) {}
-
-  std::string operator()(const py::object& self) const {
-    std::string text;
-    for (const std::string& name : names_) {
-      const py::object value = self.attr(name.c_str());
-      if (value.is_none()) continue;
-      text += (text.empty() ? "" : ", ") + name + "=" + std::string(py::repr(value));
-    }
-    return type_ + "(" + text + ")";
-  }
-
- private:
-  std::string type_;
-  std::vector<std::string> names_;
-};
 
 using namespace attribution;
 
