@@ -24,41 +24,60 @@ static_assert(std::endian::native == std::endian::little, "COLMAP's files are li
 
 /// A camera model of COLMAP: `focals` focal lengths, the principal point, then distortion.
 struct Model {
-  const char* name;
+  std::string_view name;
   std::size_t parameters;
   std::size_t focals;
   /// Whether it is a pinhole camera if all its distortion parameters are 0.
   bool pinhole;
+  /// Absent if Fathom does not have this lens.
+  std::optional<LensModel> lens = std::nullopt;
 
   [[nodiscard]] bool is_fisheye() const {
-    const auto lens = lens_model_named(name);
     return lens && entry_of(*lens).formula == RayFormula::angle;
   }
 };
 
 /// In the order of COLMAP 4's model ids. COLMAP 3.8 had the first eleven models.
-constexpr std::array<Model, 18> models{{{"SIMPLE_PINHOLE", 3, 1, true},
-                                        {"PINHOLE", 4, 2, true},
-                                        {"SIMPLE_RADIAL", 4, 1, true},
-                                        {"RADIAL", 5, 1, true},
-                                        {"OPENCV", 8, 2, true},
-                                        {"OPENCV_FISHEYE", 8, 2, false},
-                                        {"FULL_OPENCV", 12, 2, true},
-                                        {"FOV", 5, 2, true},
-                                        {"SIMPLE_RADIAL_FISHEYE", 4, 1, false},
-                                        {"RADIAL_FISHEYE", 5, 1, false},
-                                        {"THIN_PRISM_FISHEYE", 12, 2, false},
-                                        {"RAD_TAN_THIN_PRISM_FISHEYE", 16, 2, false},
-                                        {"SIMPLE_DIVISION", 4, 1, true},
-                                        {"DIVISION", 5, 2, true},
-                                        {"SIMPLE_FISHEYE", 3, 1, false},
-                                        {"FISHEYE", 4, 2, false},
-                                        {"EUCM", 6, 2, true},
-                                        {"EQUIRECTANGULAR", 2, 0, false}}};
+constexpr std::array<std::string_view, 18> model_names{"SIMPLE_PINHOLE",
+                                                       "PINHOLE",
+                                                       "SIMPLE_RADIAL",
+                                                       "RADIAL",
+                                                       "OPENCV",
+                                                       "OPENCV_FISHEYE",
+                                                       "FULL_OPENCV",
+                                                       "FOV",
+                                                       "SIMPLE_RADIAL_FISHEYE",
+                                                       "RADIAL_FISHEYE",
+                                                       "THIN_PRISM_FISHEYE",
+                                                       "RAD_TAN_THIN_PRISM_FISHEYE",
+                                                       "SIMPLE_DIVISION",
+                                                       "DIVISION",
+                                                       "SIMPLE_FISHEYE",
+                                                       "FISHEYE",
+                                                       "EUCM",
+                                                       "EQUIRECTANGULAR"};
+
+/// The models that Fathom does not have.
+constexpr std::array<Model, 4> models_of_colmap_alone{{{"FOV", 5, 2, true},
+                                                       {"RAD_TAN_THIN_PRISM_FISHEYE", 16, 2, false},
+                                                       {"EUCM", 6, 2, true},
+                                                       {"EQUIRECTANGULAR", 2, 0, false}}};
+
+/// `name` is one of model_names.
+Model colmap_model(std::string_view name) {
+  const auto* const alone = std::ranges::find(models_of_colmap_alone, name, &Model::name);
+  if (alone != models_of_colmap_alone.end()) return *alone;
+  const LensModelEntry& lens = lens_model_of(name);
+  return {.name = name,
+          .parameters = lens.intrinsics.size() + lens.distortion.size(),
+          .focals = lens.intrinsics.size() - 2,
+          .pinhole = lens.formula != RayFormula::angle,
+          .lens = lens.model};
+}
 
 /// EUCM with alpha = 0 is a pinhole camera for every beta, so only alpha counts.
 std::size_t distortion_parameters(const Model& model) {
-  return model.name == std::string_view("EUCM") ? 1 : model.parameters - model.focals - 2;
+  return model.name == "EUCM" ? 1 : model.parameters - model.focals - 2;
 }
 
 using Cameras = std::map<std::uint32_t, ImportedCamera>;
@@ -85,7 +104,7 @@ ImportedCamera make_camera(const CameraRecord& record, const Model& model,
   ImportedCamera result;
   constexpr std::uint64_t largest = std::numeric_limits<std::uint32_t>::max();
   if (!model.pinhole && !model.is_fisheye()) {
-    result.absence = about + "the model " + model.name +
+    result.absence = about + "the model " + std::string(model.name) +
                      " is not supported; undistort the images (colmap image_undistorter)";
     return result;
   }
@@ -98,8 +117,8 @@ ImportedCamera make_camera(const CameraRecord& record, const Model& model,
   if (model.is_fisheye() ||
       std::any_of(distortion, distortion + static_cast<long>(distortion_parameters(model)),
                   [](double k) { return k != 0; })) {
-    if (const auto lens_model = lens_model_named(model.name)) {
-      Lens lens{*lens_model};
+    if (model.lens) {
+      Lens lens{*model.lens};
       std::copy(distortion, record.parameters.end(), lens.distortion.begin());
       if (const auto fault = find_fault(lens)) {
         result.distortion = about + *fault;
@@ -107,7 +126,7 @@ ImportedCamera make_camera(const CameraRecord& record, const Model& model,
         camera.projection.lens = lens;
       }
     } else {
-      result.distortion = about + "the model " + model.name + " has lens distortion";
+      result.distortion = about + "the model " + std::string(model.name) + " has lens distortion";
     }
   }
   camera.width = static_cast<std::uint32_t>(record.width);
@@ -210,15 +229,16 @@ Cameras read_binary_cameras(BinaryReader file) {
     CameraRecord record;
     const std::string where = file.where();
     record.id = file.read<std::uint32_t>();
-    const auto model = file.read<std::uint32_t>();
-    if (model >= models.size())
-      throw InputError(where + ": unknown camera model " + std::to_string(model) +
+    const auto id = file.read<std::uint32_t>();
+    if (id >= model_names.size())
+      throw InputError(where + ": unknown camera model " + std::to_string(id) +
                        "; convert the model to text or undistort it (colmap image_undistorter)");
     record.width = file.read<std::uint64_t>();
     record.height = file.read<std::uint64_t>();
-    for (std::size_t k = 0; k < models[model].parameters; ++k)
+    const Model model = colmap_model(model_names[id]);
+    for (std::size_t k = 0; k < model.parameters; ++k)
       record.parameters.push_back(file.read<double>());
-    add_camera(cameras, record, models[model], where);
+    add_camera(cameras, record, model, where);
   }
   file.expect_end();
   return cameras;
@@ -252,18 +272,17 @@ Cameras read_text_cameras(NamedStream file) {
     record.id = read_integer<std::uint32_t>(line, "a camera id");
     std::string name;
     line.words >> name;
-    const auto* model =
-        std::find_if(models.begin(), models.end(), [&](const Model& m) { return name == m.name; });
-    if (model == models.end())
+    if (std::ranges::find(model_names, name) == model_names.end())
       throw InputError(line.where + ": unknown camera model '" + name + "'");
+    const Model model = colmap_model(name);
     record.width = read_integer<std::uint64_t>(line, "a width");
     record.height = read_integer<std::uint64_t>(line, "a height");
-    for (std::size_t k = 0; k < model->parameters; ++k)
+    for (std::size_t k = 0; k < model.parameters; ++k)
       record.parameters.push_back(read_number(line, "a camera parameter"));
     if (std::string rest; line.words >> rest)
-      throw InputError(line.where + ": the model " + model->name + " has " +
-                       std::to_string(model->parameters) + " parameters, found more");
-    add_camera(cameras, record, *model, line.where);
+      throw InputError(line.where + ": the model " + name + " has " +
+                       std::to_string(model.parameters) + " parameters, found more");
+    add_camera(cameras, record, model, line.where);
   }
   return cameras;
 }
