@@ -114,7 +114,8 @@ template <>
 struct Fields<attribution::SamplePosition> {
   template <class Visit, class S>
   static void each(Visit&& visit, S& s) {
-    auto& [x, y, error, k1, k2] = s;
+    // The renderers that draw in a child have no lenses.
+    [[maybe_unused]] auto& [x, y, error, k1, k2, lens] = s;
     visit("x", x);
     visit("y", y);
     visit("error", error);
