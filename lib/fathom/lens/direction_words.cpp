@@ -56,15 +56,17 @@ class WordSearch {
   }
 
  private:
-  [[nodiscard]] Certified<Word> F(const Word& q) const { return eliminate(numbers_, y_, {q, 0}).f; }
+  [[nodiscard]] Certified<Word> value_of_f(const Word& q) const {
+    return eliminate(numbers_, y_, {q, 0}).f;
+  }
 
   /// Newton's steps with the slope of the secant, from the middle: q is so narrow that two of them
   /// lose what double-words have.
   [[nodiscard]] Word root_in(const Interval& q) const {
     const Word low = q.lower, high = q.upper;
-    const Word slope = (F(high).value - F(low).value) / (high - low);
+    const Word slope = (value_of_f(high).value - value_of_f(low).value) / (high - low);
     Word root = q.lower / 2 + q.upper / 2;
-    for (int step = 0; step < 2; ++step) root = root - F(root).value / slope;
+    for (int step = 0; step < 2; ++step) root = root - value_of_f(root).value / slope;
     return root;
   }
 
@@ -73,7 +75,7 @@ class WordSearch {
   [[nodiscard]] bool is_root_within(const Word& root, double radius, const Interval& q) const {
     const Word low = root - radius, high = root + radius;
     if (!(low.hi > q.lower && high.hi < q.upper)) return false;
-    const Certified<Word> at_low = F(low), at_high = F(high);
+    const Certified<Word> at_low = value_of_f(low), at_high = value_of_f(high);
     return certain_sign(at_low.value, at_low.error) == -1 &&
            certain_sign(at_high.value, at_high.error) == 1;
   }

@@ -34,8 +34,8 @@ Elimination<T> eliminate(const StageNumbers<T>& n, const HomogeneousPoint<T>& y,
   const T wy = y.b - qc * (n.p1 + n.s3 + n.s4 * q);
   const T W = wx * wx + wy * wy;
   const T rest = W - (qc + qc) * (n.p2 * wx + n.p1 * wy);
-  const T D_rest = D * rest, Nqc = N * qc;
-  return {Nqc * N * y.c * W - D_rest * D_rest, {Nqc * wx, Nqc * wy, D_rest}};
+  const T D_rest = D * rest, N_qc = N * qc;
+  return {N_qc * N * y.c * W - D_rest * D_rest, {N_qc * wx, N_qc * wy, D_rest}};
 }
 
 enum class Existence { yes, no, unknown };

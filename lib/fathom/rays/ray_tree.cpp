@@ -111,7 +111,8 @@ std::array<Vector, 3> RayTree::corners(std::size_t place) const {
 
 std::span<const Repetition> RayTree::repetitions(std::uint32_t first) const {
   if (repeated_.empty()) return {};
-  return std::ranges::equal_range(repeated_, first, {}, &Repetition::first);
+  return {std::ranges::lower_bound(repeated_, first, {}, &Repetition::first),
+          std::ranges::upper_bound(repeated_, first, {}, &Repetition::first)};
 }
 
 TreeNode::TreeNode() {

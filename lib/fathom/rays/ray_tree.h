@@ -44,7 +44,8 @@ struct alignas(32) TriangleBlock {
 /// meets both at the same t, from the same side.
 struct Repetition {
   std::uint32_t first = 0, number = 0;
-  friend auto operator<=>(const Repetition&, const Repetition&) = default;
+  friend auto operator<=>(const Repetition&,
+                          const Repetition&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// A tree of boxes around the triangles of a scene that have an area. No result depends on its

@@ -222,8 +222,9 @@ bool is_tight(const Place& place) {
 /// The view along the greatest component.
 std::uint8_t view_along(const std::array<double, 3>& d) {
   std::uint8_t along = 0;
-  for (std::uint8_t v = 1; v < all_views.size(); ++v)
-    if (all_views[v].forward.of(d) > all_views[along].forward.of(d)) along = v;
+  for (std::size_t v = 1; v < all_views.size(); ++v)
+    if (all_views[v].forward.of(d) > all_views[along].forward.of(d))
+      along = static_cast<std::uint8_t>(v);
   return along;
 }
 

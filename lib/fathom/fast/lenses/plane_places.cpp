@@ -180,7 +180,7 @@ bool TileSearch::is_beyond_disc(double first_column, double first_row) const {
 // Finds the middles of blocks, each from the one before. Certificates come afterwards.
 void TileSearch::search_blocks(const PolynomialStage& stage) {
   const StageForLanes lanes(stage.numbers);
-  constexpr double half = TileShape::block / 2;
+  constexpr double half = TileShape::block / 2.0;
   std::optional<std::array<double, 2>> start;
   BlockSamples samples;
   for (std::uint32_t row = 0; row < TileShape::size; row += TileShape::block) {
