@@ -175,6 +175,22 @@ TEST(Fisheye, EndsAtMaxRadius) {
   EXPECT_FALSE(preimages.of(1.5, 0x1p-500).has_value());
 }
 
+// K⁻¹ overflows in binary64, and m may be as small as 1e-300.
+TEST(Fisheye, HasFocalLengthsNearTheEndOfBinary64) {
+  for (const double f : {0x1p1000, -0x1p1000, 0x1p-1000, 0x1.fffffffffffffp1023}) {
+    Projection camera;
+    camera.fx = camera.fy = f;
+    const Preimages preimages(camera, Lens{LensModel::fisheye});
+    const Dyadic u = Dyadic(f).scaled(-2), v = Dyadic(f).scaled(-1);  // m = (¼, ½)
+    const auto d = preimages.of(u, v);
+    ASSERT_TRUE(d.has_value()) << f;
+    expect_encloses(*d, lifted({0.25, 0.5}));
+    const auto near_axis = preimages.of(0x1p-1000, 0x1p-999);
+    ASSERT_EQ(near_axis.has_value(), true) << f;
+    EXPECT_EQ(near_axis->sign_of(ExactVector3{2.0, -1.0, 0.0}), Sign::zero);
+  }
+}
+
 // At 90°, z is 0 only where θ = π/2, which no rational sample has.
 TEST(Fisheye, IsNeverExactlyAt90Degrees) {
   const Preimages preimages({}, Lens{LensModel::fisheye});

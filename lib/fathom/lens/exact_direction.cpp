@@ -2,6 +2,7 @@
 #include "fathom/lens/exact_direction.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -330,16 +331,25 @@ Sign sign_at(const AngleDirection::PlaneDirection& m, const Form& form) {
   }
 }
 
-std::array<Interval, 3> lifted_box(const std::array<Interval, 3>& m) {
+/// The box of m; its ends are infinite where numbers overflow in binary64, unlike an enclosure's.
+std::array<DyadicInterval, 3> finite_box(const AngleDirection::PlaneDirection& m) {
+  const std::array<Interval, 3> box = std::visit([](const auto& d) { return d.box(); }, m);
+  const auto is_finite = [](const Interval& x) {
+    return std::isfinite(x.lower) && std::isfinite(x.upper);
+  };
+  if (!std::ranges::all_of(box, is_finite)) return enclosure_of(m, bits_of_box);
   const auto exact = [](const Interval& x) { return DyadicInterval{x.lower, x.upper}; };
-  const auto d = Lifted({exact(m[0]), exact(m[1]), exact(m[2])}, bits_of_box).direction();
+  return {exact(box[0]), exact(box[1]), exact(box[2])};
+}
+
+std::array<Interval, 3> lifted_box(const AngleDirection::PlaneDirection& m) {
+  const auto d = Lifted(finite_box(m), bits_of_box).direction();
   return {enclose(d[0].ends()), enclose(d[1].ends()), enclose(d[2].ends())};
 }
 
 }  // namespace
 
-AngleDirection::AngleDirection(PlaneDirection m)
-    : m_(std::move(m)), box_(lifted_box(std::visit([](const auto& d) { return d.box(); }, m_))) {}
+AngleDirection::AngleDirection(PlaneDirection m) : m_(std::move(m)), box_(lifted_box(m_)) {}
 
 Sign AngleDirection::sign_of(const ExactVector3& form) const {
   if (form[2].is_zero()) return plane_sign(m_, form);
