@@ -2,6 +2,8 @@
 
 #include <arb.h>
 
+#include <cmath>
+
 #include "fathom/numeric/dyadic.h"
 
 /// Balls of Arb, for the oracle: arithmetic that shares nothing with the library.
@@ -81,6 +83,13 @@ class ArbBall {
     fmpz_clear(e);
     arf_clear(x);
     return result;
+  }
+
+  /// The least ball that contains two numbers.
+  static ArbBall hull(const ArbBall& low, const ArbBall& high) { return of(arb_union, low, high); }
+  /// The distance of a number from the middle.
+  [[nodiscard]] double distance_from(double x) const {
+    return std::abs((ArbBall(x) - *this).approximate());
   }
 
   operator arb_ptr() { return value_; }

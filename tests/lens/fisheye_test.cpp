@@ -36,24 +36,18 @@ ArbBall value_of(const QuadraticForm& form, const Direction& d) {
          ArbBall(xy) * d[0] * d[1] + ArbBall(xz) * d[0] * d[2] + ArbBall(yz) * d[1] * d[2];
 }
 
-ArbBall hull(const Dyadic& low, const Dyadic& high) {
-  ArbBall ball;
-  arb_union(ball, ArbBall(low), ArbBall(high), ArbBall::bits);
-  return ball;
-}
-
 void expect_encloses(const ExactDirection& direction, const Direction& exact) {
   for (const long bits : {30L, 100L, 300L}) {
     const auto d = direction.enclosure(bits);
     for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_TRUE(hull(d[k].low, d[k].high).meets(exact[k])) << bits;
+      EXPECT_TRUE(ArbBall::hull(d[k].low, d[k].high).meets(exact[k])) << bits;
       const ArbBall width = ArbBall(d[k].high) - ArbBall(d[k].low);
       EXPECT_LT(width.approximate(), 4 * std::ldexp(1.0, static_cast<int>(-bits)));
     }
   }
   for (std::size_t k = 0; k < 3; ++k) {
     const Interval& box = direction.box()[k];
-    EXPECT_TRUE(hull(box.lower, box.upper).meets(exact[k]));
+    EXPECT_TRUE(ArbBall::hull(box.lower, box.upper).meets(exact[k]));
     EXPECT_LT(box.upper - box.lower, 0x1p-40);
   }
 }

@@ -39,13 +39,7 @@ Camera wide_camera(const Lens& lens) {
 /// The component of an exact direction along an axis of a view.
 ArbBall along(const ViewAxes::Axis& axis, const lens::ExactDirection& d) {
   const auto [low, high] = d.enclosure(120)[axis.of_camera];
-  ArbBall ball;
-  arb_union(ball, ArbBall(low), ArbBall(high), ArbBall::bits);
-  return ArbBall(axis.sign) * ball;
-}
-
-double distance(double x, const ArbBall& exact) {
-  return std::abs((ArbBall(x) - exact).approximate());
+  return ArbBall(axis.sign) * ArbBall::hull(low, high);
 }
 
 struct Checked {
@@ -68,8 +62,9 @@ void check(const Places& places, const Places::View& view, std::uint32_t tile, C
       ASSERT_TRUE(d.has_value());
       const ArbBall forward = along(view.axes.forward, *d);
       ASSERT_GT(forward.sign(), 0);
-      const double off = std::max(distance(of_tile.x[i], along(view.axes.right, *d) / forward),
-                                  distance(of_tile.y[i], along(view.axes.down, *d) / forward));
+      const double off =
+          std::max((along(view.axes.right, *d) / forward).distance_from(of_tile.x[i]),
+                   (along(view.axes.down, *d) / forward).distance_from(of_tile.y[i]));
       ASSERT_LE(off, of_tile.error);
       if (of_tile.error > 0)
         checked.greatest_share = std::max(checked.greatest_share, off / of_tile.error);

@@ -24,26 +24,20 @@ std::string described(const Lens& lens) {
   return text;
 }
 
-ArbBall hull(const Dyadic& low, const Dyadic& high) {
-  ArbBall ball;
-  arb_union(ball, ArbBall(low), ArbBall(high), ArbBall::bits);
-  return ball;
-}
-
 /// Whether the direction's box and enclosures contain the oracle's, and how narrow the box is.
 void expect_same(const ExactDirection& direction, const Point& m) {
   for (const long bits : {30L, 100L, 300L}) {
     const auto d = direction.enclosure(bits);
-    EXPECT_TRUE(hull(d[0].low, d[0].high).meets(m.x)) << bits;
-    EXPECT_TRUE(hull(d[1].low, d[1].high).meets(m.y)) << bits;
+    EXPECT_TRUE(ArbBall::hull(d[0].low, d[0].high).meets(m.x)) << bits;
+    EXPECT_TRUE(ArbBall::hull(d[1].low, d[1].high).meets(m.y)) << bits;
     EXPECT_TRUE(d[2].low == Dyadic(1.0) && d[2].high == Dyadic(1.0));
     const ArbBall width = ArbBall(d[0].high) - ArbBall(d[0].low);
     const ArbBall size = (m.x * m.x + m.y * m.y).root();
     EXPECT_LT(width.approximate(), 4 * std::ldexp(size.approximate(), static_cast<int>(-bits)));
   }
   const auto& box = direction.box();
-  EXPECT_TRUE(hull(box[0].lower, box[0].upper).meets(m.x));
-  EXPECT_TRUE(hull(box[1].lower, box[1].upper).meets(m.y));
+  EXPECT_TRUE(ArbBall::hull(box[0].lower, box[0].upper).meets(m.x));
+  EXPECT_TRUE(ArbBall::hull(box[1].lower, box[1].upper).meets(m.y));
 }
 
 struct Case {

@@ -23,10 +23,6 @@ class Stages : public ::testing::TestWithParam<LensModel> {};
 INSTANTIATE_TEST_SUITE_P(Lenses, Stages, ::testing::ValuesIn(oracle::stage_models),
                          [](const auto& model) { return std::string(name_of(model.param)); });
 
-double distance(double x, const ArbBall& exact) {
-  return std::abs((ArbBall(x) - exact).approximate());
-}
-
 // What binary64 makes of the formulas errs by a few units of roundoff of the magnitudes: 32 covers
 // the roundings of powers of q, of the scheme of Horner, of N/D and of the sum.
 TEST_P(Stages, AreThoseOfTheOracle) {
@@ -40,15 +36,15 @@ TEST_P(Stages, AreThoseOfTheOracle) {
     const auto exact = oracle::distorted<ArbBall>(NamedParameters(lens), x, y);
     const auto value = stage_value(numbers, x, y), size = stage_magnitudes(numbers, x, y);
     const double bound = 32 * 0x1p-53;
-    ASSERT_LE(distance(value.x, exact.x.v), bound * size.x);
-    ASSERT_LE(distance(value.y, exact.y.v), bound * size.y);
-    greatest_share = std::max(greatest_share, distance(value.x, exact.x.v) / (bound * size.x));
+    ASSERT_LE(exact.x.v.distance_from(value.x), bound * size.x);
+    ASSERT_LE(exact.y.v.distance_from(value.y), bound * size.y);
+    greatest_share = std::max(greatest_share, exact.x.v.distance_from(value.x) / (bound * size.x));
     const auto J = stage_jacobian(numbers, x, y);
     const double tolerance = 1e-12 * (1 + size.x + size.y) * (1 + size.x + size.y);
-    EXPECT_LE(distance(J.xx, exact.x.dx), tolerance);
-    EXPECT_LE(distance(J.xy, exact.x.dy), tolerance);
-    EXPECT_LE(distance(J.yx, exact.y.dx), tolerance);
-    EXPECT_LE(distance(J.yy, exact.y.dy), tolerance);
+    EXPECT_LE(exact.x.dx.distance_from(J.xx), tolerance);
+    EXPECT_LE(exact.x.dy.distance_from(J.xy), tolerance);
+    EXPECT_LE(exact.y.dx.distance_from(J.yx), tolerance);
+    EXPECT_LE(exact.y.dy.distance_from(J.yy), tolerance);
   }
   EXPECT_GT(greatest_share, 0.01);
 }

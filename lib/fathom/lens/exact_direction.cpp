@@ -266,9 +266,8 @@ Sign PolynomialDirection::sign_of(const QuadraticForm& form) const {
 
 namespace {
 
-/// The bits of the first attempt at a sign, of the arithmetic of the box, and of what the sums of a
-/// formula may lose.
-constexpr long bits_of_sign = 128, bits_of_box = 72, bits_to_lose = 16;
+/// The bits of the arithmetic of a fisheye's box, and of what the sums of its formulas may lose.
+constexpr long bits_of_box = 72, bits_to_lose = 16;
 
 std::array<DyadicInterval, 3> enclosure_of(const AngleDirection::PlaneDirection& m, long bits) {
   return std::visit([bits](const auto& d) { return d.enclosure(bits); }, m);
@@ -311,10 +310,7 @@ struct Lifted {
   BigInterval x, y, angle, sine_over_angle, cosine;
 };
 
-bool is_zero(const AngleDirection::PlaneDirection& m, const ExactVector3& form) {
-  return form[2].is_zero() && plane_sign(m, form) == Sign::zero;
-}
-
+/// Whether all coefficients of the polynomial in tan θ are 0.
 bool is_zero(const AngleDirection::PlaneDirection& m, const QuadraticForm& form) {
   const auto& [xx, yy, zz, xy, xz, yz] = form.coefficients;
   const QuadraticForm squares{{xx, yy, Dyadic(0.0), xy, Dyadic(0.0), Dyadic(0.0)}};
@@ -322,13 +318,18 @@ bool is_zero(const AngleDirection::PlaneDirection& m, const QuadraticForm& form)
          plane_sign(m, squares) == Sign::zero;
 }
 
+/// Sign::zero if so many bits do not settle it.
 template <class Form>
-Sign sign_at(const AngleDirection::PlaneDirection& m, const Form& form) {
-  for (long bits = bits_of_sign;; bits *= 2) {
-    const Sign sign = Lifted(enclosure_of(m, bits), bits + bits_to_lose).at(form).sign();
-    if (sign != Sign::zero) return sign;
-    if (bits == bits_of_sign && is_zero(m, form)) return Sign::zero;
-  }
+Sign sign_in_bits(const AngleDirection::PlaneDirection& m, const Form& form, long bits) {
+  return Lifted(enclosure_of(m, bits), bits + bits_to_lose).at(form).sign();
+}
+
+/// The sign of a form that is not 0.
+template <class Form>
+Sign sign_of_nonzero(const AngleDirection::PlaneDirection& m, const Form& form, long bits) {
+  Sign sign = Sign::zero;
+  for (; sign == Sign::zero; bits *= 2) sign = sign_in_bits(m, form, bits);
+  return sign;
 }
 
 /// The box of m; its ends are infinite where numbers overflow in binary64, unlike an enclosure's.
@@ -353,11 +354,13 @@ AngleDirection::AngleDirection(PlaneDirection m) : m_(std::move(m)), box_(lifted
 
 Sign AngleDirection::sign_of(const ExactVector3& form) const {
   if (form[2].is_zero()) return plane_sign(m_, form);
-  return sign_at(m_, form);
+  return sign_of_nonzero(m_, form, first_bits);
 }
 
 Sign AngleDirection::sign_of(const QuadraticForm& form) const {
-  return sign_at(m_, form);
+  const Sign sign = sign_in_bits(m_, form, first_bits);
+  if (sign != Sign::zero) return sign;
+  return is_zero(m_, form) ? Sign::zero : sign_of_nonzero(m_, form, 2 * first_bits);
 }
 
 std::optional<DirectionWords> AngleDirection::words() const {

@@ -13,11 +13,6 @@
 namespace fathom::lens {
 namespace {
 
-/// The k of d = (x_d, y_d, 1 + k·r²), of a model that is not of the plane.
-double division_term(const Lens& lens) {
-  return lens.model == LensModel::fisheye_stereographic ? -0.25 : lens.distortion[0];
-}
-
 // With y = (a, b)/c: d·c² = (a·c, b·c, c² + k·(a² + b²)), and there is a ray where k·r² < 1.
 std::optional<RationalDirection> divide(const DistortedPoint& y, const Dyadic& k) {
   const Dyadic c_squared = y.c * y.c, term = k * (y.a * y.a + y.b * y.b);
@@ -48,23 +43,25 @@ bool is_within(const std::optional<Dyadic>& limit, const DistortedPoint& m) {
   return !limit || m.a * m.a + m.b * m.b <= *limit * (m.c * m.c);
 }
 
-/// The direction, times a power of two that brings its greatest component between ½ and 1: binary64
-/// intervals contain it closely whatever its length is.
-RationalDirection scaled_direction(const DirectionTable::Direction& d) {
-  ExactVector3 vector{d[0], d[1], d[2]};
-  std::optional<long> top;
-  for (const Dyadic& component : vector) {
-    if (!component.is_zero()) top = std::max(top.value_or(component.top()), component.top());
-  }
-  for (Dyadic& component : vector) component = component.scaled(-*top);
-  return RationalDirection(std::move(vector));
-}
-
 PolynomialStage prepared_stage(const Lens& lens) {
   return PolynomialStage(has_stage(lens.model) ? lens : Lens());
 }
 
 }  // namespace
+
+double division_term(const Lens& lens) {
+  const StandardArithmetic standard;
+  return lens.model == LensModel::fisheye_stereographic ? -0.25 : lens.distortion[0];
+}
+
+ExactVector3 scaled_to_one(ExactVector3 direction) {
+  const StandardArithmetic standard;
+  std::optional<long> top;
+  for (const Dyadic& component : direction)
+    if (!component.is_zero()) top = std::max(top.value_or(component.top()), component.top());
+  for (Dyadic& component : direction) component = component.scaled(-*top);
+  return direction;
+}
 
 Preimages::Preimages(const Projection& projection, const Lens& lens)
     : plane_(projection), lens_(lens), tilt_(Tilt::of(lens)), stage_(prepared_stage(lens)) {}
@@ -121,7 +118,7 @@ std::optional<ExactDirection> Preimages::of_pixel(std::uint32_t column, std::uin
   if (!lens_.directions) return of(column + 0.5, row + 0.5);
   const auto d = lens_.directions->at(column, row);
   if (!d) return std::nullopt;
-  RationalDirection direction = scaled_direction(*d);
+  RationalDirection direction(scaled_to_one({(*d)[0], (*d)[1], (*d)[2]}));
   if (!is_within_angle(direction.vector(), lens_.max_radius)) return std::nullopt;
   return ExactDirection(std::move(direction));
 }

@@ -11,6 +11,13 @@
 
 namespace fathom::lens {
 
+/// The k of d = (x_d, y_d, 1 + k·r²), of a lens by division or of the stereographic fisheye.
+double division_term(const Lens& lens);
+
+/// The same direction, times a power of two that brings its greatest component between ½ and 1:
+/// binary64 intervals contain it closely whatever its length is.
+ExactVector3 scaled_to_one(ExactVector3 direction);
+
 /// A lens in front of a camera: which direction each sample of its image sees (specification,
 /// section 2).
 ///

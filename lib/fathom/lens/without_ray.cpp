@@ -93,7 +93,7 @@ std::optional<Rim> rim_of_stage(const StageNumbers<double>& stage, double farthe
 // At the angle θ from the axis tan θ = r/(1 + k·r²): r is the lesser root of a quadratic equation.
 // Angles that a model does not reach have none.
 std::optional<Rim> rim_of_division(const Lens& lens) {
-  const double k = lens.model == LensModel::fisheye_stereographic ? -0.25 : lens.distortion[0];
+  const double k = division_term(lens);
   const double max_radius = lens.max_radius;
   const double end = k > 0 ? 1 / std::sqrt(k) : HUGE_VAL;
   const double cosine = std::cos(max_radius), sine = std::sin(max_radius);

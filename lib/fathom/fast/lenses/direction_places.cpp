@@ -23,10 +23,6 @@ constexpr double underflow = std::numeric_limits<double>::min();
 /// Coordinates of a tile that is in one view: up to 76° from its axis.
 constexpr double most_in_one_view = 4;
 
-double division_term(const Lens& lens) {
-  return lens.model == LensModel::fisheye_stereographic ? -0.25 : lens.distortion[0];
-}
-
 /// sin √q/√q where `first` is 1 and cos √q where it is 0: Σ (−q)^k·first!/(2k + first)!, by the
 /// scheme of Horner.
 template <int first>
@@ -88,9 +84,10 @@ DirectionModel::DirectionModel(const lens::Preimages& the_preimages, const Proje
     : preimages_(the_preimages),
       grid_(grid),
       table_(projection.lens->directions.get()),
-      k_(division_term(*projection.lens)),
-      plane_(table_ ? CertifiedPlane()
-                    : CertifiedPlane(the_preimages, projection, grid.width, grid.height)),
+      k_(lens::division_term(*projection.lens)),
+      plane_(table_ != nullptr || the_preimages.stage() != nullptr
+                 ? CertifiedPlane()
+                 : CertifiedPlane(the_preimages, projection, grid.width, grid.height)),
       limit_{the_preimages.cosine_of_end()} {
   if (the_preimages.stage() != nullptr) angles_.emplace(the_preimages, projection, grid);
 }
@@ -176,22 +173,16 @@ ApproximateDirection middle_of(const std::array<Interval, 3>& box) {
   return direction;
 }
 
-std::array<Interval, 3> scaled_box(const ExactVector3& d) {
-  std::optional<long> top;
-  for (const Dyadic& component : d)
-    if (!component.is_zero()) top = std::max(top.value_or(component.top()), component.top());
-  std::array<Interval, 3> box;
-  for (std::size_t k = 0; k < 3; ++k) box[k] = enclose(d[k].scaled(-*top));
-  return box;
-}
-
 }  // namespace
 
 std::optional<ApproximateDirection> DirectionModel::exactly_at(std::uint32_t column,
                                                                std::uint32_t row) const {
   const auto exact = preimages_.of_pixel(column, row);
   if (!exact) return std::nullopt;
-  if (const ExactVector3* const d = exact->rational()) return middle_of(scaled_box(*d));
+  if (const ExactVector3* const d = exact->rational()) {
+    const auto [x, y, z] = lens::scaled_to_one(*d);
+    return middle_of({enclose(x), enclose(y), enclose(z)});
+  }
   const auto [x, y, z] = exact->enclosure(64);
   return middle_of({enclose(x), enclose(y), enclose(z)});
 }

@@ -65,7 +65,7 @@ class DirectionModel {
   const lens::Preimages& preimages_;
   const TileGrid& grid_;
   const DirectionTable* table_;
-  /// k of d = (x_d, y_d, 1 + k·r²).
+  /// Of a model of division: k of d = (x_d, y_d, 1 + k·r²), and the map to (x_d, y_d).
   double k_;
   CertifiedPlane plane_;
   AngleLimit limit_;
