@@ -66,8 +66,6 @@ class NewFolders {
   std::vector<std::filesystem::path> made_;
 };
 
-class NewFolders;
-
 /// One output of a command. It is written next to its place, without a name or under a temporary
 /// name (staged_file.h), and commit() moves it there. Until then an older file of that name is
 /// untouched. An output that is not committed leaves nothing behind, however the program ends.

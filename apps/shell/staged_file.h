@@ -47,10 +47,10 @@ void remove_stale_parts(const std::filesystem::path& folder);
 /// A file that is being written and has not been put in its place yet. Until then only its owner
 /// can read it, and it disappears however the program ends:
 ///
-///   if the system supports it it has no name at all (O_TMPFILE) elsewhere its name is
-///   .fathom-XXXXXXXXXXXXXXXX.part. The next program that
-///                           writes to the folder removes parts of killed programs: parts of
-///                           running programs are locked, and a lock ends with its process.
+///   if the system can   it has no name at all (O_TMPFILE)
+///   elsewhere           its name is .fathom-XXXXXXXXXXXXXXXX.part. The next program that writes to
+///                       the folder removes parts of killed programs: parts of running programs are
+///                       locked, and a lock ends with its process.
 ///
 /// Fails    std::system_error with the reason.
 class StagedFile {

@@ -20,8 +20,8 @@
 ///                  through pixel centres
 ///   grid-shifted   grid-aligned, shifted by (0.1234567, 0.7654321) pixel
 ///   room           a closed room of 120 thousand triangles, seen from inside
-///   room-outside the same room, seen from outside scan a bumpy boulder of 980 thousand triangles
-///   as a scanner leaves it: of uneven
+///   room-outside   the same room, seen from outside
+///   scan           a bumpy boulder of 980 thousand triangles as a scanner leaves it: of uneven
 ///                  sizes, about a pixel, with noise and holes
 ///   city           309 thousand triangles of 400 houses, seen from the middle of a street: long
 ///                  and thin, from behind the camera to the horizon, most of them hidden

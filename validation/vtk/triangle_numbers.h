@@ -50,14 +50,10 @@ std::vector<std::uint32_t> read_triangle_numbers_of_first_sample(const GlFunctio
 class RecordingMapper : public vtkOpenGLPolyDataMapper {
  public:
   static RecordingMapper* New();
-  // clang-format off
-  vtkTypeMacro(RecordingMapper, vtkOpenGLPolyDataMapper)
-      // clang-format on
+  vtkTypeMacro(RecordingMapper, vtkOpenGLPolyDataMapper);
 
-      /// The matrix from held positions to clip coordinates, row by row, as OpenGL had it.
-      [[nodiscard]] const std::array<float, 16>& clip_from_held() const {
-    return clip_from_held_;
-  }
+  /// The matrix from held positions to clip coordinates, row by row, as OpenGL had it.
+  [[nodiscard]] const std::array<float, 16>& clip_from_held() const { return clip_from_held_; }
   /// From now on the greater window depth is the nearer one. If `zero_to_one`, the near and far
   /// planes lie at z = w and z = 0 in clip coordinates.
   void reverse(bool zero_to_one) {

@@ -32,7 +32,7 @@ struct ValidationCase {
   std::shared_ptr<const attribution::Truth> truth;
   attribution::OtherMap other;
   attribution::Attribution attribution;
-  /// See predicted_fights() in validation_case.h.
+  /// See predicted_fights().
   std::optional<std::uint64_t> predicted_fights;
 
   /// Whether the triangle of each pixel is known. If not, only depths can reveal z-fighting.

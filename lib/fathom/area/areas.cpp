@@ -1,4 +1,3 @@
-
 #include "fathom/area/areas.h"
 
 #include <bit>

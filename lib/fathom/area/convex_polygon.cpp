@@ -1,4 +1,3 @@
-
 #include "fathom/area/convex_polygon.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/area/coverage.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/area/coverage_image.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/area/image_cell.h"
 
 #include <algorithm>

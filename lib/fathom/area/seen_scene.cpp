@@ -1,4 +1,3 @@
-
 #include "fathom/area/seen_scene.h"
 
 #include <algorithm>

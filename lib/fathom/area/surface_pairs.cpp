@@ -1,4 +1,3 @@
-
 #include "fathom/area/surface_pairs.h"
 
 #include <algorithm>

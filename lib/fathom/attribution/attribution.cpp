@@ -1,4 +1,3 @@
-
 #include "fathom/attribution/attribution.h"
 
 #include <fmt/format.h>

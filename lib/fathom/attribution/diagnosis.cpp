@@ -1,4 +1,3 @@
-
 #include "fathom/attribution/diagnosis.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-
 #include "fathom/attribution/fragment.h"
 
 #include <algorithm>

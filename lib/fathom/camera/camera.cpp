@@ -1,4 +1,3 @@
-
 #include "fathom/camera/camera.h"
 
 #include <cmath>

@@ -1,4 +1,3 @@
-
 #include "fathom/camera/camera_files.h"
 
 #include <fmt/core.h>

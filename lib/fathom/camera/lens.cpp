@@ -1,4 +1,3 @@
-
 #include "fathom/camera/lens.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/camera/pose.h"
 
 #include "fathom/failures/errors.h"

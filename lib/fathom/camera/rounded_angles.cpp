@@ -1,4 +1,3 @@
-
 #include "fathom/camera/rounded_angles.h"
 
 #include <cmath>

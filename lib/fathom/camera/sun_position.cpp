@@ -1,4 +1,3 @@
-
 #include "fathom/camera/sun_position.h"
 
 #include <cmath>

@@ -1,4 +1,3 @@
-
 #include "fathom/clipping/rings.h"
 
 #include <algorithm>

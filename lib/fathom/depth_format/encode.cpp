@@ -1,4 +1,3 @@
-
 #include "fathom/depth_format/encode.h"
 
 #include <bit>

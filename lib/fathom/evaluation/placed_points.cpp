@@ -1,4 +1,3 @@
-
 #include "fathom/evaluation/placed_points.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/evaluation/surface_distances.h"
 
 #include <algorithm>

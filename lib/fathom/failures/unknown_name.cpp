@@ -1,4 +1,3 @@
-
 #include "fathom/failures/unknown_name.h"
 
 #include <algorithm>

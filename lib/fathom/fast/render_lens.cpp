@@ -1,4 +1,3 @@
-
 #include "fathom/fast/render_lens.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/files/input_file.h"
 
 #include <fcntl.h>

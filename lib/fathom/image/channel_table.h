@@ -34,7 +34,7 @@ enum class Channel {
 /// Quantity of a channel, which decides its value for "no surface".
 enum class ChannelKind {
   depth,       ///< Z, distance, disparity, Zdecoded: background +∞ (of codes and
-               ///< disparities 0), or what the map says (background.h)
+               ///< disparities 0), or what the map says (surface.h)
   identifier,  ///< id, face, object, material and every other 32-bit integer: background no_surface
   direction,   ///< N.*, Nc.*, Ns.*: background 0 in all three
   position,    ///< P.*, bary.*: background NaN
@@ -111,7 +111,7 @@ bool shows_segments(std::string_view channel);
 /// The names of all channels, in the order of channel_table.
 std::vector<std::string> names_of_channels();
 
-/// "Z, A, Zlow, … and bary"
+/// "Z, A, Zlow, … and valid"
 std::string channel_names();
 
 }  // namespace fathom

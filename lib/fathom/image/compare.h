@@ -103,7 +103,7 @@ struct CompareOptions {
   /// Its name in the other map, if that differs.
   std::string other_channel;
   /// The value of the background in depth channels, in addition to NaN and infinities. If empty,
-  /// the value that the map declares (background.h), or else the detected value (surface.h), with a
+  /// the value that the map declares, or else the detected value (surface.h), with a
   /// note.
   std::optional<double> truth_background, other_background;
   double tolerance_absolute = 0;

@@ -1,4 +1,3 @@
-
 #include "fathom/image/convert.h"
 
 #include <cmath>

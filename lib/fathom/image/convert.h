@@ -35,7 +35,7 @@ struct StereoRig {
 /// Returns a map with one channel: `to`, computed from the map's channel `from`, of the same type,
 /// with the map's texts. Pixels without a surface (surface_mask()) become `background`; so do NaN
 /// and overflowed depths (+∞). The default background is 0 for disparity, as in most data sets, and
-/// otherwise the background that the map declares (background.h), or +∞. A disparity of +∞ is
+/// otherwise the background that the map declares (surface.h), or +∞. A disparity of +∞ is
 /// Middlebury's "unknown".
 ///   ray distance   Z·√(1 + x'² + y'²) with x', y' as in point_at() (Z itself if orthographic)
 /// Fails    UsageError if the channel `from` is missing or holds codes, if disparity is requested

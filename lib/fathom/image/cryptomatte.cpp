@@ -1,4 +1,3 @@
-
 #include "fathom/image/cryptomatte.h"
 
 #include <algorithm>

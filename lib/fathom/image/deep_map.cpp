@@ -1,4 +1,3 @@
-
 #include "fathom/image/deep_map.h"
 
 #include <limits>

@@ -110,7 +110,7 @@ inline constexpr const char* samples_text = "fathom.samples";
 /// The depth format of channel Zwindow, as JSON, and the depth range of a pipeline, unless [0, 1].
 inline constexpr const char* depth_format_text = "fathom.depth_format";
 inline constexpr const char* depth_range_text = "fathom.depth_range";
-/// The value of depth channels without a surface, unless +∞ (background.h).
+/// The value of depth channels without a surface, unless +∞ (surface.h).
 inline constexpr const char* background_text = "fathom.background";
 /// The channels that have another name in the file (channel_names.h).
 inline constexpr const char* channel_names_text = "fathom.channel-names";

@@ -66,7 +66,7 @@ double memory_to_encode(MapFormat format, Compression compression, std::uint32_t
 ///   COLMAP  a dense map: Z, 0 where no surface is; or Nc; both binary32 (files/colmap_file.cpp).
 ///   TIFF  a GeoTIFF of less than 4 GiB, for other programs: a band of binary32 for every channel,
 ///         with DEFLATE, and its place in the world, by a camera that require_place_in_world()
-///         takes (files/geotiff_write.cpp).
+///         takes (files/geotiff.cpp).
 /// Fails    OutputError: "PATH: why" (disk full, not writable), or if the format cannot hold the
 ///          map; InputError if the map has a fault (find_fault); UsageError if the channel is
 ///          missing or ambiguous, or the number of threads is out of range.

@@ -1,4 +1,3 @@
-
 #include "fathom/image/preview.h"
 
 #include <algorithm>

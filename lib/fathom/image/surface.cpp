@@ -1,4 +1,3 @@
-
 #include "fathom/image/surface.h"
 
 #include <algorithm>

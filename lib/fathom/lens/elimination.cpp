@@ -1,4 +1,3 @@
-
 #include "fathom/lens/elimination.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/lens/exact_direction.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/lens/polynomial_stage.h"
 
 #include <algorithm>

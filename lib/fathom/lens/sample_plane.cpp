@@ -1,4 +1,3 @@
-
 #include "fathom/lens/sample_plane.h"
 
 #include <utility>

@@ -1,4 +1,3 @@
-
 #include "fathom/lens/stage.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/lens/without_ray.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/mesh/mesh_faces.h"
 
 #include <numeric>

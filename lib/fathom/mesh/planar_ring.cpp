@@ -1,4 +1,3 @@
-
 #include "fathom/mesh/planar_ring.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/mesh_files/read_mesh.h"
 
 #include <algorithm>

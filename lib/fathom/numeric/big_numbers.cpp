@@ -1,4 +1,3 @@
-
 #include "fathom/numeric/big_numbers.h"
 
 namespace fathom {

@@ -1,4 +1,3 @@
-
 #include "fathom/numeric/certified_value.h"
 
 #include <algorithm>

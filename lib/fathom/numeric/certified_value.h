@@ -70,7 +70,7 @@ Certified<Real> quotient(const Certified<Real>& x, const Certified<Real>& y) {
 
 /// Arithmetic of binary64 numbers with bounds that count every rounding of their own, so that many
 /// operations may follow each other; a divisor may err by almost all of itself. sum(), product()
-/// and quotient() of certified_value.h serve double-words too.
+/// and quotient() above serve double-words too.
 
 /// Compensates for the at most 6 roundings of a bound's own, non-negative terms.
 inline constexpr double bound_rounding = 1 + 0x1p-48;

@@ -1,4 +1,3 @@
-
 #include "fathom/numeric/exact_polynomial.h"
 
 #include <algorithm>

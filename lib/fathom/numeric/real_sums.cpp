@@ -1,4 +1,3 @@
-
 #include "fathom/numeric/real_sums.h"
 
 #include <algorithm>

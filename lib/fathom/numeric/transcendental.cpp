@@ -1,4 +1,3 @@
-
 #include "fathom/numeric/transcendental.h"
 
 #include <bit>

@@ -1,4 +1,3 @@
-
 #include "fathom/rays/cast.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/rays/ray_tree.h"
 
 #include <algorithm>

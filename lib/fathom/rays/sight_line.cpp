@@ -1,4 +1,3 @@
-
 #include "fathom/rays/sight_line.h"
 
 #include <algorithm>

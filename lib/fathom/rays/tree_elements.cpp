@@ -1,4 +1,3 @@
-
 #include "fathom/rays/tree_elements.h"
 
 #include <algorithm>

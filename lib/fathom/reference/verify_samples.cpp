@@ -1,4 +1,3 @@
-
 #include "fathom/reference/verify_samples.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/reference/view.h"
 
 #include <algorithm>

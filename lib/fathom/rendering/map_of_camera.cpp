@@ -1,4 +1,3 @@
-
 #include "fathom/rendering/map_of_camera.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/rendering/options.h"
 
 #include <cmath>

@@ -1,4 +1,3 @@
-
 #include "fathom/rendering/rendered.h"
 
 namespace fathom {

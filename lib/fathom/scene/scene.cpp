@@ -1,4 +1,3 @@
-
 #include "fathom/scene/scene.h"
 
 #include <cmath>

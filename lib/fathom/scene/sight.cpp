@@ -1,4 +1,3 @@
-
 #include "fathom/scene/sight.h"
 
 #include <algorithm>

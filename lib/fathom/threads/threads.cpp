@@ -1,4 +1,3 @@
-
 #include "fathom/threads/threads.h"
 
 #include <pthread.h>

@@ -1,4 +1,3 @@
-
 #include "fathom/triangle/double_word_surface.h"
 
 #include <cmath>

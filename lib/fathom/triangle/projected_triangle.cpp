@@ -1,4 +1,3 @@
-
 #include "fathom/triangle/projected_triangle.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/triangle/ray_values.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/triangle/referee.h"
 
 #include <algorithm>

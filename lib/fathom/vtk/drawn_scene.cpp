@@ -1,4 +1,3 @@
-
 #include "fathom/vtk/drawn_scene.h"
 
 #include <vtkActor.h>

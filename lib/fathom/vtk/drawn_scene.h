@@ -11,6 +11,8 @@
 #include "fathom/scene/scene.h"
 #include "fathom/vtk/explain_depth.h"
 
+class vtkOpenGLPolyDataMapper;
+class vtkProp;
 class vtkRenderer;
 
 namespace fathom::vtk {
@@ -20,12 +22,6 @@ namespace fathom::vtk {
 /// Fails    InputError if no Camera has such matrices, or if the camera is not of VTK's OpenGL.
 Camera camera_of(vtkRenderer& renderer);
 
-}  // namespace fathom::vtk
-
-class vtkRenderer;
-
-namespace fathom::vtk {
-
 /// Checks that the camera of VTK's matrices follows from the position, focal point, view up, view
 /// angle or parallel scale, window centre, model transform and clipping range of its vtkCamera, up
 /// to the roundings of sums in binary64. Returns the difference as a clause, or nothing. Returns
@@ -33,14 +29,6 @@ namespace fathom::vtk {
 /// off-axis projection, which are matrices themselves.
 /// Source   vtkCamera's documentation of these properties.
 std::optional<std::string> fault_of_matrices(vtkRenderer& renderer, const Camera& of_matrices);
-
-}  // namespace fathom::vtk
-
-class vtkOpenGLPolyDataMapper;
-class vtkProp;
-class vtkRenderer;
-
-namespace fathom::vtk {
 
 /// The opaque triangles that a renderer shows.
 struct DrawnScene {

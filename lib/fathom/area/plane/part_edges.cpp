@@ -1,4 +1,3 @@
-
 #include "fathom/area/plane/part_edges.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/area/plane/plane_areas.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/attribution/faults/deviation_fit.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-
 #include "fathom/attribution/faults/local_faults.h"
 
 #include <fmt/format.h>

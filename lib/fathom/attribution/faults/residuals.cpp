@@ -1,4 +1,3 @@
-
 #include "fathom/attribution/faults/residuals.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,3 @@
-
 #include "fathom/attribution/faults/storage.h"
 
 #include <fmt/format.h>

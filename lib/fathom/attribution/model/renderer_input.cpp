@@ -1,4 +1,3 @@
-
 #include "fathom/attribution/model/renderer_input.h"
 
 #include <Eigen/LU>

@@ -1,4 +1,3 @@
-
 #include "fathom/attribution/model/window_depth.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/attribution/pixels/pixel_judge.h"
 
 #include <algorithm>

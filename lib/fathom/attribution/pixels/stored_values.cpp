@@ -1,4 +1,3 @@
-
 #include "fathom/attribution/pixels/stored_values.h"
 
 #include <algorithm>

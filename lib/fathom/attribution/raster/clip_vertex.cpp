@@ -1,4 +1,3 @@
-
 #include "fathom/attribution/raster/clip_vertex.h"
 
 #include <Eigen/Core>

@@ -1,4 +1,3 @@
-
 #include "fathom/attribution/raster/raster_polygon.h"
 
 #include <algorithm>

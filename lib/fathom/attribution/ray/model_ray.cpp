@@ -1,4 +1,3 @@
-
 #include "fathom/attribution/ray/model_ray.h"
 
 #include <algorithm>

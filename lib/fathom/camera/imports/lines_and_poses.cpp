@@ -1,4 +1,3 @@
-
 #include "fathom/camera/imports/lines_and_poses.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/clipping/weiler_atherton/edge_order.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/clipping/weiler_atherton/side_contacts.h"
 
 #include <algorithm>

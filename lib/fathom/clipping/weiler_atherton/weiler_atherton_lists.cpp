@@ -1,4 +1,3 @@
-
 #include "fathom/clipping/weiler_atherton/weiler_atherton_lists.h"
 
 #include <algorithm>

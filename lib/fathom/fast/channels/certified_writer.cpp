@@ -1,4 +1,3 @@
-
 #include "fathom/fast/channels/certified_writer.h"
 
 #include <algorithm>

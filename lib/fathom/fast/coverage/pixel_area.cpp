@@ -1,4 +1,3 @@
-
 #include "fathom/fast/coverage/pixel_area.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/fast/lenses/lens_output.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/fast/lenses/plane_places.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/fast/pixels/surface_values.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/fast/rounds/kept_triangles.h"
 
 #include <algorithm>

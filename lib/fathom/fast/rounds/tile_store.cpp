@@ -1,4 +1,3 @@
-
 #include "fathom/fast/rounds/tile_store.h"
 
 #include <algorithm>

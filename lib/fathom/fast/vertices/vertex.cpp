@@ -1,4 +1,3 @@
-
 #include "fathom/fast/vertices/vertex.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include <ImfChannelList.h>
 #include <ImfDeepFrameBuffer.h>
 #include <ImfDeepImageStateAttribute.h>

@@ -1,4 +1,3 @@
-
 #include "fathom/image/files/file_texts.h"
 
 #include <algorithm>

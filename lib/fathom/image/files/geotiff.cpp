@@ -1,4 +1,3 @@
-
 #include "fathom/image/files/geotiff.h"
 
 #include <libdeflate.h>

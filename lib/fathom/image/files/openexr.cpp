@@ -1,4 +1,3 @@
-
 #include "fathom/image/files/openexr.h"
 
 #include <ImfHeader.h>

@@ -1,4 +1,3 @@
-
 #include "fathom/image/pictures/legend.h"
 
 #include <algorithm>

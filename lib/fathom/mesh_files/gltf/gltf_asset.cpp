@@ -1,4 +1,3 @@
-
 #include "fathom/mesh_files/gltf/gltf_asset.h"
 
 #include <cmath>

@@ -1,4 +1,3 @@
-
 #include "fathom/mesh_files/obj/obj_counts.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/mesh_files/ply/ply_layout.h"
 
 #include <algorithm>

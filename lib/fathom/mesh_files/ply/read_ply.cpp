@@ -1,4 +1,3 @@
-
 #include "fathom/memory/huge_pages.h"
 #include "fathom/mesh_files/ply/ply_body.h"
 #include "fathom/mesh_files/ply/ply_text.h"

@@ -1,4 +1,3 @@
-
 #include "fathom/mesh_files/stl/stl_binary.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/pipeline/fragments/fragment.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/pipeline/geometry/painters_algorithm.h"
 
 #include <Eigen/Core>

@@ -1,4 +1,3 @@
-
 #include "fathom/pipeline/geometry/subpixel_grid.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/pipeline/output/area_sampling.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-
 #include "fathom/pipeline/output/temporal_history.h"
 
 #include <Eigen/Core>

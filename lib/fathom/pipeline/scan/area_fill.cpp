@@ -1,4 +1,3 @@
-
 #include "fathom/pipeline/scan/area_fill.h"
 
 #include <algorithm>
