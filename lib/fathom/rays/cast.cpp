@@ -13,7 +13,6 @@
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/rays/candidates.h"
 #include "fathom/rays/ray_tree.h"
-#include "fathom/rays/rounded_t.h"
 #include "fathom/rays/walk_ray.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/interruption.h"
@@ -99,14 +98,15 @@ std::optional<double> settled_t(const RayScene& scene, const Ray& ray, const Can
   return result;
 }
 
-}  // namespace
-
+/// t of a hit that was found for a ray, rounded once: in double-words if their bounds settle it,
+/// otherwise by exact numbers.
 double rounded_t(const RayScene& scene, const Ray& ray, Candidates& found,
                  const Candidates::Hit& hit) {
   if (const auto settled = settled_t(scene, ray, hit)) return *settled;
   return round_to_binary64(found.exact_t(hit));
 }
 
+}  // namespace
 }  // namespace fathom::rays
 
 namespace fathom {

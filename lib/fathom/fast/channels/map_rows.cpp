@@ -1,3 +1,4 @@
+// Rows of a tile to the map, past the caches.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fathom/fast/channels/map_rows.cpp"
 #include "fathom/fast/channels/map_rows.h"
@@ -7,8 +8,10 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <variant>
 
 HWY_BEFORE_NAMESPACE();
 namespace fathom::fast::HWY_NAMESPACE {
@@ -52,6 +55,29 @@ void MapRows::write_past_caches(const void* from, std::size_t bytes, void* to) {
 
 void MapRows::finish() const {
   if (past_caches) hwy::FlushStream();
+}
+
+BackgroundRows::BackgroundRows(const rendering::MapBackground& background, MapRows rows)
+    : rows_(rows) {
+  background.for_each([&]<class T>(T* values, T value) {
+    Row<T> row;
+    row.pixels.fill(value);
+    row.values = values;
+    channels_.emplace_back(row);
+  });
+}
+
+void BackgroundRows::write(const PixelBox& part, const MapLayout& layout) const {
+  const std::size_t columns = part.last_column - part.first_column + std::size_t{1};
+  for (const AnyRow& channel : channels_) {
+    std::visit(
+        [&](const auto& row) {
+          for (std::uint32_t y = part.first_row; y <= part.last_row; ++y) {
+            rows_.write(row.pixels, columns, row.values + layout.pixel(part.first_column, y));
+          }
+        },
+        channel);
+  }
 }
 
 }  // namespace fathom::fast

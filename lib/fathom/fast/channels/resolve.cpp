@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <utility>
 
 #include "fathom/fast/channels/depth_interval-inl.h"
-#include "fathom/fast/channels/surfaces_at-inl.h"
 #include "fathom/fast/lanes/each_bit.h"
 #include "fathom/fast/lanes/lanes-inl.h"
 #include "fathom/fast/tiles/lane_batch-inl.h"
@@ -215,6 +215,34 @@ std::optional<EncodingFault> resolve(const Tile& tile, const TileOutput& output,
   }
   rows.finish();
   return std::nullopt;
+}
+
+namespace {
+
+/// The channels whose background tiles that show surfaces do not write anyway.
+rendering::MapBackground beside_surfaces(rendering::MapBackground background, bool writes_depths) {
+  background.leave_out("A");
+  if (writes_depths) background.leave_out("Z");
+  return background;
+}
+
+}  // namespace
+
+FastOutput::FastOutput(DepthMap& map, ChannelWriter& writer, const SceneRays& rays,
+                       rendering::MapBackground unfilled, MapRows rows)
+    : rows_(rows),
+      certified_([&, rows] { return CertifiedWriter(writer, rays, rows); }),
+      depths_(writer.values().depth.binary32),
+      others_(std::any_of(map.channels.begin(), map.channels.end(),
+                          [&](const ImageChannel& channel) {
+                            return channel.name != "A" && !(depths_ && channel.name == "Z");
+                          })),
+      all_(unfilled, rows),
+      beside_surfaces_(beside_surfaces(std::move(unfilled), depths_ != nullptr), rows) {}
+
+void FastOutput::write_background(const PixelBox& area, const MapLayout& layout) const {
+  all_.write(area, layout);
+  rows_.finish();
 }
 
 }  // namespace fathom::fast

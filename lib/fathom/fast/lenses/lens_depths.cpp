@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "fathom/fast/channels/depth_interval-inl.h"
-#include "fathom/fast/channels/surfaces_at-inl.h"
 #include "fathom/fast/lanes/lanes-inl.h"
 #include "fathom/fast/lenses/lens_tile.h"
 

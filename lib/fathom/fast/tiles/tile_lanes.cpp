@@ -11,7 +11,6 @@
 #include "fathom/fast/bins/fetch-inl.h"
 #include "fathom/fast/lanes/each_bit.h"
 #include "fathom/fast/setup/setup-inl.h"
-#include "fathom/fast/tiles/block_functions-inl.h"
 #include "fathom/fast/tiles/cell_drawing-inl.h"
 #include "fathom/fast/tiles/cell_spans-inl.h"
 #include "fathom/fast/tiles/farthest-inl.h"
