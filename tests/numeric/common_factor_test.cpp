@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "fathom/numeric/divisors.h"
+#include "fathom/numeric/certified.h"
 #include "tests/numeric/random_numbers.h"
 
 namespace fathom {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fathom/numeric/divisors.h"
+#include "fathom/numeric/dyadic.h"
 #include "tests/numeric/random_numbers.h"
 
 namespace fathom {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "fathom/numeric/divisors.h"
+#include "fathom/numeric/certified.h"
 
 namespace fathom::area {
 namespace {

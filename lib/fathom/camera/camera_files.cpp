@@ -7,7 +7,6 @@
 #include <limits>
 #include <string>
 
-#include "fathom/camera/camera_keys.h"
 #include "fathom/camera/lens.h"
 #include "fathom/camera/pose.h"
 #include "fathom/files/input_file.h"
@@ -15,20 +14,23 @@
 #include "fathom/text/json_text.h"
 #include "fathom/text/json_value.h"
 
+// The keys that say how a camera projects.
 namespace fathom::camera {
 using text::JsonValue;
 
+namespace {
+
+/// Refuses an object with both keys.
 void expect_either(const JsonValue& value, std::string_view one, std::string_view other) {
   const std::string first(one), second(other);
   if (value.find(first) && value.find(second))
     value.fail("has both \"" + first + "\" and \"" + second + "\", expected one of them");
 }
 
+/// Sets a number if its key is there.
 void read_number(const JsonValue& value, std::string_view key, double& number) {
   if (const auto member = value.find(std::string(key))) number = member->number();
 }
-
-namespace {
 
 void read_intrinsic_matrix(const JsonValue& value, Projection& projection) {
   const std::vector<JsonValue> rows = value.elements(3);
@@ -89,8 +91,7 @@ void read_intrinsics_of_lens(const JsonValue& value, const LensModelEntry& model
   set_intrinsics(model, numbers.begin(), projection);
 }
 
-}  // namespace
-
+/// fx, fy, cx, cy and skew, or all of them as the matrix K.
 void read_intrinsics(const JsonValue& value, Projection& projection) {
   for (const char* number : {"fx", "fy", "cx", "cy", "skew"}) expect_either(value, "K", number);
   if (const auto K = value.find("K")) return read_intrinsic_matrix(*K, projection);
@@ -101,6 +102,9 @@ void read_intrinsics(const JsonValue& value, Projection& projection) {
   read_number(value, "skew", projection.skew);
 }
 
+/// The keys that are allowed with the lens model of the key `model`, including `model`, without
+/// pixel_centre.
+/// Fails    InputError for an unknown model.
 std::vector<std::string_view> keys_of_lens(const JsonValue& value) {
   const LensModelEntry& model = model_of(value);
   if (model.model == LensModel::table)
@@ -112,10 +116,13 @@ std::vector<std::string_view> keys_of_lens(const JsonValue& value) {
   return keys;
 }
 
+/// Whether the key `model` is TABLE.
 bool is_table(const JsonValue& value) {
   return value.find("model") && model_of(value).model == LensModel::table;
 }
 
+/// The lens of the model TABLE, for an image of this size. Without a reader the table is only
+/// named.
 void read_table(const JsonValue& value, std::uint32_t width, std::uint32_t height,
                 const DirectionReader& directions, Projection& projection) {
   for (const char* later : {"origins", "row_poses"}) {
@@ -140,6 +147,8 @@ void read_table(const JsonValue& value, std::uint32_t width, std::uint32_t heigh
   }
 }
 
+/// Any other lens: the key `model`, and its parameters: each by its name (missing parameters of
+/// distortion are 0), or all of them in the list `params`, or K with the list `distortion`.
 void read_lens(const JsonValue& value, Projection& projection) {
   const LensModelEntry& model = model_of(value);
   Lens& lens = projection.lens.emplace(Lens{model.model});
@@ -165,6 +174,7 @@ void read_lens(const JsonValue& value, Projection& projection) {
     read_number(value, model.distortion[i], lens.distortion[i]);
 }
 
+}  // namespace
 }  // namespace fathom::camera
 
 namespace fathom {

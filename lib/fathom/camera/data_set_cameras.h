@@ -10,9 +10,9 @@
 
 #include "fathom/camera/camera_import.h"
 
-/// The cameras of data sets in their published layouts; docs/data-sets.md has the conventions and
-/// their sources. The rules of camera_import.h apply: exact rationals, rounded once; the fault of a
-/// single camera is stored with that camera.
+/// The cameras of data sets in their published layouts, and of calibrations; docs/data-sets.md has
+/// the conventions and their sources. The rules of camera_import.h apply: exact rationals, rounded
+/// once; the fault of a single camera is stored with that camera.
 ///
 /// All fail with InputError, one line that names the file and the line or key, if the files as a
 /// whole are invalid or two images have the same name.
@@ -126,13 +126,9 @@ std::vector<ImportedCamera> import_kitti(const std::filesystem::path& calibratio
 /// of rigs and of lenses without a pinhole part have a fault. Pixel centre 0.
 std::vector<ImportedCamera> import_sfm_data(const std::filesystem::path& file);
 
-/// Cameras of calibrations: intrinsics and distortion of one camera, without a pose. The texts are
-/// JSON; the program makes it of YAML. The rules of camera_import.h apply.
-///
-/// `file` begins messages, and its stem is the name of a camera without a pose. `given` replaces
-/// the size of the image and the pixel centre, 0; its K is not used.
-///
-/// All fail with InputError, one line that names the file and the key.
+// Calibrations: intrinsics and distortion of one camera, without a pose. The texts are JSON, which
+// the program makes from YAML. `file` begins messages, and its stem is the name of a camera without
+// a pose. `given` replaces the size of the image and the pixel centre, 0; its K is not used.
 
 /// The poses of a calibrated camera, in OpenCV's axes.
 struct CalibrationPoses {

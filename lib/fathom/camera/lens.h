@@ -12,9 +12,10 @@
 
 #include "fathom/camera/direction_table.h"
 
-/// The lens models: names, parameters in order, and properties (specification, section 2).
+/// Lenses: the table of their models, their numbers, and lenses made from lists of numbers.
 namespace fathom {
 
+/// The lens models (specification, section 2).
 enum class LensModel : std::uint8_t {
   simple_pinhole,
   pinhole,
@@ -36,7 +37,7 @@ enum class LensModel : std::uint8_t {
   table,
 };
 
-/// What a model says of a ray (specification, section 2).
+/// How a model defines a ray (specification, section 2).
 enum class RayFormula : std::uint8_t {
   /// The ray is (m, 1), where the stage takes m to the sample: every ray has z > 0.
   plane,
@@ -88,8 +89,8 @@ struct Lens {
 };
 
 /// The fault of a lens, in one line, or nothing if all numbers are finite (max_radius may be +∞),
-/// the numbers that the model does not use are 0, |tauX| and |tauY| are less than π/2, max_radius >
-/// 0, and there is a table of directions if and only if the model is TABLE.
+/// the numbers that the model does not use are 0, |tauX| and |tauY| are less than π/2, max_radius
+/// is positive, and there is a table of directions if and only if the model is TABLE.
 std::optional<std::string> find_fault(const Lens& lens);
 
 /// The same lens by a model that has fx and fy, if its own has one focal length for both.
@@ -98,8 +99,8 @@ Lens with_two_focal_lengths(Lens lens);
 /// Whether the lens bends nothing and ends nowhere: a pinhole.
 bool is_pinhole(const Lens& lens);
 
-/// Lenses from the name of a model and a list of numbers: the same checks for camera files,
-/// importers, the program and C.
+// Lenses from the name of a model and a list of numbers, with the same checks for camera files,
+// importers, the program and C.
 
 /// "unknown lens model 'OPENC', expected …; did you mean 'OPENCV'?"
 std::string unknown_lens_model(std::string_view name);
@@ -118,7 +119,7 @@ const LensModelEntry& lens_model_of(std::string_view name);
 Lens lens_of_numbers(const LensModelEntry& model, std::span<const double> distortion,
                      double max_radius = std::numeric_limits<double>::infinity());
 
-/// Of the model of a name, as lens_model_of().
+/// The same for the name of a model, as in lens_model_of().
 Lens lens_of_numbers(std::string_view model, std::span<const double> distortion,
                      double max_radius = std::numeric_limits<double>::infinity());
 

@@ -4,7 +4,7 @@
 
 #include "fathom/numeric/real.h"
 
-/// Sines and cosines of any finite angle in degrees, shared by camera_making.h and sun_position.h.
+/// Numbers of angles, each rounded once: sines, cosines and focal lengths. Only for .cpp files.
 namespace fathom::camera {
 
 /// A sine or cosine: its magnitude, and itself, rounded once.
@@ -19,12 +19,11 @@ struct SineCosine {
   Signed sine, cosine;
 };
 
+/// Of any finite angle.
 SineCosine sine_and_cosine(double degrees);
 
 /// a·b, rounded once. The product of the rounded numbers has its sign, also where it is 0.
 double rounded_product(const Signed& a, const Signed& b);
-
-/// Only for .cpp files of this room and of scene/.
 
 /// The focal length in pixels with which `size` pixels span an angle: ½·size / tan(½·angle), the
 /// exact number rounded once. The angle is between 0 and 180 degrees.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+/// Directions in the sky: of the sun, and of an azimuth and an elevation.
 namespace fathom {
 
 /// A place on the Earth, in degrees; north and east are positive.

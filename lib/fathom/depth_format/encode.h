@@ -6,6 +6,7 @@
 #include "fathom/depth_format/depth_format.h"
 #include "fathom/numeric/real.h"
 
+/// Stored depths, exactly: the map f of a depth format, rounding to a storage, and back.
 namespace fathom {
 
 /// A stored depth value in [0, 1]: the code of a unorm storage, the bits of a float storage. In
@@ -47,8 +48,8 @@ Storage storage_of_attachment(int bits, bool is_floating_point);
 /// Exact    rounded once.
 double window_depth_of_pixel(Storage storage, std::uint32_t pixel);
 
-/// The map f of a depth format and its inverse, exactly. Neither depends on the storage or on
-/// whether the depth is between near and far.
+// The map f of a depth format and its inverse. Neither depends on the storage or on whether the
+// depth is between near and far.
 
 /// f(D), for D > 0, and D ≥ near for log-ulrich.
 Real stored_value(const DepthFormat& format, const Ratio& depth);

@@ -9,6 +9,7 @@
 #include "fathom/rays/sight.h"
 #include "fathom/scene/scene.h"
 
+/// The points that distances are measured from: of a surface, and of a cloud.
 namespace fathom::evaluation {
 
 /// `count` points of a surface, as many on one part as on another of the same area, without chance:

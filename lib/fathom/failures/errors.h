@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
-/// The three ways in which a user's request can fail. The message is one line: the fault and the
-/// expectation, beginning with "FILE: " or "FILE: line N: " if a file is the cause. Broken
-/// invariants of Fathom are assertions and missing results are optionals; neither is an Error.
+/// The three ways in which a user's request can fail, and warnings. The message of a failure is one
+/// line: the fault and the expectation, beginning with "FILE: " or "FILE: line N: " if a file is
+/// the cause. Broken invariants of Fathom are assertions and missing results are optionals; neither
+/// is an Error.
 namespace fathom {
 
 /// A setting that an error is about, by the name of its field: "subpixel_bits".

@@ -13,7 +13,8 @@
 #include "fathom/files/descriptor.h"
 #include "fathom/files/mapped_file.h"
 
-/// Which files another file may name: a scene file its meshes, a glTF asset its buffers.
+/// Reads input files, and checks which files another file may name: a scene file its meshes, a glTF
+/// asset its buffers.
 namespace fathom::files {
 
 /// A folder that contains, at any depth, all files that other files may name.

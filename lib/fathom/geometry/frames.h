@@ -7,8 +7,8 @@
 
 #include "fathom/numeric/dyadic.h"
 
-/// A type for each frame, so that a mix-up does not compile. The frames are those of the
-/// specification, sections 2 to 4. All coordinates here are exact.
+/// A type for each frame of the specification (sections 2 to 4), so that a mix-up does not compile.
+/// All coordinates here are exact.
 namespace fathom {
 
 /// A point of a mesh in its file's frame and unit, as read: its binary64 numbers are the truth.

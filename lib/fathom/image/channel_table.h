@@ -34,7 +34,7 @@ enum class Channel {
 /// Quantity of a channel, which decides its value for "no surface".
 enum class ChannelKind {
   depth,       ///< Z, distance, disparity, Zdecoded: background +∞ (of codes and
-               ///< disparities 0), or what the map says (surface.h)
+               ///< disparities 0), or the declared background (surface.h)
   identifier,  ///< id, face, object, material and every other 32-bit integer: background no_surface
   direction,   ///< N.*, Nc.*, Ns.*: background 0 in all three
   position,    ///< P.*, bary.*: background NaN

@@ -103,8 +103,8 @@ struct CompareOptions {
   /// Its name in the other map, if that differs.
   std::string other_channel;
   /// The value of the background in depth channels, in addition to NaN and infinities. If empty,
-  /// the value that the map declares, or else the detected value (surface.h), with a
-  /// note.
+  /// the value that the map declares (declared_background()), or else the detected value
+  /// (surface.h), with a note.
   std::optional<double> truth_background, other_background;
   double tolerance_absolute = 0;
   double tolerance_relative = 0;

@@ -1,22 +1,32 @@
 #include "fathom/image/cryptomatte.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
+#include <cstdio>
 #include <numeric>
 #include <set>
 #include <string_view>
 #include <utility>
 
 #include "fathom/failures/errors.h"
-#include "fathom/image/matte_channels.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/json_text.h"
 
 namespace fathom {
 namespace {
 
-using image::in_hexadecimal, image::matte_channel;
+std::string in_hexadecimal(std::uint32_t bits) {
+  std::array<char, 9> text{};
+  std::snprintf(text.data(), text.size(), "%08x", bits);
+  return text.data();
+}
+
+/// LAYER00 holds the ranks 0 and 1, LAYER01 the ranks 2 and 3, ….
+std::string matte_channel(const std::string& layer, std::size_t level, char component) {
+  return layer + (level < 10 ? "0" : "") + std::to_string(level) + "." + component;
+}
 
 std::uint32_t mixed(std::uint32_t k) {
   return std::rotl(k * 0xcc9e2d51U, 15) * 0x1b873593U;

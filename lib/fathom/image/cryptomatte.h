@@ -46,8 +46,7 @@ struct Mattes {
 ///          its pixels and a share for each that is counted.
 void add_mattes(DepthMap& map, const Mattes& mattes);
 
-/// Cryptomatte as people look at it: the names that a map's layers show, instead of hashes.
-/// Source   [FJ16].
+// Reading mattes: the names that a map's layers show, instead of hashes.
 
 /// A layer as a map contains it: what add_mattes() adds, also from other programs.
 struct MatteLayer {

@@ -9,6 +9,7 @@
 
 #include "fathom/image/map_files.h"
 
+/// Deep maps: all visible fragments of each pixel; their files, and a map to look at.
 namespace fathom {
 
 /// A fragment that is visible in a pixel (docs/coverage.md); every number is rounded once.
@@ -57,7 +58,7 @@ DeepMap read_deep_map(std::span<const std::byte> bytes, const std::string& name,
 /// Whether a file begins as a deep EXR of one part does.
 bool is_deep_map(std::span<const std::byte> bytes);
 
-/// What can be drawn of a deep map, with its names and texts: `samples`, the number of samples at
+/// A deep map as a map for pictures, with its names and texts: `samples`, the number of samples at
 /// each pixel; `Z`, `ZBack` and `id` of the first, the nearest; and `A`, the sum of their areas.
 /// Background as of rendered maps.
 /// Needs    as many counts as pixels, and as many samples as they say.

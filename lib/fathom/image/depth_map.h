@@ -11,6 +11,7 @@
 #include "fathom/camera/camera.h"
 #include "fathom/image/samples.h"
 
+/// Maps: their channels, names, camera and texts.
 namespace fathom {
 
 /// Background of `id`, `face`, `object` and all other identifiers.
@@ -90,8 +91,8 @@ std::optional<Camera> camera_of(const DepthMap& map, const std::string& name);
 /// The texts that a file of the map has, its camera among them.
 std::map<std::string, std::string> texts_of(const DepthMap& map);
 
-/// The names of the texts that maps carry (DepthMap::texts): attributes of an EXR, text chunks of a
-/// PNG, members of the JSON text of an NPZ. docs/reading-maps.md describes each of them.
+// The names of the texts that maps carry (DepthMap::texts): attributes of an EXR, text chunks of a
+// PNG, members of the JSON text of an NPZ. docs/reading-maps.md describes each of them.
 
 /// The camera, as the JSON of camera files.
 inline constexpr const char* camera_text = "fathom.camera";
@@ -119,7 +120,7 @@ inline constexpr const char* channel_names_text = "fathom.channel-names";
 
 namespace fathom::image {
 
-/// "pixel (3, 5): ", column and row from 0 on, of the value `k` of a channel, as messages begin.
+/// The beginning of messages about value `k` of a channel: "pixel (3, 5): ", column and row from 0.
 inline std::string place_of_pixel(std::size_t k, std::uint32_t width) {
   return "pixel (" + std::to_string(k % width) + ", " + std::to_string(k / width) + "): ";
 }

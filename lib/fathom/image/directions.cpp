@@ -11,7 +11,6 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
 #include "fathom/files/sha256.h"
-#include "fathom/image/files/direction_csv.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/counted.h"
@@ -49,8 +48,10 @@ double number_of(std::string_view field, const CsvReader& csv) {
   return result.value;
 }
 
-}  // namespace
-
+/// The numbers of a CSV file with a line `x,y,z` for each of `pixels` pixels, the first of which
+/// may be a heading. Numbers are decimals, rounded once, or "nan". `name` is the file's for
+/// messages.
+/// Fails    InputError "NAME: line N: …".
 std::vector<double> numbers_of_csv(std::string_view text, std::uint64_t pixels,
                                    const std::string& name) {
   CsvReader csv(text, name);
@@ -74,6 +75,7 @@ std::vector<double> numbers_of_csv(std::string_view text, std::uint64_t pixels,
   return numbers;
 }
 
+}  // namespace
 }  // namespace fathom::image
 
 namespace fathom {

@@ -12,6 +12,7 @@
 
 #include "fathom/image/depth_map.h"
 
+/// PNG files beyond write_map(): sidecars, masks, and normals as colours.
 namespace fathom {
 
 /// The meaning of the codes of a 16-bit PNG, for programs that read no text chunks: a JSON object
@@ -48,7 +49,7 @@ std::vector<std::byte> encode_mask(const DepthMap& map, const std::string& name,
 void write_mask(std::span<const std::uint8_t> mask, std::uint32_t width, std::uint32_t height,
                 const std::filesystem::path& path);
 
-/// Unit normals as the colours of a PNG: red, green and blue are the codes of x, y and z.
+// Unit normals as the colours of a PNG: red, green and blue are the codes of x, y and z.
 
 /// The axes of normals in the camera's frame (channel Nc).
 enum class NormalAxes {

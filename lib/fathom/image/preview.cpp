@@ -14,7 +14,6 @@
 #include "fathom/image/channel_names.h"
 #include "fathom/image/compare_internal.h"
 #include "fathom/image/files/file_texts.h"
-#include "fathom/image/pictures/fights_picture.h"
 #include "fathom/image/pictures/legend.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -51,8 +50,8 @@ std::string share_text(const char* what, std::size_t part, std::size_t whole) {
   return text.data();
 }
 
-}  // namespace
-
+/// Draws the channel Zfight: the pixels where the wrong surface wins stand out from neutral
+/// colours. Few such pixels of a picture that will not be enlarged are drawn as larger squares.
 void draw_fights(Sheet& sheet, const DepthMap& map, const ImageChannel& channel, Rgb background) {
   const auto& fights = std::get<Samples<std::uint32_t>>(channel.values);
   const std::vector<std::uint8_t> mask = surface_mask(map, channel);
@@ -80,6 +79,7 @@ void draw_fights(Sheet& sheet, const DepthMap& map, const ImageChannel& channel,
   if (surface < mask.size()) sheet.entries.push_back({background, "no surface"});
 }
 
+}  // namespace
 }  // namespace fathom::image
 
 namespace fathom {

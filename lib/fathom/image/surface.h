@@ -8,7 +8,7 @@
 #include "fathom/image/channel_table.h"
 #include "fathom/image/depth_map.h"
 
-/// Which pixels of a map show a surface and which are background.
+/// Which pixels of a map show a surface and which are background, and the values of the background.
 namespace fathom {
 
 /// The meaning of a channel's values, by its name and type. The last two parts of a layered name
@@ -54,7 +54,7 @@ std::vector<std::uint8_t> surface_mask(const DepthMap& map, const ImageChannel& 
                                        const std::optional<BackgroundRule>& rule = std::nullopt,
                                        bool by_identifiers = true);
 
-/// The value that stands for "no surface" in the depth channels of a map.
+// The background that a map declares.
 
 /// The background that a map declares in its text background_text (depth_map.h): "0", "nan", or the
 /// shortest decimal text of a number, if it is not +∞ (for codes: 0); +∞ is accepted too. EXR and

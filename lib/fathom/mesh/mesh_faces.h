@@ -7,7 +7,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/mesh/mesh.h"
 
-/// How many triangles, vertices and faces can be numbered, in a mesh and in a scene.
+/// From the faces of a file to the triangles of a mesh, and how many of them can be numbered.
 namespace fathom::mesh {
 
 /// The most triangles, vertices or faces that are allowed: the next number means "none".
@@ -18,8 +18,6 @@ void expect_countable(std::uint64_t count, const char* what, const std::string& 
 
 /// Throws the InputError of a file with more than most_elements triangles or faces.
 [[noreturn]] void fail_too_many_triangles(const std::string& file);
-
-/// From the faces of a file to the triangles of a mesh.
 
 /// Warns of faces that were skipped, and of `odd` ones that were cut in spite of their shape.
 void warn_of_faces(std::uint64_t skipped, std::uint64_t odd, const std::string& file,

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fathom/numeric/divisors.h"
+#include "fathom/numeric/dyadic.h"
 
 namespace fathom {
 

@@ -10,7 +10,8 @@
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
-/// The projection of a face to a plane, and tests of its shape. Every test is exact.
+/// The projection of a face to a plane: tests of its shape, and a search for its corners. Every
+/// test is exact.
 namespace fathom::mesh {
 
 using Point2 = std::array<double, 2>;

@@ -20,7 +20,7 @@ std::string_view name_of(NormalSource source);
 
 }  // namespace fathom
 
-/// Which normals belong to which corners: whoever adds them up, exactly or rounded, asks here.
+/// Which normals belong to which corners, for exact and for rounded sums.
 namespace fathom::mesh {
 
 /// The index of a corner's normal in the normals of the file; no_index if the corner has no normal.

@@ -16,9 +16,10 @@
 #include "fathom/mesh/object.h"
 #include "fathom/mesh_files/read_options.h"
 
-/// The readers of mesh files, one per format. Each takes the whole file, checks everything that
-/// Mesh promises, and allocates no more than the bytes that are there can fill. `file` is the name
-/// for messages. All fail with InputError: "FILE: line N: …" (text) or "FILE: byte N: …" (binary).
+/// Recognises mesh files and reads them, with a reader for each format. Each reader takes the whole
+/// file, checks everything that Mesh promises, and allocates no more than the bytes that are there
+/// can fill. `file` is the name for messages. All fail with InputError: "FILE: line N: …" (text) or
+/// "FILE: byte N: …" (binary).
 namespace fathom::mesh_files {
 
 /// Wavefront OBJ: v, vt, vn and f lines and, if requested, o, g and usemtl (names: ObjSegments); s,
@@ -31,10 +32,11 @@ namespace fathom::mesh_files {
 Mesh read_obj(std::string_view text, const std::string& file, const ReadOptions& options,
               Warnings& warnings);
 
-/// PLY 1.0: ascii, binary little and big endian. Elements `vertex` (x, y, z and, if asked for,
-/// nx ny nz, s t / u v / texture_u texture_v, red green blue alpha of any type), `face` and
+/// PLY 1.0: ascii, binary little and big endian. Elements `vertex` (x, y, z and, if asked for, nx
+/// ny nz, s t / u v / texture_u texture_v, red green blue alpha of any type), `face` and
 /// `tristrips` (vertex_indices or vertex_index); other elements and properties are skipped. In
-/// ascii rows are lines or, if exactly as many words are there, a stream of words (ply_text.h).
+/// ascii rows are lines or, if exactly as many words are there, a stream of words (PlyTextRows in
+/// read_ply.cpp).
 Mesh read_ply(std::span<const std::byte> bytes, const std::string& file, const ReadOptions& options,
               Warnings& warnings);
 

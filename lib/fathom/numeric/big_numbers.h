@@ -8,10 +8,10 @@
 #include "fathom/numeric/dyadic.h"
 #include "fathom/numeric/ratio.h"
 
-/// Integers of any size, for the files of this room only.
+/// Numbers of GMP and MPFR that free their memory. Only for .cpp files of this module.
 namespace fathom {
 
-/// An mpz_t that cleans up after itself.
+/// An mpz_t.
 class Integer {
  public:
   Integer() { mpz_init(value_); }
@@ -53,7 +53,7 @@ std::string to_string(const Integer& value);
 
 /// MPFR's numbers, to and from exact ones. Only for .cpp files of this room.
 
-/// An mpfr_t that cleans up after itself.
+/// An mpfr_t.
 class BigFloat {
  public:
   explicit BigFloat(long bits) { mpfr_init2(value_, bits); }

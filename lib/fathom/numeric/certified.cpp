@@ -53,6 +53,11 @@ FilterNumber filter_value(const std::array<Interval, 3>& l, double u, double v) 
 
 }  // namespace
 
+ExactVector3 without_common_factor(ExactVector3 v) {
+  divide_by_common_factor(v);
+  return v;
+}
+
 ExactVector3 cross(const ExactVector3& a, const ExactVector3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }

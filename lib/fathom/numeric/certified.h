@@ -28,6 +28,9 @@ using ExactVector3 = std::array<Dyadic, 3>;
 ExactVector3 cross(const ExactVector3& a, const ExactVector3& b);
 Dyadic dot(const ExactVector3& a, const ExactVector3& b);
 
+/// The least vector of integers with the direction of v (divide_by_common_factor()).
+ExactVector3 without_common_factor(ExactVector3 v);
+
 /// Row i of the cofactors is the cross product of the other two rows, in cyclic order.
 std::array<ExactVector3, 3> cofactors(const std::array<ExactVector3, 3>& rows);
 

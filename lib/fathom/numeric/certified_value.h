@@ -8,8 +8,8 @@
 #include "fathom/numeric/double_word.h"
 #include "fathom/numeric/interval.h"
 
-/// Numbers in binary64 or double-words with bounds on their errors, and what arithmetic makes of
-/// the bounds.
+/// Numbers in binary64 or double-words with bounds on their errors, and arithmetic that computes
+/// the bounds of its results.
 namespace fathom {
 
 /// Relative slack of every bound, for terms of second order and for roundings in the bound.

@@ -1,5 +1,6 @@
 #include "fathom/numeric/dyadic.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -7,19 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fathom/numeric/big_numbers.h"
+
 namespace fathom {
-namespace {
-
-struct Mpz {
-  mpz_t value;
-  Mpz() { mpz_init(value); }
-  ~Mpz() { mpz_clear(value); }
-  Mpz(const Mpz&) = delete;
-  Mpz& operator=(const Mpz&) = delete;
-};
-
-}  // namespace
-
 // A finite binary64 number is an integer below 2⁵³ times a power of two; trailing zeros are dropped
 // so that small integers stay small when they are multiplied.
 Dyadic::Dyadic(double value) {
@@ -78,10 +69,10 @@ Dyadic& Dyadic::operator+=(const Dyadic& other) {
     mpz_add(significand_, significand_, other.significand_);
     exponent_ = other.exponent_;
   } else {
-    Mpz aligned;
-    mpz_mul_2exp(aligned.value, other.significand_,
+    Integer aligned;
+    mpz_mul_2exp(aligned, other.significand_,
                  static_cast<mp_bitcnt_t>(other.exponent_ - exponent_));
-    mpz_add(significand_, significand_, aligned.value);
+    mpz_add(significand_, significand_, aligned);
   }
   if (is_zero()) exponent_ = 0;
   return *this;
@@ -158,17 +149,16 @@ Interval enclose(const Dyadic& x) {
   } else {
     const long kept = top - 53 < -1074 ? -1074 : top - 53;  // exponent of the last bit kept
     const long dropped = kept - x.exponent();
-    Mpz magnitude;
-    mpz_abs(magnitude.value, x.significand());
+    Integer magnitude;
+    mpz_abs(magnitude, x.significand());
     if (dropped > 0) {
-      representable = mpz_scan1(magnitude.value, 0) >= static_cast<mp_bitcnt_t>(dropped);
-      mpz_tdiv_q_2exp(magnitude.value, magnitude.value, static_cast<mp_bitcnt_t>(dropped));
-      toward_zero =
-          std::ldexp(static_cast<double>(mpz_get_ui(magnitude.value)), static_cast<int>(kept));
+      representable = mpz_scan1(magnitude, 0) >= static_cast<mp_bitcnt_t>(dropped);
+      mpz_tdiv_q_2exp(magnitude, magnitude, static_cast<mp_bitcnt_t>(dropped));
+      toward_zero = std::ldexp(static_cast<double>(mpz_get_ui(magnitude)), static_cast<int>(kept));
     } else {
       representable = true;
-      toward_zero = std::ldexp(static_cast<double>(mpz_get_ui(magnitude.value)),
-                               static_cast<int>(x.exponent()));
+      toward_zero =
+          std::ldexp(static_cast<double>(mpz_get_ui(magnitude)), static_cast<int>(x.exponent()));
     }
   }
   const double away = representable ? toward_zero : std::nextafter(toward_zero, infinity);
@@ -184,15 +174,46 @@ std::size_t hash_of(const Dyadic& x) {
   if (x.is_zero()) return 0;
   constexpr std::size_t factor = 0x9E3779B97F4A7C15;
   const mp_bitcnt_t zeros = mpz_scan1(x.significand(), 0);
-  Mpz odd;
-  mpz_tdiv_q_2exp(odd.value, x.significand(), zeros);
+  Integer odd;
+  mpz_tdiv_q_2exp(odd, x.significand(), zeros);
   auto hash = static_cast<std::size_t>(x.exponent() + static_cast<long>(zeros));
   if (x.sign() == Sign::negative) hash = ~hash;
-  for (std::size_t i = 0; i < mpz_size(odd.value); ++i) {
-    hash = (hash ^ mpz_getlimbn(odd.value, static_cast<mp_size_t>(i))) * factor;
+  for (std::size_t i = 0; i < mpz_size(odd); ++i) {
+    hash = (hash ^ mpz_getlimbn(odd, static_cast<mp_size_t>(i))) * factor;
     hash ^= hash >> 29;
   }
   return hash;
+}
+
+long last_bit(double x) {
+  if (x == 0) return bit_of_zero;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const long biased = static_cast<long>(bits >> 52 & 0x7FF);
+  const std::uint64_t significand = (bits & 0xFFFFFFFFFFFFF) | std::uint64_t{biased != 0} << 52;
+  return std::max(biased, 1L) - 1075 + std::countr_zero(significand);
+}
+
+long last_bit(const Dyadic& x) {
+  if (x.is_zero()) return bit_of_zero;
+  return static_cast<long>(mpz_scan1(x.significand(), 0)) + x.exponent();
+}
+
+void divide_by_common_factor(std::span<Dyadic> numbers) {
+  long unit = std::numeric_limits<long>::max();
+  for (const Dyadic& x : numbers)
+    if (!x.is_zero()) unit = std::min(unit, x.exponent());
+  Integer integer, divisor;
+  for (Dyadic& x : numbers) {
+    if (x.is_zero()) continue;
+    mpz_mul_2exp(integer, x.significand(), static_cast<mp_bitcnt_t>(x.exponent() - unit));
+    mpz_gcd(divisor, divisor, integer);
+    x = Dyadic::of(integer);
+  }
+  for (Dyadic& x : numbers) {
+    if (x.is_zero()) continue;
+    mpz_divexact(integer, x.significand(), divisor);
+    x = Dyadic::of(integer);
+  }
 }
 
 }  // namespace fathom

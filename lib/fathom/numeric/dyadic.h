@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include "fathom/numeric/interval.h"
@@ -68,6 +69,17 @@ Dyadic abs(const Dyadic& x);
 
 /// The same for equal numbers, however they are stored.
 std::size_t hash_of(const Dyadic& x);
+
+/// n such that the number is a multiple of 2ⁿ, but not of 2ⁿ⁺¹; for zero, a multiple of all,
+/// bit_of_zero, which is beyond every other.
+inline constexpr long bit_of_zero = 1L << 40;
+long last_bit(double x);
+long last_bit(const Dyadic& x);
+
+/// Replaces numbers by the least integers with the same ratios and signs: lists that differ by a
+/// positive factor become equal. Zeroes stay zeroes.
+/// Exact    always.
+void divide_by_common_factor(std::span<Dyadic> numbers);
 
 /// A closed interval with exact ends, whose sums and products are exact, too: it grows with what
 /// its operands leave open and by no rounding.

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "fathom/numeric/divisors.h"
+#include "fathom/numeric/certified.h"
 
 namespace fathom {
 namespace {

@@ -8,6 +8,7 @@
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/dyadic.h"
 
+/// Polynomials with exact coefficients: in one variable, and quadratic forms in three.
 namespace fathom {
 
 /// A polynomial in one variable with dyadic coefficients, dense, exactly.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+/// Intervals whose ends are rounded outwards, and the signs of the numbers in them.
 namespace fathom {
 
 /// A closed interval of binary64 numbers that contains an exact value.

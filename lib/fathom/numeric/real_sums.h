@@ -4,9 +4,11 @@
 
 #include "fathom/numeric/real.h"
 
-/// Sums of many quotients, whose exact values have long denominators. They round by an enclosure
-/// first; the exact sum is computed only if the enclosure does not decide.
+/// Sums that round correctly: of many quotients, and of square roots.
 namespace fathom {
+
+// Sums of many quotients, whose exact values have long denominators. They round by an enclosure
+// first; the exact sum is computed only if the enclosure does not decide.
 
 /// The sum of the terms.
 Real real_sum(std::vector<Ratio> terms);

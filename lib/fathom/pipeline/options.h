@@ -122,7 +122,7 @@ struct PipelineOptions {
   std::string texture;
   TextureFilter filter = TextureFilter::trilinear;
   HiddenSurface hidden_surface = HiddenSurface::z_buffer;
-  /// The offset of all objects without an offset of their own (scene/scene.h).
+  /// For objects without their own setting (DrawState in scene/scene.h).
   DepthBias polygon_offset;
   /// Blends each fragment over the picture with this opacity instead of selecting the nearest.
   std::optional<double> blend_alpha;

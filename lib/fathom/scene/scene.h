@@ -9,8 +9,7 @@
 #include "fathom/mesh/mesh.h"
 #include "fathom/mesh/object.h"
 
-/// How a graphics pipeline draws an object: the state that OpenGL, Vulkan and Direct3D keep for a
-/// draw. Only the pipeline uses it; the exact engines ignore it.
+/// A scene: meshes, the objects that place them, and how a graphics pipeline draws the objects.
 namespace fathom {
 
 /// How a fragment's value is compared with the stored value.
@@ -45,6 +44,8 @@ struct PolygonOffset {
   double factor = 0, units = 0;
 };
 
+/// How a graphics pipeline draws an object: the state that OpenGL, Vulkan and Direct3D keep for a
+/// draw. Only the pipeline uses it; the exact engines ignore it.
 struct DrawState {
   /// A fragment's stored depth compares so with the one in the depth buffer, which is cleared to
   /// the farthest one. None: the strictly nearer wins, and any fragment wins against a cleared one.

@@ -10,8 +10,8 @@
 #include "fathom/mesh/mesh.h"
 #include "fathom/scene/scene.h"
 
-/// Visibility of a scene's corners in binary64: good for a warning, not for a decision about a
-/// pixel. Only for .cpp files of this module.
+/// Visibility of a scene's corners, and whether a point is inside a mesh, in binary64: good for a
+/// warning, not for a decision about a pixel. Only for .cpp files of this module.
 namespace fathom::scene {
 
 using Vector = std::array<double, 3>;
@@ -55,8 +55,6 @@ class ApproximateCamera {
   RoundedProjection projection_;
   double scale_;
 };
-
-/// Whether a point is inside a mesh. In binary64: good for a warning, not for a decision.
 
 /// How often the surface turns around `eye`, a point in the mesh's frame: 1 inside a closed surface
 /// whose triangles are counter-clockwise seen from outside, −1 where they are so seen from inside,

@@ -3,9 +3,10 @@
 #include <string>
 #include <string_view>
 
+/// Letters and blanks of ASCII, independent of the locale.
 namespace fathom::text {
 
-/// A to Z as a to z, whatever the locale of the process; other bytes as they are.
+/// A to Z as a to z; other bytes unchanged.
 constexpr char small_letter(char c) {
   return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }

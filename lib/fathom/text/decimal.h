@@ -8,7 +8,8 @@
 #include <cstring>
 #include <string>
 
-/// Decimal text to binary floating point, rounded once (specification, section 1).
+/// Decimal text to binary floating point, rounded once (specification, section 1), and digits,
+/// eight characters at a time.
 namespace fathom::text {
 
 enum class DecimalFault {

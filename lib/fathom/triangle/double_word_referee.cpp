@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fathom/numeric/certified_rounding.h"
-#include "fathom/numeric/divisors.h"
+#include "fathom/numeric/dyadic.h"
 
 namespace fathom::triangle {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/certified_rounding.h"
-#include "fathom/numeric/divisors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/triangle/corner_normals.h"
 

@@ -9,8 +9,9 @@
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/camera/pose.h"
 
-/// Files of words and numbers, line by line, as COLMAP and most data sets write their cameras.
-/// Fails    all of them: InputError "FILE: line N: …".
+/// From the lines of numbers in a file to poses and cameras: shared by the importers. Only for .cpp
+/// files of this module.
+/// Fails    all of them: InputError, "FILE: line N: …" or beginning with `where`.
 namespace fathom::camera {
 
 /// A line of a text file and where it is.

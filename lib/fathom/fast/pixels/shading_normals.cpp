@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fathom/numeric/divisors.h"
+#include "fathom/numeric/certified.h"
 #include "fathom/numeric/rounding.h"
 
 // Bounds are as in numeric/certified_value.h: sums and products propagate them, for operands of any

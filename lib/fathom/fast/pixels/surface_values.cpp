@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fathom/numeric/divisors.h"
+#include "fathom/numeric/dyadic.h"
 
 namespace fathom::fast {
 using namespace triangle;

@@ -5,8 +5,10 @@
 #include <ImfDeepScanLineOutputFile.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
+#include <ImfPixelType.h>
 #include <ImfStandardAttributes.h>
 
+#include <array>
 #include <cstddef>
 #include <numeric>
 
@@ -15,7 +17,6 @@
 #include "fathom/files/file_bytes.h"
 #include "fathom/files/input_file.h"
 #include "fathom/image/deep_map.h"
-#include "fathom/image/files/deep_channels.h"
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/openexr.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -26,6 +27,21 @@ using namespace image;
 using namespace files;
 
 namespace {
+
+struct DeepChannel {
+  const char* name;
+  Imf::PixelType type;
+  /// Where the value is within a sample, in bytes.
+  std::size_t offset;
+};
+
+/// The channels of a deep file.
+constexpr std::array<DeepChannel, 5> deep_channels{
+    {{"A", Imf::FLOAT, offsetof(DeepSample, A)},
+     {"Z", Imf::FLOAT, offsetof(DeepSample, Z)},
+     {"ZBack", Imf::FLOAT, offsetof(DeepSample, ZBack)},
+     {"area", Imf::FLOAT, offsetof(DeepSample, area)},
+     {"id", Imf::UINT, offsetof(DeepSample, id)}}};
 
 /// For each pixel, where the values of a channel begin.
 std::vector<const char*> beginnings(const DeepMap& map, std::size_t offset) {

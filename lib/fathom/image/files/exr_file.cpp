@@ -3,11 +3,8 @@
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
-#include <ImfThreading.h>
 
 #include <algorithm>
-#include <system_error>
-#include <thread>
 #include <vector>
 
 #include "fathom/failures/errors.h"
@@ -94,28 +91,6 @@ Bytes as_output_error(const std::string& name, const Work& work) {
 }
 
 }  // namespace
-
-int reserve_exr_threads(int threads) {
-  static std::mutex growing;
-  const std::lock_guard lock(growing);
-  const int wanted =
-      threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  // One by one: if the system starts no more threads, OpenEXR's pool keeps its threads. A single
-  // call for all of them would leave threads running on a destroyed pool.
-  try {
-    for (int n = Imf::globalThreadCount(); n < wanted; ++n) Imf::setGlobalThreadCount(n + 1);
-  } catch (const std::system_error&) {
-    return std::min(wanted, Imf::globalThreadCount());
-  }
-  return wanted;
-}
-
-std::string exr_reason(const std::exception& failure) {
-  std::string reason = failure.what();
-  std::replace(reason.begin(), reason.end(), '\n', ' ');
-  while (!reason.empty() && (reason.back() == ' ' || reason.back() == '.')) reason.pop_back();
-  return reason;
-}
 
 double memory_to_encode_exr(Compression compression, std::uint32_t height, double bytes_of_map) {
   if (compression == Compression::none) return bytes_of_map;

@@ -7,8 +7,8 @@
 
 #include "fathom/image/depth_map.h"
 
-/// Texts of a file that describe its codes and identifiers. They are no texts of the map
-/// (depth_map.h): read_map() makes members of a DepthMap of them.
+/// Texts of files that are not texts of the map (DepthMap::texts): read_map() turns them into other
+/// members of a DepthMap. They describe codes, and name the numbers of channels.
 namespace fathom::image {
 
 /// DepthMap::png_scale, of a PNG or NPZ.
@@ -28,9 +28,9 @@ inline constexpr const char* axes_text = "fathom:axes";
 /// Fails    InputError unless it is a positive number.
 double read_scale(const std::string& text, const std::string& name);
 
-/// The names of the numbers in a map, as files of all formats store them: for each channel a text
-/// (`fathom.objects`, `fathom.materials`, `fathom.groups` or `fathom.parts`) with the JSON list of
-/// names.
+// The names of the numbers in a map, as files of all formats store them: for each channel a text
+// (`fathom.objects`, `fathom.materials`, `fathom.groups` or `fathom.parts`) with the JSON list of
+// names.
 
 /// Whether a text of this name is such a list.
 bool is_name_table(std::string_view text_name);
@@ -41,7 +41,8 @@ const std::vector<std::string>* names_of_channel(const DepthMap& map, const std:
 /// The texts of a map by their names; empty lists are left out.
 std::map<std::string, std::string> name_tables(const DepthMap& map);
 
-/// Puts a list back where it came from. A text that is no list of strings is an empty one.
+/// Puts a list back where it came from. A text that is not a list of strings counts as an empty
+/// list.
 void take_name_table(const std::string& text_name, const std::string& text, DepthMap& map);
 
 }  // namespace fathom::image

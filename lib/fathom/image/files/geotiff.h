@@ -10,10 +10,11 @@
 #include "fathom/camera/camera.h"
 #include "fathom/files/file_bytes.h"
 
-/// The directory of a little-endian TIFF: the description of its image as tagged values ([TIFF92],
-/// section 2). It does not interpret the tags.
+/// Parts of a GeoTIFF: its directory, and the place of its image in the world.
 namespace fathom::image {
 
+/// The directory of a little-endian TIFF: the description of its image as tagged values ([TIFF92],
+/// section 2). It does not interpret the tags.
 class TiffDirectory {
  public:
   void add_short(std::uint16_t tag, std::span<const std::uint16_t> values);

@@ -5,6 +5,7 @@
 #include <ImfMatrixAttribute.h>
 #include <ImfOpaqueAttribute.h>
 #include <ImfStringAttribute.h>
+#include <ImfThreading.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -15,10 +16,13 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <new>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <thread>
 #include <vector>
 
 #include "fathom/camera/camera.h"
@@ -221,6 +225,28 @@ void set_names(Imf::Header& header, const DepthMap& map) {
 }
 
 }  // namespace
+
+int reserve_exr_threads(int threads) {
+  static std::mutex growing;
+  const std::lock_guard lock(growing);
+  const int wanted =
+      threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  // One by one: if the system starts no more threads, OpenEXR's pool keeps its threads. A single
+  // call for all of them would leave threads running on a destroyed pool.
+  try {
+    for (int n = Imf::globalThreadCount(); n < wanted; ++n) Imf::setGlobalThreadCount(n + 1);
+  } catch (const std::system_error&) {
+    return std::min(wanted, Imf::globalThreadCount());
+  }
+  return wanted;
+}
+
+std::string exr_reason(const std::exception& failure) {
+  std::string reason = failure.what();
+  std::replace(reason.begin(), reason.end(), '\n', ' ');
+  while (!reason.empty() && (reason.back() == ' ' || reason.back() == '.')) reason.pop_back();
+  return reason;
+}
 
 Imf::Compression compression_of(Compression compression) {
   switch (compression) {

@@ -9,7 +9,7 @@
 #include "fathom/image/preview.h"
 #include "fathom/image/rgb_image.h"
 
-/// Puts a picture together with its title, colour bar and legend.
+/// Puts a picture together with its title, colour bar and legend, and places values on the bar.
 namespace fathom::image {
 
 struct ColourBar {

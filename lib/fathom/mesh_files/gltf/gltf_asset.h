@@ -9,8 +9,8 @@
 #include "fathom/failures/errors.h"
 #include "fathom/text/json_value.h"
 
-/// How the parts of a glTF asset refer to each other: by the numbers of entries in the asset's
-/// lists. For this room's .cpp files only.
+/// The JSON of a glTF asset: entries that refer to each other by their numbers in lists, materials,
+/// extensions. Only for .cpp files of this module.
 namespace fathom::mesh_files {
 
 /// The greatest integer of a glTF file if nothing else limits it.
@@ -38,8 +38,6 @@ void for_each_entry(const text::JsonValue& list, const Visit& visit) {
   if (!list.is_list()) list.fail("expected a list");
   for (std::size_t i = 0; i < list.size(); ++i) visit(list.element(i));
 }
-
-// The names of glTF's materials and meshes. For this room's .cpp files only.
 
 /// The name of an entry of a top-level list; "mesh 3" where it has none.
 std::string name_or_number(const text::JsonValue& entry, const char* kind, std::uint64_t index);

@@ -1,23 +1,46 @@
+#include <algorithm>
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "fathom/files/sha256.h"
 #include "fathom/gltf/gltf_placement.h"
 #include "fathom/mesh_files/gltf/gltf_accessor.h"
 #include "fathom/mesh_files/gltf/gltf_asset.h"
 #include "fathom/mesh_files/gltf/gltf_buffers.h"
-#include "fathom/mesh_files/gltf/gltf_instances.h"
 #include "fathom/mesh_files/gltf/gltf_primitives.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::mesh_files {
+using namespace files;
+using namespace gltf;
 using namespace text;
-using gltf::GltfPlacement;
 
 namespace {
+
+/// The places where a node shows its mesh, of the extension EXT_mesh_gpu_instancing.
+/// Source   [EMGI19]
+class GltfInstances {
+ public:
+  /// Nothing if the node has no such extension. No number has been read yet.
+  /// Fails    InputError: attributes of other types, or of different lengths.
+  static std::optional<GltfInstances> of(const JsonValue& node, GltfAccessors& accessors);
+
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+  /// Each instance's transform is NODE·transform_of(placement). The parts of a quaternion that are
+  /// stored as integers are rounded once.
+  /// Fails    InputError: a number that is not finite.
+  [[nodiscard]] std::vector<GltfPlacement> placements() const;
+
+ private:
+  std::shared_ptr<const GltfAccessor> translation_, rotation_, scale_;
+  std::uint64_t count_ = 0;
+};
 
 void expect_floats(const GltfAccessor& accessor) {
   if (accessor.width() != 3 || accessor.component() != GltfComponent::float32)
@@ -40,8 +63,6 @@ void read_parts(const GltfAccessor* accessor, std::vector<GltfPlacement>& placem
     std::copy_n(numbers.begin(), size, (placements[i].*part).begin());
   });
 }
-
-}  // namespace
 
 std::optional<GltfInstances> GltfInstances::of(const JsonValue& node, GltfAccessors& accessors) {
   const auto extensions = node.find("extensions");
@@ -76,11 +97,6 @@ std::vector<GltfPlacement> GltfInstances::placements() const {
   read_parts(scale_.get(), result, &GltfPlacement::scale);
   return result;
 }
-
-using namespace gltf;
-using namespace files;
-
-namespace {
 
 /// Nodes are visited recursively, and transforms grow with every level.
 constexpr int deepest_node = 200;

@@ -10,7 +10,8 @@
 
 #include "fathom/mesh/segmentation.h"
 
-/// The lines o, g and usemtl of an OBJ. For this room's .cpp files only.
+/// The first pass over an OBJ: counts of its statements, and the lines o, g and usemtl, which name
+/// segments. Only for .cpp files of this module.
 namespace fathom::mesh_files {
 
 /// A line that gives the triangles after it a name.
@@ -68,8 +69,6 @@ class ObjSegments {
   std::uint64_t begin_ = 0;
   std::unordered_map<std::string, std::uint32_t> numbers_;
 };
-
-/// What an OBJ has, before any of it is read. For this room's .cpp files only.
 
 /// How many of each a piece of the file has; sums of them are places.
 struct ObjCounts {

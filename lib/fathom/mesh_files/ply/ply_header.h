@@ -11,6 +11,8 @@
 #include "fathom/failures/errors.h"
 #include "fathom/mesh/segmentation.h"
 
+/// The header of a PLY file: its elements and their properties, and the properties that are labels.
+/// Only for .cpp files of this module.
 namespace fathom::mesh_files {
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
@@ -59,8 +61,6 @@ inline constexpr std::size_t longest_ply_header = std::size_t{128} << 10;
 /// `comment`. Later ones are errors: they could be misspelt properties.
 /// Fails    InputError "FILE: line N: …".
 PlyHeader read_ply_header(std::string_view text, const std::string& file, Warnings& warnings);
-
-/// Labels in PLY files. For this room's .cpp files only.
 
 /// Which property labels triangles: its place among those of element `face` or, where no face has a
 /// label, of element `vertex`. A triangle has the label of its three corners if they agree.

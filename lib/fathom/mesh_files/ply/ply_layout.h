@@ -12,6 +12,7 @@
 #include "fathom/geometry/frames.h"
 #include "fathom/mesh_files/ply/ply_header.h"
 
+/// Where vertices and faces lie in a binary PLY file.
 namespace fathom::mesh_files {
 
 /// Where the coordinates of the vertices are in a binary PLY file: rows of equal length.
@@ -74,11 +75,10 @@ class PlyVertices {
   std::optional<files::FileBlocks> blocks_;
 };
 
-/// Where things are in a binary PLY file if all of its faces are triangles, which its size lets
-/// suppose and does not prove: two faces of three corners take as much as one of two and one of
-/// four. It is proved when every part has been checked, in whatever order and by whomever: the
-/// first row begins where it is said to, and each that has three corners puts the next one in its
-/// place.
+/// The layout of a binary PLY file if all of its faces are triangles. The size of the file suggests
+/// that without a proof: two faces of three corners take as much as one of two and one of four. It
+/// is proved when every part has been checked, in any order: the first row begins at the assumed
+/// place, and each row of three corners puts the next row at its assumed place.
 class PlySupposedTriangles {
  public:
   /// nullopt if the file has another size, no faces, rows of other lengths, strips of triangles,
