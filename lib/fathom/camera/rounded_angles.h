@@ -19,7 +19,7 @@ struct SineCosine {
   Signed sine, cosine;
 };
 
-/// Of any finite angle.
+/// The sine and cosine of any finite angle.
 SineCosine sine_and_cosine(double degrees);
 
 /// a·b, rounded once. The product of the rounded numbers has its sign, also where it is 0.

@@ -22,9 +22,10 @@
 #include "fathom/threads/threads.h"
 
 namespace fathom {
-namespace {
-
 using namespace evaluation;
+using namespace files;
+
+namespace {
 
 /// A measured point: its distance from the other shape.
 struct Distance {
@@ -290,8 +291,6 @@ SurfaceComparison compare_surfaces(const Scene& reconstruction, const Scene& tru
     return compare_in_arena(reconstruction, truth, cameras, options, progress);
   });
 }
-
-using namespace files;
 
 std::vector<std::byte> ply_of(const std::vector<MeasuredPoint>& points) {
   const StandardArithmetic standard;

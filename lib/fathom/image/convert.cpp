@@ -244,7 +244,7 @@ DepthMap with_storage(const DepthMap& map, const std::string& asked, StoredType 
   // The background of codes is 0; when codes become depths it is +∞.
   const bool from_codes = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
   if (from_codes || type == StoredType::scaled_unorm16) result.texts.erase(background_text);
-  // Widens the stored value.
+  // Widening keeps the stored values, so the declared background is rounded as they were.
   const auto background = declared_background(result);
   if (background && std::holds_alternative<Samples<float>>(channel.values))
     declare_background(result, static_cast<double>(static_cast<float>(*background)));

@@ -109,9 +109,8 @@ void add_mattes(DepthMap& map, const Mattes& mattes) {
   map.texts[key + "/manifest"] = manifest_of(mattes.names);
 }
 
+// Reading mattes.
 namespace {
-
-using image::matte_channel;
 
 constexpr std::string_view prefix = "cryptomatte/", suffix = "/name";
 

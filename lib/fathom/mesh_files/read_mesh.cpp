@@ -15,6 +15,7 @@
 #include "fathom/text/text_cursor.h"
 
 namespace fathom::mesh_files {
+using namespace text;
 namespace {
 
 template <class Value>
@@ -64,8 +65,6 @@ void leave_out_odd_attributes(Mesh& mesh, const std::string& file, Warnings& war
                        " normals, texture coordinates or colours are not finite numbers; they are "
                        "left out");
 }
-
-using namespace text;
 
 namespace {
 

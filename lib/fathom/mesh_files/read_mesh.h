@@ -32,10 +32,10 @@ namespace fathom::mesh_files {
 Mesh read_obj(std::string_view text, const std::string& file, const ReadOptions& options,
               Warnings& warnings);
 
-/// PLY 1.0: ascii, binary little and big endian. Elements `vertex` (x, y, z and, if asked for, nx
+/// PLY 1.0: ascii, binary little and big endian. Elements `vertex` (x, y, z and, if requested, nx
 /// ny nz, s t / u v / texture_u texture_v, red green blue alpha of any type), `face` and
 /// `tristrips` (vertex_indices or vertex_index); other elements and properties are skipped. In
-/// ascii rows are lines or, if exactly as many words are there, a stream of words (PlyTextRows in
+/// ascii, rows are lines or, if the number of words fits exactly, a stream of words (PlyTextRows in
 /// read_ply.cpp).
 Mesh read_ply(std::span<const std::byte> bytes, const std::string& file, const ReadOptions& options,
               Warnings& warnings);

@@ -51,8 +51,6 @@ void divide_to_nearest_even(mpz_ptr result, mpz_srcptr numerator, mpz_srcptr den
 
 std::string to_string(const Integer& value);
 
-/// MPFR's numbers, to and from exact ones. Only for .cpp files of this room.
-
 /// An mpfr_t.
 class BigFloat {
  public:

@@ -9,6 +9,7 @@
 namespace fathom {
 namespace {
 
+/// A function of MPFR.
 using Function = int (*)(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t);
 
 constexpr mpfr_rnd_t opposite(mpfr_rnd_t direction) {
@@ -104,9 +105,8 @@ double round_product_to_binary64(const Real& a, const Real& b) {
   }
 }
 
+// Sines and cosines on a grid.
 namespace {
-
-using Function = int (*)(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t);
 
 /// The function in `precision` bits, rounded to one side, then to the nearest multiple.
 void round_on_grid(mpz_ptr result, Function function, double radians, long bits, long precision,
@@ -137,6 +137,7 @@ Dyadic cosine_on_grid(double radians, long bits) {
   return on_grid(mpfr_cos, radians, bits);
 }
 
+// Logarithms and powers.
 namespace {
 
 /// x ≥ 0 rounded in a direction.
@@ -149,8 +150,6 @@ void set(mpfr_ptr result, const Ratio& x, mpfr_rnd_t direction) {
   mpfr_set_q(result, q, direction);
   mpq_clear(q);
 }
-
-using Function = int (*)(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t);
 
 /// An increasing function at x ≥ 0, rounded to one side: the argument is rounded to that side, and
 /// so is the value.

@@ -11,6 +11,8 @@
 namespace fathom {
 using namespace camera;
 
+namespace fs = std::filesystem;
+
 namespace {
 
 constexpr const char* pose_suffix = ".pose.txt";
@@ -39,8 +41,6 @@ std::vector<ImportedCamera> import_7scenes(const std::filesystem::path& folder,
   }
   return cameras;
 }
-
-namespace fs = std::filesystem;
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "fathom/text/printable.h"
 
 namespace fathom::camera {
-
+namespace fs = std::filesystem;
 using text::DecimalFault;
 using text::parse_decimal;
 using text::printable;
@@ -69,8 +69,6 @@ std::vector<double> rest_of(Line& line) {
   for (std::string word; line.words >> word;) numbers.push_back(number_of(word, line.where));
   return numbers;
 }
-
-namespace fs = std::filesystem;
 
 void set_intrinsics(Projection& projection, const IntrinsicMatrix& K, const std::string& where) {
   if (K[3] != 0 || K[6] != 0 || K[7] != 0 || K[8] != 1)

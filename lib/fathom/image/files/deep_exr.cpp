@@ -31,7 +31,7 @@ namespace {
 struct DeepChannel {
   const char* name;
   Imf::PixelType type;
-  /// Where the value is within a sample, in bytes.
+  /// The offset of the value within a sample, in bytes.
   std::size_t offset;
 };
 

@@ -122,40 +122,7 @@ Bytes encode_exr(const DepthMap& map, Compression compression, int threads,
   });
 }
 
-}  // namespace fathom::image
-
-namespace fathom {
-using namespace image;
-
-std::optional<std::uint32_t> rows_of_exr_chunk(Compression compression) {
-  if (!is_zipped(compression)) return std::nullopt;
-  return rows_of_a_chunk(compression);
-}
-
-files::Bytes exr_beginning(const DepthMap& band, std::uint32_t height, Compression compression,
-                           const std::string& name) {
-  const StandardArithmetic standard;
-  require_size(MapFormat::exr, band.width, height, name);
-  return as_output_error(
-      name, [&] { return header_bytes(layout_of(band, height, compression, name).header, name); });
-}
-
-std::vector<files::Bytes> exr_chunks(const DepthMap& band, Compression compression, int threads,
-                                     const std::string& name) {
-  const StandardArithmetic standard;
-  Imf::FrameBuffer pixels;  // sorts channels as the file does
-  for (const ImageChannel& channel : band.channels) {
-    const PixelSource source = source_of(channel, name);
-    pixels.insert(channel.name, Imf::Slice(source.type, const_cast<char*>(source.values)));
-  }
-  return zip_chunks(planes_of(pixels), band.width, band.height, rows_of_a_chunk(compression),
-                    threads);
-}
-
-}  // namespace fathom
-
-namespace fathom::image {
-using namespace files;
+// Reading.
 
 namespace {
 
@@ -224,3 +191,33 @@ DepthMap decode_exr(ByteView bytes, const std::string& name, const MapMemory& me
 }
 
 }  // namespace fathom::image
+
+namespace fathom {
+using namespace image;
+
+std::optional<std::uint32_t> rows_of_exr_chunk(Compression compression) {
+  if (!is_zipped(compression)) return std::nullopt;
+  return rows_of_a_chunk(compression);
+}
+
+files::Bytes exr_beginning(const DepthMap& band, std::uint32_t height, Compression compression,
+                           const std::string& name) {
+  const StandardArithmetic standard;
+  require_size(MapFormat::exr, band.width, height, name);
+  return as_output_error(
+      name, [&] { return header_bytes(layout_of(band, height, compression, name).header, name); });
+}
+
+std::vector<files::Bytes> exr_chunks(const DepthMap& band, Compression compression, int threads,
+                                     const std::string& name) {
+  const StandardArithmetic standard;
+  Imf::FrameBuffer pixels;  // sorts channels as the file does
+  for (const ImageChannel& channel : band.channels) {
+    const PixelSource source = source_of(channel, name);
+    pixels.insert(channel.name, Imf::Slice(source.type, const_cast<char*>(source.values)));
+  }
+  return zip_chunks(planes_of(pixels), band.width, band.height, rows_of_a_chunk(compression),
+                    threads);
+}
+
+}  // namespace fathom

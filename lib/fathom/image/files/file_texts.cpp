@@ -10,6 +10,7 @@
 #include "fathom/text/json_text.h"
 
 namespace fathom::image {
+using namespace text;
 
 double read_scale(const std::string& text, const std::string& name) {
   double scale = 0;
@@ -21,8 +22,6 @@ double read_scale(const std::string& text, const std::string& name) {
   }
   return scale;
 }
-
-using namespace text;
 
 namespace {
 

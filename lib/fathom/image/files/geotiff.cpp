@@ -21,8 +21,22 @@
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
 
+/// GeoTIFF ([GEO19], a TIFF [TIFF92] with a place in the world): a band of binary32 numbers for
+/// each channel, one after the other, in strips that are compressed by DEFLATE after the predictor
+/// for floating point ([TTN05]). Without the predictor, the depth of data/meshes/spot.obj at
+/// 1024×1024 takes 2.4 times as much; with bands that are interleaved, Z, A, P and Nc together take
+/// 1.15 times as much.
+///
+/// world_from_image() places the image in the world: pixels are areas, and (0, 0) is the corner of
+/// the first pixel. The coordinate system is user-defined, because the world is not the earth. All
+/// bands mark missing surfaces by the same value, because GDAL has one such value for each file:
+/// the background that the map declares, or NaN. Quantities such as A have 0 there instead, which
+/// is also an ordinary value.
 namespace fathom::image {
 using namespace files;
+using namespace text;
+
+// ------------------------------------------------------------------------- the directory of a TIFF
 
 namespace {
 
@@ -87,6 +101,8 @@ Bytes TiffDirectory::encoded_at(std::uint32_t at) const {
   return directory;
 }
 
+// -------------------------------------------------------------------------- the place in the world
+
 namespace {
 
 struct ImageVector {
@@ -127,20 +143,6 @@ std::optional<WorldFromImage> world_from_image(const Camera& camera) {
   return fits ? std::optional(g) : std::nullopt;
 }
 
-/// GeoTIFF ([GEO19], a TIFF [TIFF92] with a place in the world): a band of binary32 numbers for
-/// each channel, one after the other, in strips that are compressed by DEFLATE after the predictor
-/// for floating point ([TTN05]). Without the predictor, the depth of data/meshes/spot.obj at
-/// 1024×1024 takes 2.4 times as much; with bands that are interleaved, Z, A, P and Nc together take
-/// 1.15 times as much.
-///
-/// world_from_image() places the image in the world: pixels are areas, and (0, 0) is the corner of
-/// the first pixel. The coordinate system is user-defined, because the world is not the earth. All
-/// bands mark missing surfaces by the same value, because GDAL has one such value for each file:
-/// the background that the map declares, or NaN. Quantities such as A have 0 there instead, which
-/// is also an ordinary value.
-
-using namespace text;
-
 namespace {
 
 [[noreturn]] void refuse_tiff(const std::string& name, const std::string& why) {
@@ -161,7 +163,7 @@ constexpr std::uint16_t image_width = 256, image_length = 257, bits_per_sample =
 constexpr std::uint16_t by_deflate = 8, black_is_zero = 1, separate_planes = 2, floating_point = 3,
                         floating_point_predictor = 3, unspecified = 0;
 
-// --------------------------------------------------------------------------------- what bands hold
+// ------------------------------------------------------------------------- the values of the bands
 
 /// The value that means "no surface" in all bands.
 float value_of_none(const DepthMap& map) {
@@ -268,7 +270,7 @@ TiffStrips compressed_strips(const DepthMap& map, float none, int threads,
   return strips;
 }
 
-// ---------------------------------------------------------------------------- what is said of them
+// -------------------------------------------------------------------- the description of the image
 
 WorldFromImage place_of(const std::optional<Camera>& camera, const std::string& name) {
   if (camera)

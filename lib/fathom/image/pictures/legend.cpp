@@ -144,21 +144,6 @@ RgbImage lay_out(const Sheet& sheet) {
   return image;
 }
 
-}  // namespace fathom::image
-
-namespace fathom {
-
-std::string_view name_of(ColourScale scale) {
-  constexpr std::array<std::string_view, 4> names{"linear", "log", "inverse", "equalised"};
-  return names[static_cast<std::size_t>(scale)];
-}
-
-std::optional<ColourScale> colour_scale_named(const std::string& name) {
-  return value_named(all_colour_scales, name == "equalized" ? "equalised" : name);
-}
-
-namespace image {
-
 ScaledRange::ScaledRange(ColourScale scale, double low, double high,
                          const std::vector<double>& values)
     : scale_(scale), low_(low), high_(high) {
@@ -223,5 +208,17 @@ std::vector<ColourBar::Mark> ScaledRange::marks() const {
   return marks;
 }
 
-}  // namespace image
+}  // namespace fathom::image
+
+namespace fathom {
+
+std::string_view name_of(ColourScale scale) {
+  constexpr std::array<std::string_view, 4> names{"linear", "log", "inverse", "equalised"};
+  return names[static_cast<std::size_t>(scale)];
+}
+
+std::optional<ColourScale> colour_scale_named(const std::string& name) {
+  return value_named(all_colour_scales, name == "equalized" ? "equalised" : name);
+}
+
 }  // namespace fathom

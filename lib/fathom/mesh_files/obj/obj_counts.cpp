@@ -6,6 +6,7 @@
 #include "fathom/text/printable.h"
 
 namespace fathom::mesh_files {
+using namespace text;
 namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f\n";
@@ -94,8 +95,6 @@ TriangleSegments ObjSegments::finish(std::uint64_t triangles) {
   for (const Run& run : runs_) segments_.numbers.resize(run.end, run.number);
   return std::move(segments_);
 }
-
-using namespace text;
 
 namespace {
 

@@ -130,7 +130,7 @@ class PlyTextRows {
   void note_break(const std::string& message);
 
   TextCursor cursor_, start_;
-  /// In the whole body.
+  /// The number of rows in the whole body.
   std::uint64_t rows_ = 0;
   const std::string& file_;
   /// The fault of the first row that is not a line; empty while rows are lines.

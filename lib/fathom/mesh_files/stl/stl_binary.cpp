@@ -17,6 +17,8 @@
 static_assert(std::endian::native == std::endian::little, "binary STL is read as it lies");
 
 namespace fathom::mesh_files {
+using namespace files;
+using namespace mesh;
 using namespace text;
 
 namespace {
@@ -79,9 +81,6 @@ bool is_binary_stl(std::span<const std::byte> head, std::uint64_t size) {
   }
   return in_small_letters(word) != "solid" || text.find('\0') != text.npos;
 }
-
-using namespace mesh;
-using namespace files;
 
 namespace {
 
