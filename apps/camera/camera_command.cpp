@@ -35,9 +35,7 @@ bool is_csv(const std::string& file) {
 
 std::string parse_table_name(const std::string& text) {
   const std::optional<MapFormat> format = map_format_of(text);
-  const bool is_map_of_vectors =
-      format == MapFormat::npy || format == MapFormat::npz || format == MapFormat::exr;
-  if (is_csv(text) || is_map_of_vectors) return text;
+  if (is_csv(text) || (format && holds_any_channel(*format))) return text;
   throw UsageError("'" + text + "' does not end in .npy, .npz, .exr or .csv");
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "apps/options/map_arguments.h"
 #include "apps/options/pipeline_options.h"
@@ -13,6 +16,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/image/channel_names.h"
 #include "fathom/image/channel_table.h"
+#include "fathom/image/map_formats.h"
 #include "fathom/rendering/options.h"
 
 namespace fathom::app {
@@ -93,6 +97,18 @@ void add_checks(Command& command, RenderArguments& arguments) {
                  "arithmetic, and compare all channels bit for bit; exit status 1 if one differs");
 }
 
+/// suffixes_of_maps() with a remark behind some of them.
+std::string suffixes_with_remarks() {
+  constexpr std::pair<std::string_view, std::string_view> remarks[] = {
+      {".png", " (16 bit)"},
+      {".bin", " (COLMAP)"},
+      {".tif", " (GeoTIFF, for cameras that look straight down)"}};
+  std::string text = suffixes_of_maps();
+  for (const auto& [suffix, remark] : remarks)
+    text.insert(text.find(suffix) + suffix.size(), remark);
+  return text;
+}
+
 }  // namespace
 
 void DepthBufferArguments::add_to(Command& command) {
@@ -145,10 +161,9 @@ void RenderArguments::add_output(Command& command) {
         for (const std::string& text : texts) outputs.push_back(parse_output(text));
         output = outputs.front().pattern;
       },
-      "Write the map here; the suffix selects the format: .exr, .pfm, .png (16 bit), .npy, .npz, "
-      ".bin (COLMAP) or .tif (GeoTIFF, for cameras that look straight down). Missing folders are "
-      "created. NAME=FILE selects the contents, as --channels does; repeat the option for several "
-      "files: -o depth=z.png -o mask=m.png -o normal=n.png");
+      "Write the map here; the suffix selects the format: " + suffixes_with_remarks() +
+          ". Missing folders are created. NAME=FILE selects the contents, as --channels does; "
+          "repeat the option for several files: -o depth=z.png -o mask=m.png -o normal=n.png");
   option.required();
 }
 

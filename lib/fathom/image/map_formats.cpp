@@ -60,10 +60,9 @@ std::string suffixes_of_complete_maps(std::string_view last) {
 }
 
 std::string suffixes_for_any_channel() {
-  const auto holds_any = [](const MapFormatDescription& format) {
-    return format.is_read && format.channels != HeldChannels::one && !format.zero_for_none;
-  };
-  return joined(listed(holds_any, suffix_of), " or ");
+  return joined(
+      listed([](const auto& format) { return holds_any_channel(format.format); }, suffix_of),
+      " or ");
 }
 
 std::string names_of_readable_maps() {

@@ -106,6 +106,13 @@ constexpr bool holds_parts(MapFormat format) {
   return description_of(format).channels == HeldChannels::parts;
 }
 
+/// Whether read_map() returns a channel of any type with all of its parts.
+constexpr bool holds_any_channel(MapFormat format) {
+  const MapFormatDescription& description = description_of(format);
+  return description.is_read && description.channels != HeldChannels::one &&
+         !description.zero_for_none;
+}
+
 /// Whether depths are 0 where no surface is, and nothing else.
 constexpr bool has_zero_for_none(MapFormat format) {
   return description_of(format).zero_for_none;
