@@ -10,8 +10,10 @@
 #include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/camera/camera_files.h"
+#include "fathom/failures/unknown_name.h"
 #include "fathom/files/input_file.h"
 #include "fathom/image/deep_map.h"
+#include "fathom/mesh_files/mesh_formats.h"
 #include "fathom/scene/read_scene.h"
 
 namespace fathom::app {
@@ -71,8 +73,9 @@ void add_info(Command& program) {
       .argument("FILE", arguments->file,
                 "Mesh, scene, camera, map or deep EXR; - is standard input")
       .required();
-  command.option("--mesh-format", "NAME", into(arguments->scene.mesh_format, parse_mesh_format),
-                 "Read FILE as a mesh of this format: obj, ply, stl, off, gltf or glb");
+  command.option(
+      "--mesh-format", "NAME", into(arguments->scene.mesh_format, parse_mesh_format),
+      "Read FILE as a mesh of this format: " + joined(mesh_files::words_of_mesh_formats(), " or "));
   arguments->scene.limits.add_to(command);
   command.flag("--json", arguments->json, "Print JSON");
   command.answers_on_standard_output();

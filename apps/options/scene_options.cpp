@@ -15,11 +15,13 @@
 #include "apps/shell/known_files.h"
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
+#include "fathom/failures/unknown_name.h"
 #include "fathom/files/input_file.h"
 #include "fathom/files/sha256.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/image/directions.h"
 #include "fathom/image/map_files.h"
+#include "fathom/mesh_files/mesh_formats.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/rendering/options.h"
 #include "fathom/scene/read_scene.h"
@@ -120,27 +122,24 @@ int parse_thread_count(const std::string& text) {
 }
 
 FileFormat parse_mesh_format(const std::string& text) {
-  return parse_word<FileFormat>(text, {{"obj", FileFormat::obj},
-                                       {"ply", FileFormat::ply},
-                                       {"stl", FileFormat::stl},
-                                       {"off", FileFormat::off},
-                                       {"gltf", FileFormat::gltf},
-                                       {"glb", FileFormat::gltf}});
+  if (const auto format = mesh_files::mesh_format_named(text)) return *format;
+  refuse_word(text, mesh_files::words_of_mesh_formats());
 }
 
 void SceneOptions::add_to(Command& command) {
   command
-      .arguments(
-          "SCENE", files,
-          "Meshes (OBJ, PLY, STL, OFF, glTF/GLB; FBX, COLLADA, 3DS, 3MF and others by assimp) "
-          "and scene files (JSON); - is standard input")
+      .arguments("SCENE", files,
+                 "Meshes (" + mesh_files::names_of_mesh_formats() +
+                     "/GLB; FBX, COLLADA, 3DS, 3MF and others by assimp) "
+                     "and scene files (JSON); - is standard input")
       .required();
   add_reading_to(command);
 }
 
 void SceneOptions::add_reading_to(Command& command) {
   command.option("--mesh-format", "NAME", into(mesh_format, parse_mesh_format),
-                 "Format of the meshes: obj, ply, stl, off, gltf or glb (default: by content)");
+                 "Format of the meshes: " + joined(mesh_files::words_of_mesh_formats(), " or ") +
+                     " (default: by content)");
   command.option("--threads", "N", into(threads, parse_thread_count),
                  "Threads to use (default 0: all)");
   limits.add_to(command);

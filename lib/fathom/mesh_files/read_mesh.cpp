@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fathom/mesh_files/foreign_formats.h"
+#include "fathom/mesh_files/mesh_formats.h"
 #include "fathom/mesh_files/off/off_keyword.h"
 #include "fathom/mesh_files/stl/stl_binary.h"
 #include "fathom/text/ascii.h"
@@ -51,6 +52,20 @@ std::size_t leave_out(std::vector<Value>& values, MeshArray<CornerIndices>& corn
 
 }  // namespace
 
+Mesh read_mesh(FileFormat format, const files::InputFile& input, const std::string& file,
+               const ReadOptions& options, Warnings& warnings) {
+  switch (format) {
+    case FileFormat::obj:
+      return read_obj(input.text(), file, options, warnings);
+    case FileFormat::ply:
+      return read_ply(input.bytes(), file, options, warnings);
+    case FileFormat::stl:
+      return read_stl(input.bytes(), file, options, warnings);
+    default:
+      return read_off(input.text(), file, options, warnings);
+  }
+}
+
 void leave_out_odd_attributes(Mesh& mesh, const std::string& file, Warnings& warnings) {
   std::size_t count = leave_out(mesh.normals, mesh.normal_triangles, mesh.triangles, is_zero) +
                       leave_out(mesh.texture_coordinates, mesh.texture_triangles, mesh.triangles,
@@ -70,11 +85,7 @@ namespace {
 
 std::optional<FileFormat> format_by_suffix(const std::filesystem::path& path) {
   const std::string suffix = in_small_letters(path.extension().string());
-  if (suffix == ".obj") return FileFormat::obj;
-  if (suffix == ".ply") return FileFormat::ply;
-  if (suffix == ".stl") return FileFormat::stl;
-  if (suffix == ".off" || suffix == ".coff" || suffix == ".noff") return FileFormat::off;
-  if (suffix == ".gltf" || suffix == ".glb") return FileFormat::gltf;
+  if (const auto format = mesh_format_of_suffix(suffix)) return format;
   if (suffix == ".json") return FileFormat::scene_json;
   if (!suffix.empty() && is_foreign_suffix(suffix.substr(1))) return FileFormat::foreign;
   return std::nullopt;

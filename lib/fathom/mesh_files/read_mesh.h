@@ -53,6 +53,10 @@ Mesh read_stl(std::span<const std::byte> bytes, const std::string& file, const R
 Mesh read_off(std::string_view text, const std::string& file, const ReadOptions& options,
               Warnings& warnings);
 
+/// Reads a file of a format that holds one mesh: OBJ, PLY, STL or OFF.
+Mesh read_mesh(FileFormat format, const files::InputFile& input, const std::string& file,
+               const ReadOptions& options, Warnings& warnings);
+
 /// The placed meshes of a glTF asset.
 struct GltfAsset {
   std::vector<Mesh> meshes;

@@ -5,6 +5,7 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/files/sha256.h"
+#include "fathom/mesh_files/mesh_formats.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/mesh_files/stl/stl_binary.h"
 #include "fathom/mesh_files/streams.h"
@@ -33,7 +34,7 @@ FileFormat format_of(const RandomAccessFile& file, const std::filesystem::path& 
   if (file.size() == 0) throw InputError(file.name() + ": is empty, expected a mesh");
   const auto format = options.format ? options.format
                                      : recognise_format(beginning_of(file, 512), file.size(), path);
-  if (format != FileFormat::stl && format != FileFormat::ply) fail_format(file.name());
+  if (!format || !can_be_streamed(*format)) fail_format(file.name());
   return *format;
 }
 

@@ -12,6 +12,7 @@
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/mesh_files/expansion_budget.h"
 #include "fathom/mesh_files/foreign_formats.h"
+#include "fathom/mesh_files/mesh_formats.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/scene/scene_json.h"
@@ -27,20 +28,6 @@ using namespace files;
 using namespace text;
 
 namespace {
-
-Mesh read_mesh(FileFormat format, const InputFile& input, const std::string& file,
-               const ReadOptions& options, Warnings& warnings) {
-  switch (format) {
-    case FileFormat::obj:
-      return read_obj(input.text(), file, options, warnings);
-    case FileFormat::ply:
-      return read_ply(input.bytes(), file, options, warnings);
-    case FileFormat::stl:
-      return read_stl(input.bytes(), file, options, warnings);
-    default:
-      return read_off(input.text(), file, options, warnings);
-  }
-}
 
 /// Reads files one after the other into one scene.
 class SceneReader {
@@ -89,10 +76,10 @@ class SceneReader {
       throw InputError((path == "-" ? "standard input" : path.string()) +
                        ": is empty, expected a mesh or a scene file");
     if (const auto format = recognise_format(input.bytes(), path)) return *format;
-    throw InputError(path.string() +
-                     ": its format is not recognised, expected OBJ, PLY, STL, OFF, glTF, a scene "
-                     "file (JSON), or the suffix of a format that assimp reads (.fbx, .dae, .3ds, "
-                     ".3mf, …)");
+    throw InputError(
+        path.string() + ": its format is not recognised, expected " + names_of_mesh_formats() +
+        ", a scene file (JSON), or the suffix of a format that assimp reads (.fbx, .dae, .3ds, "
+        ".3mf, …)");
   }
 
   void add_source(const std::string& path, std::string hash) {
