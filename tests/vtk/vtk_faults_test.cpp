@@ -27,11 +27,8 @@ using testing::StartsWith;
 class FaultyMapper : public vtkOpenGLPolyDataMapper {
  public:
   static FaultyMapper* New();
-  // clang-format off
   vtkTypeMacro(FaultyMapper, vtkOpenGLPolyDataMapper)
-      // clang-format on
-      std::function<void()> before,
-      after;
+  std::function<void()> before, after;
 
  protected:
   void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override {
@@ -46,12 +43,10 @@ vtkStandardNewMacro(FaultyMapper);
 class FaultyCamera : public vtkOpenGLCamera {
  public:
   static FaultyCamera* New();
-  // clang-format off
   vtkTypeMacro(FaultyCamera, vtkOpenGLCamera)
-      // clang-format on
 
-      void GetKeyMatrices(vtkRenderer* renderer, vtkMatrix4x4*& view, vtkMatrix3x3*& normals,
-                          vtkMatrix4x4*& projection, vtkMatrix4x4*& both) override {
+  void GetKeyMatrices(vtkRenderer* renderer, vtkMatrix4x4*& view, vtkMatrix3x3*& normals,
+                      vtkMatrix4x4*& projection, vtkMatrix4x4*& both) override {
     Superclass::GetKeyMatrices(renderer, view, normals, projection, both);
     view_->DeepCopy(view);
     projection_->DeepCopy(projection);

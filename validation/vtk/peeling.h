@@ -17,12 +17,10 @@ namespace fathom::validation {
 class ReadablePeelingPass : public vtkDualDepthPeelingPass {
  public:
   static ReadablePeelingPass* New();
-  // clang-format off
   vtkTypeMacro(ReadablePeelingPass, vtkDualDepthPeelingPass)
-      // clang-format on
 
-      bool SetShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop,
-                               vtkOpenGLVertexArrayObject* array) override;
+  bool SetShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop,
+                           vtkOpenGLVertexArrayObject* array) override;
 
   /// Window depths of the nearest layer of the last frame in binary32, width × height, rows from
   /// the top; 1 where there is none that is not behind something opaque. Empty if nothing was
@@ -39,12 +37,10 @@ class ReadablePeelingPass : public vtkDualDepthPeelingPass {
 class PeelingRenderer : public vtkOpenGLRenderer {
  public:
   static PeelingRenderer* New();
-  // clang-format off
   vtkTypeMacro(PeelingRenderer, vtkOpenGLRenderer)
-      // clang-format on
 
-      /// Fails    InputError if the last frame was not peeled.
-      [[nodiscard]] const std::vector<float>& nearest_layer() const;
+  /// Fails    InputError if the last frame was not peeled.
+  [[nodiscard]] const std::vector<float>& nearest_layer() const;
 
  protected:
   PeelingRenderer();

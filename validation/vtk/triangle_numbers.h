@@ -50,7 +50,7 @@ std::vector<std::uint32_t> read_triangle_numbers_of_first_sample(const GlFunctio
 class RecordingMapper : public vtkOpenGLPolyDataMapper {
  public:
   static RecordingMapper* New();
-  vtkTypeMacro(RecordingMapper, vtkOpenGLPolyDataMapper);
+  vtkTypeMacro(RecordingMapper, vtkOpenGLPolyDataMapper)
 
   /// The matrix from held positions to clip coordinates, row by row, as OpenGL had it.
   [[nodiscard]] const std::array<float, 16>& clip_from_held() const { return clip_from_held_; }

@@ -78,6 +78,17 @@ void read_parameters(const JsonValue& value, const LensModelEntry& model, Projec
             projection.lens->distortion.begin());
 }
 
+/// fx, fy, cx, cy and skew, or all of them as the matrix K.
+void read_intrinsics(const JsonValue& value, Projection& projection) {
+  for (const char* number : {"fx", "fy", "cx", "cy", "skew"}) expect_either(value, "K", number);
+  if (const auto K = value.find("K")) return read_intrinsic_matrix(*K, projection);
+  projection.fx = value.at("fx").number();
+  projection.fy = value.at("fy").number();
+  projection.cx = value.at("cx").number();
+  projection.cy = value.at("cy").number();
+  read_number(value, "skew", projection.skew);
+}
+
 void read_intrinsics_of_lens(const JsonValue& value, const LensModelEntry& model,
                              Projection& projection) {
   if (!has_one_focal_length(model)) return read_intrinsics(value, projection);
@@ -89,17 +100,6 @@ void read_intrinsics_of_lens(const JsonValue& value, const LensModelEntry& model
   for (const std::string_view name : model.intrinsics)
     numbers.push_back(value.at(std::string(name)).number());
   set_intrinsics(model, numbers.begin(), projection);
-}
-
-/// fx, fy, cx, cy and skew, or all of them as the matrix K.
-void read_intrinsics(const JsonValue& value, Projection& projection) {
-  for (const char* number : {"fx", "fy", "cx", "cy", "skew"}) expect_either(value, "K", number);
-  if (const auto K = value.find("K")) return read_intrinsic_matrix(*K, projection);
-  projection.fx = value.at("fx").number();
-  projection.fy = value.at("fy").number();
-  projection.cx = value.at("cx").number();
-  projection.cy = value.at("cy").number();
-  read_number(value, "skew", projection.skew);
 }
 
 /// The keys that are allowed with the lens model of the key `model`, including `model`, without

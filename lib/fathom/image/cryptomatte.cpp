@@ -157,8 +157,7 @@ void take_manifest(const std::string& manifest, MatteLayer& layer) {
 
 void name_unknown_ids(MatteLayer& layer) {
   for (const MatteShare& share : layer.shares) {
-    if (!layer.names.contains(share.id))
-      layer.names[share.id] = "0x" + image::in_hexadecimal(share.id);
+    if (!layer.names.contains(share.id)) layer.names[share.id] = "0x" + in_hexadecimal(share.id);
   }
 }
 
