@@ -40,8 +40,19 @@ RayQuestion parse_question(const std::string& text) {
 }
 
 std::vector<HitChannel> parse_hit_channels(const std::string& list) {
-  return parse_distinct(
-      list, [](const std::string& name) { return parse_enumerator(name, all_hit_channels); });
+  return parse_distinct(list, [](const std::string& name) {
+    return parse_enumerator(name, hit_channel_table).channel;
+  });
+}
+
+/// "t (in lengths of the direction), id (triangle), …"
+std::string described_hit_channels() {
+  std::vector<std::string> texts;
+  for (const HitChannelDescription& each : hit_channel_table) {
+    std::string& text = texts.emplace_back(each.name);
+    if (each.meaning != each.name) text.append(" (").append(each.meaning).append(")");
+  }
+  return joined(texts);
 }
 
 /// "TMIN:TMAX" into both.
@@ -128,9 +139,9 @@ void add_cast(Command& program) {
       "Count hits with TMIN <= t <= TMAX (default 0:inf); TMIN may be -inf");
   command.flag("--open", arguments->segment.open, "Leave out hits at the ends of the segment");
   add_cull_option(command, arguments->cull);
-  const Option channels = command.option(
-      "--channels", "LIST", into(arguments->channels, parse_hit_channels),
-      "Values of each hit: t, id, distance, P (the point), bary, N, object, face (default t,id)");
+  const Option channels =
+      command.option("--channels", "LIST", into(arguments->channels, parse_hit_channels),
+                     "Values of each hit: " + described_hit_channels() + " (default t,id)");
   add_output_option(command, "FILE", arguments->output,
                     "Write the table to this file, .csv or .npz (default -, standard output)");
   command.runs([arguments, channels](const Console& console) {

@@ -52,15 +52,9 @@ std::string heading_of(const std::vector<Column>& columns) {
   };
   for (const Column& column : columns) {
     if (column.parts.empty()) append(column.name);
-    for (const std::string_view part : column.parts) append(column.name + "." + std::string(part));
+    for (const char part : column.parts) append(column.name + "." + part);
   }
   return line + "\n";
-}
-
-}  // namespace
-
-std::size_t Column::rows() const {
-  return std::visit([](const auto& numbers) { return numbers.size(); }, values) / width();
 }
 
 std::string csv_of(const std::vector<Column>& columns) {
@@ -93,6 +87,12 @@ void write_npz(const std::vector<Column>& columns, int descriptor, const std::st
   file.finish();
 }
 
+}  // namespace
+
+std::size_t Column::rows() const {
+  return std::visit([](const auto& numbers) { return numbers.size(); }, values) / width();
+}
+
 ColumnOutput::ColumnOutput(const std::string& name) : name_(name) {
   if (name.ends_with(".npz")) {
     archive_.emplace(name);
@@ -117,18 +117,21 @@ std::vector<std::uint64_t> numbers_up_to(std::size_t count) {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> hit_channel_names{"t",    "id", "distance", "P",
-                                                            "bary", "N",  "object",   "face"};
-
+/// Whether a channel is computed from the hit; a cast itself returns t and id.
 bool is_value(HitChannel channel) {
-  return channel == HitChannel::distance || channel == HitChannel::P ||
-         channel == HitChannel::bary || channel == HitChannel::N;
+  return description_of(channel).type == HitChannelType::real && channel != HitChannel::t;
 }
 
 using Values = std::vector<HitValues<double>>;
 
+/// A column without numbers.
+Column empty_column(HitChannel channel) {
+  const HitChannelDescription& description = description_of(channel);
+  return {std::string(description.name), description.parts, {}};
+}
+
 Column column_of(HitChannel channel, std::span<const RayHit> hits) {
-  Column column{std::string(name_of(channel)), {}, {}};
+  Column column = empty_column(channel);
   if (channel == HitChannel::t) {
     auto& t = column.values.emplace<std::vector<double>>(hits.size());
     std::ranges::transform(hits, t.begin(), &RayHit::t);
@@ -151,11 +154,13 @@ Column column_of(HitChannel channel, const TriangleSource& triangles,
     const TriangleOrigin origin = triangles.origin(hit.triangle);
     numbers.push_back(channel == HitChannel::object ? origin.object : origin.face);
   }
-  return {std::string(name_of(channel)), {}, std::move(numbers)};
+  Column column = empty_column(channel);
+  column.values = std::move(numbers);
+  return column;
 }
 
 Column column_of(HitChannel channel, const Values& values) {
-  Column column{std::string(name_of(channel)), {}, {}};
+  Column column = empty_column(channel);
   std::vector<double> numbers;
   const auto append = [&](const auto& of_hit) {
     for (const HitValues<double>& each : values)
@@ -163,15 +168,12 @@ Column column_of(HitChannel channel, const Values& values) {
   };
   switch (channel) {
     case HitChannel::P:
-      column.parts = {"X", "Y", "Z"};
       append(&HitValues<double>::position);
       break;
     case HitChannel::bary:
-      column.parts = {"U", "V"};
       append(&HitValues<double>::barycentric);
       break;
     case HitChannel::N:
-      column.parts = {"X", "Y", "Z"};
       append(&HitValues<double>::normal);
       break;
     default:
@@ -182,10 +184,6 @@ Column column_of(HitChannel channel, const Values& values) {
 }
 
 }  // namespace
-
-std::string_view name_of(HitChannel channel) {
-  return hit_channel_names[static_cast<std::size_t>(channel)];
-}
 
 std::vector<Column> columns_of(const TriangleSource& triangles, std::span<const Ray> rays,
                                std::span<const std::uint64_t> ray_of_hit,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -12,6 +11,7 @@
 
 #include "apps/shell/output_file.h"
 #include "fathom/rays/cast.h"
+#include "fathom/rays/hit_channels.h"
 
 namespace fathom::app {
 
@@ -19,8 +19,8 @@ namespace fathom::app {
 /// or N×parts.
 struct Column {
   std::string name;
-  /// Names of the parts, as X, Y and Z of P; empty for a single number in each row.
-  std::vector<std::string_view> parts;
+  /// A letter for each part, as X, Y and Z of P; empty for a single number in each row.
+  std::string_view parts;
   /// Row by row.
   std::variant<std::vector<double>, std::vector<std::uint32_t>, std::vector<std::uint64_t>> values;
 
@@ -28,22 +28,18 @@ struct Column {
   [[nodiscard]] std::size_t rows() const;
 };
 
-/// CSV with a heading, in which parts are named as P.X. All columns have the same number of rows.
-/// Numbers are the shortest decimals that are read back as the same numbers, or "inf" and "nan".
-std::string csv_of(const std::vector<Column>& columns);
-
-/// Writes an NPZ with an array NAME.npy for each column, little-endian, to an empty ordinary file;
-/// `target` is its name for messages.
-/// Fails    OutputError "TARGET: why".
-void write_npz(const std::vector<Column>& columns, int descriptor, const std::string& target);
-
-/// The file to which a table is written, CSV or NPZ by its name.
+/// The file to which a table is written, CSV or NPZ by its name. All columns have the same number
+/// of rows.
+///   CSV    with a heading, in which parts are named as P.X. Numbers are the shortest decimals that
+///          are read back as the same numbers, or "inf" and "nan"
+///   NPZ    an array for each column, little-endian
 class ColumnOutput {
  public:
   /// Fails    UsageError for a name that ends in neither .csv nor .npz, before any work.
   explicit ColumnOutput(const std::string& name);
 
   [[nodiscard]] bool is_archive() const { return archive_.has_value(); }
+  /// Fails    OutputError "NAME: why".
   void finish(const std::vector<Column>& columns);
 
  private:
@@ -54,13 +50,6 @@ class ColumnOutput {
 
 /// 0, 1, …, count − 1
 std::vector<std::uint64_t> numbers_up_to(std::size_t count);
-
-/// The channels of a hit (specification, section 11).
-enum class HitChannel { t, id, distance, P, bary, N, object, face };
-inline constexpr std::array all_hit_channels{
-    HitChannel::t,    HitChannel::id, HitChannel::distance, HitChannel::P,
-    HitChannel::bary, HitChannel::N,  HitChannel::object,   HitChannel::face};
-std::string_view name_of(HitChannel channel);
 
 /// The values of the channels, in their order. Hit i belongs to the ray rays[ray_of_hit[i]].
 /// distance, P, bary and N are computed with exact numbers, which takes about 10 µs for each hit.

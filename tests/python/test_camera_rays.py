@@ -6,10 +6,11 @@ import pathlib
 import fathom
 import numpy as np
 import pytest
+from fathom import _core
 
 source = pathlib.Path(os.environ["FATHOM_SOURCE"])
 pytestmark = pytest.mark.filterwarnings("ignore::fathom.ViewWarning", "ignore::UserWarning")
-channels = ("t", "id", "P", "bary", "N", "distance", "object", "face")
+channels = _core.ray_channels
 size = (64, 48)
 
 

@@ -7,8 +7,9 @@ import subprocess
 import fathom
 import numpy as np
 import pytest
+from fathom import _core
 
-channels = ["t", "id", "distance", "P", "bary", "N", "object", "face"]
+channels = _core.ray_channels
 parts = {"P": ["P.X", "P.Y", "P.Z"], "N": ["N.X", "N.Y", "N.Z"], "bary": ["bary.U", "bary.V"]}
 
 

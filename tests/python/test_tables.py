@@ -1,4 +1,4 @@
-"""What the library's tables list, channels, formats of maps, lens models and names of options, is in the help, the
+"""What the library's tables list, channels of maps and of rays, formats of maps, lens models and names of options, is in the help, the
 docstrings, the C header and the pages that list it for users."""
 
 import json
@@ -86,6 +86,36 @@ def test_types_and_backgrounds_are_those_of_a_map_without_surfaces(page):
         np.testing.assert_array_equal(values, float(background.replace("∞", "inf")), err_msg=name)
 
 
+rays_in_specification = between(read("docs/specification.md"), "\n## 11.", "\n## 12.")
+
+
+@pytest.mark.parametrize("text", [
+    first_cells(rays_in_specification),
+    without_remarks(between(fathom.Scene.cast.__doc__, "channels  ", "dtype  ")),
+], ids=["specification", "Scene.cast()"])
+def test_every_channel_of_rays_is_listed(text):
+    assert missing(_core.ray_channels, text) == []
+
+
+def test_numbers_of_rays_are_those_of_the_specification():
+    described = {}
+    for line in re.findall(r"^\| `.*", rays_in_specification, re.M):
+        names, numbers, *_, without_hit = [cell.strip() for cell in line.strip("|").split("|")]
+        described.update((name, (int(numbers), float(without_hit.replace("∞", "inf"))))
+                         for name in re.findall(r"`(\w+)`", names))
+    missed = fathom.Scene().cast((0, 0, 0), (0, 0, 1), channels=_core.ray_channels)
+    assert described.keys() == missed.keys()
+    for name, (numbers, without_hit) in described.items():
+        assert missed[name].size == numbers
+        np.testing.assert_array_equal(missed[name], without_hit, err_msg=name)
+
+
+def test_the_help_of_cast_has_every_channel_of_rays(run_program):
+    option = between(run_program("cast", "--help=completion"), "option\t--channels\t", "\n")
+    assert option.split("\t")[2].split() == _core.ray_channels
+    assert missing(_core.ray_channels, without_remarks(option.split("\t")[-1])) == []
+
+
 def suffixes_of_maps():
     with pytest.raises(ValueError, match="expected a name that ends in") as refusal:
         fathom.Map({"Z": [[1.0]]}).write("map.nothing")
@@ -146,7 +176,8 @@ def test_the_header_for_c_has_every_cull():
 
 
 @pytest.mark.parametrize("name, words", {
-    "Channel": [*channels, *_core.contents], "Cull": _core.culls, "Normals": _core.normal_sources, "Engine": _core.engines,
+    "Channel": [*channels, *_core.contents], "RayChannel": _core.ray_channels,
+    "Cull": _core.culls, "Normals": _core.normal_sources, "Engine": _core.engines,
     "Compression": _core.compressions, "Mapping": _core.mappings, "Storage": _core.storages,
     "NormalAxes": _core.normal_axes,
     "Model": ["auto", *_core.model_names.split(", ")]}.items())

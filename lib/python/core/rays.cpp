@@ -12,6 +12,7 @@
 #include "apps/rays/ray_file.h"
 #include "bindings.h"
 #include "fathom/rays/cast.h"
+#include "fathom/rays/hit_channels.h"
 #include "fathom/rays/hit_values.h"
 #include "fathom/rays/sight.h"
 #include "fathom/rendering/options.h"
@@ -209,6 +210,7 @@ py::array read_rays_of(const std::string& file) {
 
 void bind_rays(Module& core) {
   const Class<PreparedRays, std::shared_ptr<PreparedRays>> rays(core, "Rays");
+  core.attr("ray_channels") = names_of(hit_channel_table);
   core.def("prepare_rays", &prepare);
   core.def("cast_rays", &cast_rays);
   core.def("all_hits", &all_hits_of);

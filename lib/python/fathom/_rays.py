@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
     Numbers = npt.NDArray[np.float64]
 
-#: The channels of hits, and their values where a ray meets nothing.
-ray_channels = ("t", "id", "distance", "P", "bary", "N", "object", "face")
 ray_modes = ("nearest", "all")
 
 
@@ -84,7 +82,7 @@ def _flat(numbers: Numbers) -> Numbers:
 
 def checked_channels(channels: RayChannels) -> list[str]:
     given = channels.split(",") if isinstance(channels, str) else list(channels)
-    return [one_of("channels", name, ray_channels) for name in given]
+    return [one_of("channels", name, _core.ray_channels) for name in given]
 
 
 def real_type(dtype: npt.DTypeLike) -> np.dtype[Any]:
