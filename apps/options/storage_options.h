@@ -6,9 +6,9 @@
 
 #include "apps/shell/command.h"
 #include "apps/shell/console.h"
-#include "fathom/image/channel_names.h"
 #include "fathom/image/channel_table.h"
 #include "fathom/image/map_files.h"
+#include "fathom/image/renamed_channels.h"
 #include "fathom/rendering/options.h"
 
 namespace fathom::app {

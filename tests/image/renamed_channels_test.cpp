@@ -1,4 +1,4 @@
-#include "fathom/image/channel_names.h"
+#include "fathom/image/renamed_channels.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

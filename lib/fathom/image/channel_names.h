@@ -9,28 +9,8 @@
 #include "fathom/image/channel_table.h"
 #include "fathom/image/depth_map.h"
 
-/// Names of channels in other programs, and errors about names.
-///
-/// Channels under the names that other programs expect. OpenCV, for example, shows only the
-/// channels R, G, B and Y of an EXR.
+/// Other names of channels, as in "depth" for Z, and errors about names of channels.
 namespace fathom {
-
-/// A channel of a map and its name in the file: {"Z", "Y"}.
-struct ChannelName {
-  std::string channel, in_file;
-};
-
-/// The map with these channels called otherwise, and the text channel_names_text (depth_map.h),
-/// "Z=Y,distance=D", by which read_map() gives them their own names back. Files of PFM and NPY name
-/// no channel.
-/// Fails    UsageError if there is no such channel, it is named twice, a name is empty or holds one
-///          of ",=" or NUL, or two channels would be called the same; InputError if the map has a
-///          fault.
-DepthMap with_channel_names(DepthMap map, const std::vector<ChannelName>& names);
-
-/// The map with the names that its channels had before with_channel_names(), and without that text.
-/// A text of another form is left unchanged: another program wrote it.
-DepthMap with_own_channel_names(DepthMap map);
 
 /// A name for a channel that those who make data sets know, or for a mask.
 struct ContentsName {
@@ -57,8 +37,8 @@ const ContentsName* contents_named(std::string_view name);
 /// and a name that is not in the table are returned unchanged.
 std::string own_channel_name(const DepthMap& map, const std::string& name);
 
-// Errors about names of channels. They contain the existing names and suggest the intended one,
-// also for words of other programs ("depth" for Z).
+// Errors contain the existing names and suggest the intended one, also for words of other programs
+// ("range" for distance).
 
 /// The error of a name that channel_named() does not know: "there is no channel 'depth'; there are
 /// Z, A, …; did you mean 'Z'?"

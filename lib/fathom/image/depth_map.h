@@ -113,7 +113,7 @@ inline constexpr const char* depth_format_text = "fathom.depth_format";
 inline constexpr const char* depth_range_text = "fathom.depth_range";
 /// The value of depth channels without a surface, unless +∞ (surface.h).
 inline constexpr const char* background_text = "fathom.background";
-/// The channels that have another name in the file (channel_names.h).
+/// The channels that have another name in the file (renamed_channels.h).
 inline constexpr const char* channel_names_text = "fathom.channel-names";
 
 }  // namespace fathom

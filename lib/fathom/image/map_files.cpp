@@ -11,6 +11,7 @@
 #include "fathom/image/files/map_codecs.h"
 #include "fathom/image/files/npy_array.h"
 #include "fathom/image/png_files.h"
+#include "fathom/image/renamed_channels.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/json_text.h"
