@@ -1,9 +1,9 @@
+#include "fathom/attribution/model/sample_grid.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "fathom/attribution/fragment.h"
 
 namespace fathom::attribution {
 namespace {

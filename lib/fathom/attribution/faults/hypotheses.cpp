@@ -12,6 +12,7 @@
 
 #include "fathom/attribution/fragment.h"
 #include "fathom/attribution/model/lens_samples.h"
+#include "fathom/attribution/model/sample_grid.h"
 
 namespace fathom::attribution {
 namespace {

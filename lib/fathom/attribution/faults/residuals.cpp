@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "fathom/attribution/fragment.h"
+#include "fathom/attribution/model/sample_grid.h"
 #include "fathom/geometry/eigen_arrays.h"
 
 // The affine value a of a surface is 1/D (perspective) or D (orthographic): over a triangle it is

@@ -7,6 +7,7 @@
 
 #include "fathom/attribution/fragment.h"
 #include "fathom/attribution/model/renderer_model.h"
+#include "fathom/attribution/model/sample_grid.h"
 #include "fathom/attribution/raster/raster_polygon.h"
 
 // docs/validation.md, "A rasterizer", "Coverage", derives the bounds in this file.

@@ -9,6 +9,7 @@
 #include "fathom/attribution/fragment.h"
 #include "fathom/attribution/model/lens_samples.h"
 #include "fathom/attribution/model/renderer_model.h"
+#include "fathom/attribution/model/sample_grid.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 // docs/validation.md, "A ray tracer", derives the bounds in this file.
