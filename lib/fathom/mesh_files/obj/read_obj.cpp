@@ -3,6 +3,7 @@
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/mesh_files/obj/obj_counts.h"
 #include "fathom/mesh_files/obj/obj_piece.h"
+#include "fathom/mesh_files/obj/obj_segments.h"
 #include "fathom/mesh_files/read_mesh.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/text_cursor.h"
