@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/bench/report.h"
+#include "apps/bench/machine.h"
 #include "apps/bench/resident_memory.h"
 #include "fathom/failures/errors.h"
 #include "fathom/render.h"

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "apps/bench/bench_command.h"
+#include "apps/bench/machine.h"
 #include "apps/bench/parts/ideas.h"
 #include "apps/bench/parts/parts_report.h"
-#include "apps/bench/report.h"
 #include "apps/shell/console.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"

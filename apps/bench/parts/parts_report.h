@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/bench/machine.h"
 #include "apps/bench/parts/exact_picture.h"
 #include "apps/bench/parts/ideas.h"
-#include "apps/bench/report.h"
 
 namespace fathom::bench {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "apps/bench/machine.h"
 #include "apps/bench/measurement.h"
-#include "apps/bench/report.h"
 #include "apps/bench/resident_memory.h"
 #include "fathom/failures/errors.h"
 #include "validation/child/in_child.h"
