@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "apps/study/antialiasing/coverage.h"
+#include "apps/study/antialiasing/curve.h"
 #include "apps/study/antialiasing/methods.h"
 #include "apps/study/antialiasing/sampling.h"
 #include "apps/study/page.h"

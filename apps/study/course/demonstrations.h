@@ -1,7 +1,6 @@
 #pragma once
 
-#include <string>
-#include <string_view>
+#include <cstdint>
 #include <vector>
 
 #include "apps/study/pipeline_scenes.h"
@@ -11,7 +10,7 @@
 /// Too few samples in space, and in time.
 namespace fathom::studies {
 
-/// The outline of antialiasing/coverage.h, evaluated for so many pixels: curve-48.obj; and as the
+/// The outline of antialiasing/curve.h, evaluated for so many pixels: curve-48.obj; and as the
 /// pipeline draws it, one sample at each pixel's centre.
 struct DrawnCurve {
   SceneFiles files;
@@ -51,30 +50,4 @@ std::vector<TurnedSquare> turned_squares();
 /// The same as cases for `fathom scan`: squares.jsonl, a line each, and triangles.jsonl, two each.
 std::vector<StudyFile> square_files();
 
-// Meshes in every shading.
-
-/// A mesh of data/meshes, its file, and the camera that frames it: that of
-/// `fathom render FILE --view … --size 212x212`.
-struct GalleryMesh {
-  SceneView view;
-  StudyFile file;
-  bool has_texture_coordinates = false;
-  pipeline::NormalSource normals_from = pipeline::NormalSource::file;
-};
-
-/// Cube, house, spot and teapot. The teapot's file has many points twice, where its patches meet;
-/// normals that are sums over the triangles at a vertex would show the patches.
-std::vector<GalleryMesh> gallery_meshes();
-
-/// The picture of a mesh; surfaces are multisampled, 8 samples.
-RgbImage shaded(const GalleryMesh& mesh, pipeline::Shading shading,
-                const std::string& texture = "");
-
 }  // namespace fathom::studies
-
-/// Files of data/meshes, so that the page's pictures need no folder of data (CMakeLists.txt).
-namespace fathom::studies::mesh_texts {
-
-extern const std::string_view cube, house, spot, teapot;
-
-}  // namespace fathom::studies::mesh_texts

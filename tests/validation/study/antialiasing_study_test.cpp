@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "apps/study/antialiasing/coverage.h"
+#include "apps/study/antialiasing/curve.h"
 #include "apps/study/antialiasing/methods.h"
 #include "apps/study/antialiasing/sampling.h"
 #include "apps/study/effort.h"

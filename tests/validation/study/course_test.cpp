@@ -9,12 +9,14 @@
 #include <optional>
 #include <set>
 
-#include "apps/study/antialiasing/coverage.h"
+#include "apps/study/antialiasing/curve.h"
 #include "apps/study/antialiasing/sampling.h"
 #include "apps/study/course/demo.h"
 #include "apps/study/course/demonstrations.h"
 #include "apps/study/course/exercises.h"
+#include "apps/study/course/gallery.h"
 #include "apps/study/course/orientation.h"
+#include "apps/study/course/shared_edges.h"
 #include "apps/study/pipeline_scenes.h"
 #include "fathom/pipeline/geometry/back_face_culling.h"
 #include "fathom/pipeline/geometry/primitive_assembly.h"

@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-#include "apps/study/course/demonstrations.h"
+#include "apps/study/course/gallery.h"
 #include "apps/study/hidden_surface/comparison.h"
 #include "apps/study/hidden_surface/sight.h"
 #include "apps/study/pipeline_scenes.h"
