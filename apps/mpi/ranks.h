@@ -10,8 +10,7 @@
 
 #include "fathom/files/file_bytes.h"
 
-/// The processes of a run, numbered from 0. All that is said to MPI is said in ranks.cpp and
-/// ranks.cpp.
+/// The processes of a run, numbered from 0. Only ranks.cpp calls MPI.
 namespace fathom::app {
 
 /// If ranks on a machine end without agreeing on a reason, only one of them reports

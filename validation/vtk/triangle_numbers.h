@@ -60,8 +60,8 @@ class RecordingMapper : public vtkOpenGLPolyDataMapper {
     greater_is_nearer_ = true;
     zero_to_one_ = zero_to_one;
   }
-  /// From now on the numbers of triangles (triangle_numbers.h) are read as soon as the mesh is
-  /// drawn, before anything else is drawn over it. Needs one sample per pixel.
+  /// From now on the numbers of triangles are read as soon as the mesh is drawn, before
+  /// anything else is drawn over it. Needs one sample per pixel.
   void record_numbers(std::uint32_t width, std::uint32_t height) {
     width_ = width;
     height_ = height;

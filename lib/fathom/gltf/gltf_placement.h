@@ -8,6 +8,8 @@ namespace fathom::text {
 class JsonValue;
 }
 
+/// The placement of the nodes of a glTF. Only for .cpp files of this module, of mesh_files/ and of
+/// camera/.
 /// Source   [GLTF20] 3.5.3 (transformations)
 namespace fathom::gltf {
 
@@ -20,10 +22,6 @@ struct GltfPlacement {
 
 /// T·R·S, exactly; R is the polynomial matrix of the quaternion, which may have any length.
 WorldFromMesh transform_of(const GltfPlacement& placement);
-
-// The placement of the nodes of a glTF. Only for .cpp files of this module, of mesh_files/ and of
-// camera/.
-// Source   [GLTF20] 3.5.3 (transformations)
 
 /// The transform of a node in its parent: a matrix, or a GltfPlacement.
 /// Fails    InputError: both, or a matrix that is not affine.

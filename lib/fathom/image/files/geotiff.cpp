@@ -36,7 +36,7 @@ namespace fathom::image {
 using namespace files;
 using namespace text;
 
-// ------------------------------------------------------------------------- the directory of a TIFF
+// The directory of a TIFF.
 
 namespace {
 
@@ -101,7 +101,7 @@ Bytes TiffDirectory::encoded_at(std::uint32_t at) const {
   return directory;
 }
 
-// -------------------------------------------------------------------------- the place in the world
+// The place in the world.
 
 namespace {
 
@@ -163,7 +163,7 @@ constexpr std::uint16_t image_width = 256, image_length = 257, bits_per_sample =
 constexpr std::uint16_t by_deflate = 8, black_is_zero = 1, separate_planes = 2, floating_point = 3,
                         floating_point_predictor = 3, unspecified = 0;
 
-// ------------------------------------------------------------------------- the values of the bands
+// The values of the bands.
 
 /// The value that means "no surface" in all bands.
 float value_of_none(const DepthMap& map) {
@@ -205,7 +205,7 @@ std::vector<float> band_of(const DepthMap& map, const ImageChannel& channel, flo
   return band;
 }
 
-// ------------------------------------------------------------------------------------------ strips
+// Strips.
 
 /// Before compression, about: as GDAL and libtiff take them into memory whole.
 constexpr std::size_t bytes_of_strip = std::size_t{1} << 18;
@@ -270,7 +270,7 @@ TiffStrips compressed_strips(const DepthMap& map, float none, int threads,
   return strips;
 }
 
-// -------------------------------------------------------------------- the description of the image
+// The description of the image.
 
 WorldFromImage place_of(const std::optional<Camera>& camera, const std::string& name) {
   if (camera)
