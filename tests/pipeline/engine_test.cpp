@@ -12,6 +12,7 @@
 #include "fathom/render.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "tests/effort.h"
+#include "tests/inputs/scene_building.h"
 #include "tests/places.h"
 
 namespace fathom::pipeline {
@@ -19,15 +20,7 @@ namespace {
 
 using namespace triangle;
 
-Scene scene_of(std::vector<MeshPoint> vertices, std::vector<CornerIndices> triangles) {
-  Scene scene;
-  Mesh mesh;
-  mesh.vertices = std::move(vertices);
-  mesh.triangles = std::move(triangles);
-  scene.meshes.push_back(std::move(mesh));
-  scene.objects.push_back({});
-  return scene;
-}
+using fathom::testing::scene_of;
 
 Camera camera_of(std::uint32_t width, std::uint32_t height, double near = 0.5, double far = 100) {
   Camera camera;

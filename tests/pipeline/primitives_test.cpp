@@ -9,19 +9,12 @@
 #include "fathom/pipeline/geometry/primitive_assembly.h"
 #include "fathom/pipeline/geometry/subpixel_grid.h"
 #include "fathom/pipeline/render_pipeline.h"
+#include "tests/inputs/scene_building.h"
 
 namespace fathom::pipeline {
 namespace {
 
-Scene scene_of(std::vector<MeshPoint> vertices, std::vector<CornerIndices> triangles) {
-  Scene scene;
-  Mesh mesh;
-  mesh.vertices = std::move(vertices);
-  mesh.triangles = std::move(triangles);
-  scene.meshes.push_back(std::move(mesh));
-  scene.objects.push_back({});
-  return scene;
-}
+using fathom::testing::scene_of;
 
 /// 32 × 32 pixels; (x, y, 2) lies at 16 + 16·x, 16 + 16·y.
 Camera camera() {
