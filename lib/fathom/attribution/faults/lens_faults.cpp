@@ -79,7 +79,7 @@ class ForwardLens {
       return Point{x_d, y_d};
     }
     // r/(1 + k·r²) = |m|
-    const double k = lens_.model == LensModel::fisheye_stereographic ? -0.25 : lens_.distortion[0];
+    const double k = lens::division_term(lens_);
     const double rest = 1 - 4 * k * square;
     if (rest < 0) return std::nullopt;
     const double factor = 2 / (1 + std::sqrt(rest));
