@@ -138,6 +138,7 @@ TEST(ImportColmap, TakesLenses) {
          {LensModel::full_opencv, {1, 2, 3, 4, 5, 6, 7, -1}});
   expect("SIMPLE_DIVISION 4 2 3 2 1 0.1", {LensModel::simple_division, {0.1}});
   expect("DIVISION 4 2 3 3 2 1 -0.1", {LensModel::division, {-0.1}});
+  expect("EUCM 4 2 3 3 2 1 0.1 2", {LensModel::eucm, {0.1, 2}});
 }
 
 TEST(ImportColmap, DistortionIsToldUnlessItIsZero) {
@@ -147,13 +148,12 @@ TEST(ImportColmap, DistortionIsToldUnlessItIsZero) {
         "FULL_OPENCV 4 2 3 3 2 1 0 0 0 0 0 0 0 0", "FOV 4 2 3 3 2 1 0",
         "SIMPLE_DIVISION 4 2 3 2 1 0", "DIVISION 4 2 3 3 2 1 0", "EUCM 4 2 3 3 2 1 0 1"})
     EXPECT_TRUE(colmap_text(std::string("1 ") + zero, image).at(0).distortion.empty()) << zero;
-  for (const char* not_zero : {"FOV 4 2 3 3 2 1 0.1", "EUCM 4 2 3 3 2 1 0.1 1"}) {
-    const ImportedCamera one = colmap_text(std::string("1 ") + not_zero, image).at(0);
-    EXPECT_THAT(one.distortion,
-                AllOf(HasSubstr("cameras.txt: line 1"), HasSubstr("lens distortion")))
-        << not_zero;
-    EXPECT_EQ(one.camera.projection.cx, 2) << not_zero;
-  }
+  const ImportedCamera bent = colmap_text("1 FOV 4 2 3 3 2 1 0.1", image).at(0);
+  EXPECT_THAT(bent.distortion,
+              AllOf(HasSubstr("cameras.txt: line 1"), HasSubstr("lens distortion")));
+  EXPECT_EQ(bent.camera.projection.cx, 2);
+  EXPECT_EQ(colmap_text("1 EUCM 4 2 3 3 2 1 2 1", image).at(0).distortion,
+            "cameras.txt: line 1: camera 1: alpha is not between 0 and 1");
   for (const char* no_pinhole : {"RAD_TAN_THIN_PRISM_FISHEYE 4 2 3 3 2 1 0 0 0 0 0 0 0 0 0 0 0 0",
                                  "EQUIRECTANGULAR 4 2 4 2"})
     EXPECT_THAT(colmap_text(std::string("1 ") + no_pinhole, image).at(0).absence,

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -44,7 +45,7 @@ TEST(LensNumbers, EveryModelTakesItsOwnCount) {
 
 // As the specification has them; files, importers and C take keys and lists from the same table.
 TEST(LensModels, HaveTheirParametersInOrder) {
-  const std::array<std::string, 18> rows{
+  const std::array<std::string, 23> rows{
       "SIMPLE_PINHOLE f cx cy",
       "PINHOLE fx fy cx cy",
       "SIMPLE_RADIAL f cx cy k",
@@ -62,6 +63,11 @@ TEST(LensModels, HaveTheirParametersInOrder) {
       "RADIAL_FISHEYE f cx cy k1 k2",
       "OPENCV_FISHEYE fx fy cx cy k1 k2 k3 k4",
       "THIN_PRISM_FISHEYE fx fy cx cy k1 k2 p1 p2 k3 k4 sx1 sy1",
+      "FISHEYE_ORTHOGRAPHIC fx fy cx cy",
+      "FISHEYE_EQUISOLID fx fy cx cy",
+      "UCM fx fy cx cy alpha",
+      "EUCM fx fy cx cy alpha beta",
+      "OMNI fx fy cx cy xi",
       "TABLE"};
   std::vector<std::string> found;
   for (const LensModelEntry& entry : lens_models()) {
@@ -99,6 +105,13 @@ TEST(LensNumbers, FaultsAreNamed) {
   EXPECT_EQ(fault("RADIAL", {1, std::numeric_limits<double>::infinity()}),
             "k2 is not a finite number");
   EXPECT_EQ(fault("RADIAL", {1, 2}, 0), "max_radius is not greater than 0");
+  EXPECT_EQ(fault("UCM", {-1e-300}), "alpha is not between 0 and 1");
+  EXPECT_EQ(fault("EUCM", {std::nextafter(1.0, 2.0), 1}), "alpha is not between 0 and 1");
+  EXPECT_EQ(fault("EUCM", {1, 0}), "beta is not greater than 0");
+  EXPECT_EQ(fault("EUCM", {0, std::numeric_limits<double>::quiet_NaN()}),
+            "beta is not a finite number");
+  EXPECT_EQ(fault("OMNI", {-0.125}), "xi is less than 0");
+  EXPECT_EQ(fault("EUCM", {1, 1e-300}), "none");
 }
 
 }  // namespace

@@ -34,7 +34,11 @@ std::vector<NamedLens> lenses() {
       {"brown", {LensModel::brown, {-0.125, 0.03125, -0.0078125, 0.001953125}}},
       {"division", {LensModel::division, {-0.25}}},
       {"equidistant", {LensModel::simple_fisheye}},
-      {"fisheye", {LensModel::opencv_fisheye, {0.03125, -0.0078125}}}};
+      {"fisheye", {LensModel::opencv_fisheye, {0.03125, -0.0078125}}},
+      {"orthographic", {LensModel::fisheye_orthographic}},
+      {"equisolid", {LensModel::fisheye_equisolid}},
+      {"unified", {LensModel::eucm, {0.75, 0.5}}},
+      {"omnidirectional", {LensModel::omni, {0.75}}}};
 }
 
 Camera camera_with(const Lens& lens) {
@@ -102,7 +106,14 @@ TEST(LensLaws, AModelGivesTheMapOfTheModelThatContainsIt) {
       {{LensModel::simple_radial_fisheye, {-0.05}}, {LensModel::radial_fisheye, {-0.05}}},
       {{LensModel::radial_fisheye, {-0.05, 0.01}}, {LensModel::opencv_fisheye, {-0.05, 0.01}}},
       {{LensModel::opencv_fisheye, {-0.05, 0.01, 0.002, -0.001}},
-       {LensModel::thin_prism_fisheye, {-0.05, 0.01, 0, 0, 0.002, -0.001}}}};
+       {LensModel::thin_prism_fisheye, {-0.05, 0.01, 0, 0, 0.002, -0.001}}},
+      {{LensModel::pinhole}, {LensModel::ucm, {0}}},
+      {{LensModel::pinhole}, {LensModel::eucm, {0, 3}}},
+      {{LensModel::pinhole}, {LensModel::omni, {0}}},
+      {{LensModel::ucm, {0.625}}, {LensModel::eucm, {0.625, 1}}},
+      {{LensModel::fisheye_stereographic}, {LensModel::ucm, {0.5}}},
+      {{LensModel::division, {-0.125}}, {LensModel::eucm, {0.5, 0.5}}},
+      {{LensModel::fisheye_orthographic}, {LensModel::ucm, {1}}}};
   std::mt19937_64 random(42);
   for (const auto& [special, general] : same) {
     SCOPED_TRACE(name_of(special.model));

@@ -95,6 +95,22 @@ class LensCaseMaker {
                            n.p2 = small_term(), n.above[2] = term() / 8, n.above[3] = term() / 16,
                            n.s1 = small_term(), n.s3 = small_term()};
         break;
+      case LensModel::fisheye_orthographic:
+        n.root = oracle::LensNumbers::Root::orthographic;
+        break;
+      case LensModel::fisheye_equisolid:
+        n.root = oracle::LensNumbers::Root::equisolid;
+        break;
+      case LensModel::ucm:
+      case LensModel::eucm:
+        n.root = oracle::LensNumbers::Root::unified;
+        lens.distortion[0] = n.alpha = below(9) / 8.0;
+        if (model == LensModel::eucm) lens.distortion[1] = n.beta = (1 + below(8)) / 4.0;
+        break;
+      case LensModel::omni:
+        n.root = oracle::LensNumbers::Root::omnidirectional;
+        lens.distortion[0] = n.xi = below(13) / 8.0;
+        break;
       default:
         break;
     }
@@ -124,9 +140,9 @@ class LensCaseMaker {
         y * factor + n.p1 * (q + 2 * y * y) + 2 * n.p2 * x * y + n.s3 * q + n.s4 * q * q;
     // The direction of the ray.
     const std::array d{x, y, n.division ? 1 + *n.division * q : 1.0};
-    // No corner of few bits lies on the ray of a fisheye but on the axis. Edges in the plane of the
-    // ray and the axis meet it.
-    const bool is_meridian = n.is_angle && q > 0;
+    // Corners of few bits lie on no ray of a fisheye but the axis, and on few rays of a model with a
+    // root. Edges in the plane of the ray and the axis meet it.
+    const bool is_meridian = (n.is_angle || n.root != oracle::LensNumbers::Root::none) && q > 0;
     p.skew = 0;
     p.pixel_centre = 0.5;
     p.cx = this->below(6) + 0.5 - p.fx * gx;

@@ -8,15 +8,17 @@
 #include "fathom/lens/exact_direction.h"
 #include "fathom/lens/preimages.h"
 #include "tests/effort.h"
+#include "tests/lens/expect_signs.h"
 #include "tests/lens/lens_oracle.h"
 
 namespace fathom::lens {
 namespace {
 
 using oracle::ArbBall;
+using oracle::Direction;
+using oracle::expect_signs_of_oracle;
 using oracle::NamedParameters;
 using Point = oracle::OraclePoint<ArbBall>;
-using Direction = std::array<ArbBall, 3>;
 
 /// (m·sin θ/θ, cos θ) with θ = |m|.
 Direction lifted(const Point& m) {
@@ -24,16 +26,6 @@ Direction lifted(const Point& m) {
   ArbBall sine, cosine;
   arb_sin_cos(sine, cosine, angle, ArbBall::bits);
   return {m.x * sine / angle, m.y * sine / angle, cosine};
-}
-
-ArbBall value_of(const ExactVector3& l, const Direction& d) {
-  return ArbBall(l[0]) * d[0] + ArbBall(l[1]) * d[1] + ArbBall(l[2]) * d[2];
-}
-
-ArbBall value_of(const QuadraticForm& form, const Direction& d) {
-  const auto& [xx, yy, zz, xy, xz, yz] = form.coefficients;
-  return ArbBall(xx) * d[0] * d[0] + ArbBall(yy) * d[1] * d[1] + ArbBall(zz) * d[2] * d[2] +
-         ArbBall(xy) * d[0] * d[1] + ArbBall(xz) * d[0] * d[2] + ArbBall(yz) * d[1] * d[2];
 }
 
 void expect_encloses(const ExactDirection& direction, const Direction& exact) {
@@ -50,22 +42,6 @@ void expect_encloses(const ExactDirection& direction, const Direction& exact) {
     EXPECT_TRUE(ArbBall::hull(box.lower, box.upper).meets(exact[k]));
     EXPECT_LT(box.upper - box.lower, 0x1p-40);
   }
-}
-
-/// Planes and cones through about the direction, off by 2^−offset of their size.
-void expect_signs_of_oracle(const ExactDirection& d, const Direction& exact, int offset,
-                            std::mt19937_64& random) {
-  const auto number = [](Sign sign) { return static_cast<int>(sign); };
-  const auto small = [&random] { return Dyadic(static_cast<double>(random() % 2001) - 1000); };
-  const Dyadic a = small(), b = small(), c = small(), e = small();
-  const Dyadic shift = small().scaled(-offset);
-  const Dyadic z = (value_of(ExactVector3{a, b, 0.0}, exact) / exact[2]).rounded(offset);
-  const ExactVector3 plane{a, b, shift - z};
-  EXPECT_EQ(number(d.sign_of(plane)), value_of(plane, exact).sign()) << offset;
-  const ArbBall others = value_of(QuadraticForm{{a, b, 0.0, c, a, e}}, exact);
-  const QuadraticForm cone{
-      {a, b, shift - (others / (exact[2] * exact[2])).rounded(offset), c, a, e}};
-  EXPECT_EQ(number(d.sign_of(cone)), value_of(cone, exact).sign()) << offset;
 }
 
 class Fisheyes : public ::testing::TestWithParam<LensModel> {};

@@ -102,7 +102,13 @@ INSTANTIATE_TEST_SUITE_P(
                                 {LensModel::opencv_fisheye, {0.05, -0.01, 0.002, 0.001}}},
                       NamedLens{"thin_prisms",
                                 {LensModel::thin_prism_fisheye,
-                                 {0.02, -0.005, 0.001, -0.002, 0.001, 0.0005, 0.003, -0.002}}}),
+                                 {0.02, -0.005, 0.001, -0.002, 0.001, 0.0005, 0.003, -0.002}}},
+                      NamedLens{"orthographic", {LensModel::fisheye_orthographic}},
+                      NamedLens{"equisolid", {LensModel::fisheye_equisolid}},
+                      NamedLens{"unified", {LensModel::ucm, {0.625}}},
+                      NamedLens{"extended", {LensModel::eucm, {0.4, 7}, 2.5}},
+                      NamedLens{"omnidirectional", {LensModel::omni, {0.875}}},
+                      NamedLens{"mirror", {LensModel::omni, {1.5}}}),
     [](const auto& lens) { return std::string(lens.param.name); });
 
 }  // namespace

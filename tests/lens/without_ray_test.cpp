@@ -81,6 +81,23 @@ TEST(WithoutRay, IsTheAreaBeyondTheEndOfADivision) {
   expect_share(lens, 15, Reason::end_of_model);
 }
 
+TEST(WithoutRay, IsTheAreaBeyondTheEndOfARoot) {
+  expect_share({LensModel::fisheye_orthographic}, 15, Reason::end_of_model);
+  expect_share({LensModel::fisheye_equisolid}, 8, Reason::end_of_model);
+  expect_share({LensModel::ucm, {0.75}}, 12, Reason::end_of_model);
+  expect_share({LensModel::eucm, {1, 4}}, 30, Reason::end_of_model);
+  expect_share({LensModel::omni, {1.25}}, 12, Reason::end_of_model);
+  expect_share({LensModel::fisheye_orthographic, {}, 1.6}, 15, Reason::end_of_model);
+}
+
+TEST(WithoutRay, IsTheAreaBeyondMaxRadiusOfARoot) {
+  expect_share({LensModel::fisheye_orthographic, {}, 1}, 20, Reason::max_radius);
+  expect_share({LensModel::fisheye_equisolid, {}, 2}, 11, Reason::max_radius);
+  expect_share({LensModel::ucm, {0.25}, 0.5}, 40, Reason::max_radius);
+  expect_share({LensModel::eucm, {0.75, 0.5}, 1.25}, 14, Reason::max_radius);
+  expect_share({LensModel::omni, {0.75}, 1.25}, 25, Reason::max_radius);
+}
+
 TEST(WithoutRay, IsNoneWhereAllSamplesHaveARay) {
   const auto found = [](const Lens& lens, double focal_length) {
     return find_samples_without_ray(with(lens, focal_length), width, height).has_value();
@@ -89,6 +106,9 @@ TEST(WithoutRay, IsNoneWhereAllSamplesHaveARay) {
   EXPECT_FALSE(found({LensModel::simple_radial, {0.25}}, 10));
   EXPECT_FALSE(found({LensModel::opencv}, 10));
   EXPECT_FALSE(found({LensModel::fisheye_stereographic}, 1));
+  EXPECT_FALSE(found({LensModel::ucm, {0.5}}, 1));
+  EXPECT_FALSE(found({LensModel::omni, {1}}, 1));
+  EXPECT_FALSE(found({LensModel::fisheye_equisolid}, 17));
   EXPECT_FALSE(find_samples_without_ray(Projection(), width, height).has_value());
 }
 

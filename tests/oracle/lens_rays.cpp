@@ -121,6 +121,34 @@ Vector on_sphere(const Q& x, const Q& y) {
   return Vector{x * rational(sine), y * rational(sine), rational(cosine)};
 }
 
+Q root_of(const Q& x) {
+  return rational(sqrt(F(x, bits)));
+}
+
+/// The formulas of the specification, as written.
+std::optional<Vector> bent_by_root(const LensNumbers& lens, const Q& x, const Q& y) {
+  using Root = LensNumbers::Root;
+  const Q q = x * x + y * y, alpha = lens.alpha, beta = lens.beta, xi = lens.xi;
+  if (lens.root == Root::orthographic) {
+    if (q >= 1) return std::nullopt;
+    return Vector{x, y, root_of(1 - q)};
+  }
+  if (lens.root == Root::equisolid) {
+    if (q >= 4) return std::nullopt;
+    const Q c = root_of(1 - q / 4);
+    return Vector{c * x, c * y, 1 - q / 2};
+  }
+  if (lens.root == Root::unified) {
+    const Q under = (2 * alpha - 1) * beta * q;
+    if (under >= 1) return std::nullopt;
+    return Vector{x, y, (1 - alpha * alpha * beta * q) / (alpha * root_of(1 - under) + 1 - alpha)};
+  }
+  const Q under = (xi * xi - 1) * q;
+  if (under >= 1) return std::nullopt;
+  const Q eta = (xi + root_of(1 - under)) / (1 + q);
+  return Vector{eta * x, eta * y, eta - xi};
+}
+
 std::optional<Vector> bent_by_polynomial(const LensNumbers& lens, const Q& x, const Q& y,
                                          double greatest_q) {
   const auto start = search(lens, x.get_d(), y.get_d(), greatest_q);
@@ -140,6 +168,7 @@ std::function<std::optional<Vector>(const Q& u, const Q& v)> lens_rays(const Ray
     const Q shift = camera.pixel_centre - Q(1, 2);
     const Q y = (v + shift - camera.cy) / camera.fy;
     const Q x = (u + shift - camera.cx - camera.skew * y) / camera.fx;
+    if (lens.root != LensNumbers::Root::none) return bent_by_root(lens, x, y);
     if (!lens.division) {
       const auto ray = bent_by_polynomial(lens, x, y, greatest_q);
       return ray && lens.is_angle ? on_sphere((*ray)[0], (*ray)[1]) : ray;

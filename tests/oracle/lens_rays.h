@@ -7,6 +7,9 @@ namespace fathom::oracle {
 /// The numbers of a lens as its publication has them: OpenCV's, with Brown's terms of higher order.
 /// All of them 0: a pinhole.
 struct LensNumbers {
+  /// The models whose rays have square roots.
+  enum class Root { none, orthographic, equisolid, unified, omnidirectional };
+
   /// Of r², r⁴, … above and below the fraction bar.
   std::array<double, 4> above{};
   std::array<double, 3> below{};
@@ -15,9 +18,12 @@ struct LensNumbers {
   std::optional<double> division;
   /// The point m that the lens takes to the sample lies at the angle |m| from the axis.
   bool is_angle = false;
+  /// A formula with a square root instead, and its numbers.
+  Root root = Root::none;
+  double alpha = 0, beta = 1, xi = 0;
 
   /// Whether rays go to all sides, so that near and far bound the distance.
-  [[nodiscard]] bool counts_distance() const { return division || is_angle; }
+  [[nodiscard]] bool counts_distance() const { return division || is_angle || root != Root::none; }
 };
 
 /// RayCamera::bent of a lens in front of the camera's fx … skew. A sample sees the point m of the

@@ -109,6 +109,37 @@ def test_the_division_model_undistorts_by_division(model, params, k):
     np.testing.assert_allclose(points[:, :2] / points[:, 2:], undistorted, atol=1e-5)
 
 
+def over(denominator):
+    """x_d and y_d are x and y over the denominator, a function of √(x² + y²), z and √(x² + y² + z²)."""
+    def project(points):
+        aside, length = np.linalg.norm(points[:, :2], axis=1), np.linalg.norm(points, axis=1)
+        return 50 * points[:, :2] / denominator(aside, points[:, 2], length)[:, None] + (32, 24)
+    return project
+
+
+@pytest.mark.parametrize("model, numbers, project", [
+    ("FISHEYE_ORTHOGRAPHIC", [], over(lambda aside, z, length: length)),
+    ("FISHEYE_EQUISOLID", [], over(lambda aside, z, length: aside / (2 * np.sin(np.arctan2(aside, z) / 2)))),
+    ("UCM", [0.6], over(lambda aside, z, length: 0.6 * length + 0.4 * z)),
+    ("EUCM", [0.7, 1.5], over(lambda aside, z, length: 0.7 * np.sqrt(1.5 * aside**2 + z**2) + 0.3 * z)),
+    ("OMNI", [0.9], over(lambda aside, z, length: z + 0.9 * length)),
+])
+def test_models_with_a_root_show_points_where_their_publications_do(model, numbers, project):
+    params = [50, 50, 32, 24, *numbers]
+    check(fathom.Camera(*size, pixel_centre=0.5, world_to_camera=pose, model=model, params=params), project, 0.5)
+
+
+@pytest.mark.parametrize("xi", [0.25, 1.5])
+def test_opencv_takes_the_points_of_an_omnidirectional_camera_back_to_its_pixels(xi):
+    camera = fathom.Camera(*size, pixel_centre=0, world_to_camera=pose, model="OMNI", params=[60, 62, 32.5, 23.25, xi])
+
+    def project(points):
+        return cv2.omnidir.projectPoints(points[:, None], np.zeros(3), np.zeros(3),
+                                         np.array([[60.0, 0, 32.5], [0, 62.0, 23.25], [0, 0, 1]]), xi,
+                                         np.zeros((1, 4)))[0].reshape(-1, 2)
+    check(camera, project, 0)
+
+
 @pytest.mark.parametrize("distortion", [[0, 0, 0, 0], [0.05, -0.02, 0.003, -0.001]])
 def test_opencv_takes_the_points_of_a_fisheye_back_to_its_pixels(distortion):
     params = [20.0, 21.0, 32.5, 23.25, *distortion]

@@ -115,8 +115,8 @@ TEST(Probe, ShowsUnderLensesWhatTheReferenceEngineShows) {
   int shown = 0, ties = 0, not_counted = 0;
   RenderOptions options;
   options.channels = {Channel::Z, Channel::id, Channel::distance};
-  for (const LensModel model :
-       {LensModel::simple_radial, LensModel::opencv_14, LensModel::division, LensModel::table}) {
+  for (const LensModel model : {LensModel::simple_radial, LensModel::opencv_14, LensModel::division,
+                                LensModel::eucm, LensModel::table}) {
     testing::LensCaseMaker maker(static_cast<std::uint64_t>(model), Kind::few_bits);
     for (std::uint64_t i = 0; i < 40U / effort; ++i) {
       testing::Case c = maker.make(model == LensModel::table ? LensModel::division : model).view;

@@ -33,10 +33,14 @@ constexpr std::span<const Name> first(std::size_t count) {
 }
 
 constexpr std::array<Name, 8> of_thin_prism{"k1", "k2", "p1", "p2", "k3", "k4", "sx1", "sy1"};
+// UCM has the first.
+constexpr std::array<Name, 2> of_eucm{"alpha", "beta"};
+constexpr std::array<Name, 1> of_omni{"xi"};
 
-constexpr auto plane = RayFormula::plane, angle = RayFormula::angle, direct = RayFormula::direct;
+constexpr auto plane = RayFormula::plane, angle = RayFormula::angle, root = RayFormula::root,
+               direct = RayFormula::direct;
 
-constexpr std::array<LensModelEntry, 18> table{{
+constexpr std::array<LensModelEntry, 23> table{{
     {LensModel::simple_pinhole, "SIMPLE_PINHOLE", plane, one_focal_length, {}, {}},
     {LensModel::pinhole, "PINHOLE", plane, two_focal_lengths, {}, {}},
     {LensModel::simple_radial, "SIMPLE_RADIAL", plane, one_focal_length, of_one_term, {}},
@@ -69,6 +73,11 @@ constexpr std::array<LensModelEntry, 18> table{{
      two_focal_lengths,
      of_thin_prism,
      {}},
+    {LensModel::fisheye_orthographic, "FISHEYE_ORTHOGRAPHIC", root, two_focal_lengths, {}, {}},
+    {LensModel::fisheye_equisolid, "FISHEYE_EQUISOLID", root, two_focal_lengths, {}, {}},
+    {LensModel::ucm, "UCM", root, two_focal_lengths, std::span(of_eucm).first(1), {}},
+    {LensModel::eucm, "EUCM", root, two_focal_lengths, of_eucm, {}},
+    {LensModel::omni, "OMNI", root, two_focal_lengths, of_omni, {}},
     {LensModel::table, "TABLE", direct, {}, {}, {}},
 }};
 
@@ -94,7 +103,8 @@ bool is_plane(LensModel model) {
 }
 
 bool has_stage(LensModel model) {
-  return entry_of(model).formula != RayFormula::direct;
+  const RayFormula formula = entry_of(model).formula;
+  return formula == RayFormula::plane || formula == RayFormula::angle;
 }
 
 bool has_one_focal_length(const LensModelEntry& model) {
@@ -112,8 +122,18 @@ std::optional<LensModel> lens_model_named(std::string_view name) {
 
 namespace {
 
-bool is_tilt(std::string_view parameter) {
-  return parameter == "tauX" || parameter == "tauY";
+/// The fault of the number of a parameter; nullopt if it is in range. The binary64 number nearest
+/// to π/2 is less than π/2, so the greatest angle of a tilt is that number.
+std::optional<std::string> range_fault(std::string_view parameter, double value) {
+  const std::string name(parameter);
+  if (!std::isfinite(value)) return name + " is not a finite number";
+  const bool is_tilt = parameter == "tauX" || parameter == "tauY";
+  if (is_tilt && std::abs(value) > std::numbers::pi / 2)
+    return name + " is not between -pi/2 and pi/2";
+  if (parameter == "alpha" && !(value >= 0 && value <= 1)) return name + " is not between 0 and 1";
+  if (parameter == "beta" && !(value > 0)) return name + " is not greater than 0";
+  if (parameter == "xi" && !(value >= 0)) return name + " is less than 0";
+  return std::nullopt;
 }
 
 bool are_same(const std::shared_ptr<const DirectionTable>& a,
@@ -129,7 +149,6 @@ bool operator==(const Lens& a, const Lens& b) {
          are_same(a.directions, b.directions);
 }
 
-// The binary64 number nearest to π/2 is less than π/2, so the greatest angle is that number.
 std::optional<std::string> find_fault(const Lens& lens) {
   const StandardArithmetic standard;
   const auto names = entry_of(lens.model).distortion;
@@ -139,9 +158,7 @@ std::optional<std::string> find_fault(const Lens& lens) {
       if (value != 0) return "more numbers of distortion than the lens model has parameters";
       continue;
     }
-    if (!std::isfinite(value)) return std::string(names[i]) + " is not a finite number";
-    if (is_tilt(names[i]) && std::abs(value) > std::numbers::pi / 2)
-      return std::string(names[i]) + " is not between -pi/2 and pi/2";
+    if (auto fault = range_fault(names[i], value)) return fault;
   }
   if (!(lens.max_radius > 0)) return "max_radius is not greater than 0";
   if (lens.model == LensModel::table && !lens.directions) return "TABLE has no table of directions";

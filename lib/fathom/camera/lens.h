@@ -34,6 +34,11 @@ enum class LensModel : std::uint8_t {
   radial_fisheye,
   opencv_fisheye,
   thin_prism_fisheye,
+  fisheye_orthographic,
+  fisheye_equisolid,
+  ucm,
+  eucm,
+  omni,
   table,
 };
 
@@ -43,7 +48,9 @@ enum class RayFormula : std::uint8_t {
   plane,
   /// The angle of the ray to the z axis is |m|, where the stage takes m to the sample.
   angle,
-  /// The ray is given, by a formula or by a table.
+  /// A formula with a square root gives the ray.
+  root,
+  /// A rational formula or a table gives the ray.
   direct,
 };
 
@@ -89,8 +96,9 @@ struct Lens {
 };
 
 /// The fault of a lens, in one line, or nothing if all numbers are finite (max_radius may be +∞),
-/// the numbers that the model does not use are 0, |tauX| and |tauY| are less than π/2, max_radius
-/// is positive, and there is a table of directions if and only if the model is TABLE.
+/// the numbers that the model does not use are 0, each other number is in the range of its
+/// parameter (specification, section 2), max_radius is positive, and there is a table of directions
+/// if and only if the model is TABLE.
 std::optional<std::string> find_fault(const Lens& lens);
 
 /// The same lens by a model that has fx and fy, if its own has one focal length for both.

@@ -379,6 +379,8 @@ ExactDirection::ExactDirection(PolynomialDirection direction) : direction_(std::
 
 ExactDirection::ExactDirection(AngleDirection direction) : direction_(std::move(direction)) {}
 
+ExactDirection::ExactDirection(RootDirection direction) : direction_(std::move(direction)) {}
+
 const std::array<Interval, 3>& ExactDirection::box() const {
   return std::visit(
       [](const auto& d) -> const auto& { return d.box(); }, direction_);

@@ -6,6 +6,7 @@
 
 #include "fathom/lens/direction_words.h"
 #include "fathom/lens/polynomial_stage.h"
+#include "fathom/lens/root_direction.h"
 #include "fathom/lens/sample_plane.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/dyadic.h"
@@ -119,10 +120,11 @@ class ExactDirection {
   explicit ExactDirection(RationalDirection direction);
   explicit ExactDirection(PolynomialDirection direction);
   explicit ExactDirection(AngleDirection direction);
+  explicit ExactDirection(RootDirection direction);
 
-  /// Binary64 intervals that contain d as the specification (section 2) scales it, z = 1 for models
-  /// of the plane, |d| = 1 for fisheyes: the filter that should be asked first. An end may be
-  /// infinite.
+  /// Binary64 intervals that contain d: the filter that should be asked first. d has z = 1 for
+  /// models of the plane and |d| = 1 for fisheyes by the angle; the greatest component of a
+  /// RootDirection is about 1. An end may be infinite.
   [[nodiscard]] const std::array<Interval, 3>& box() const;
 
   /// The sign of form·d. Does not try the box.
@@ -142,7 +144,7 @@ class ExactDirection {
   [[nodiscard]] const ExactVector3* rational() const;
 
  private:
-  std::variant<RationalDirection, PolynomialDirection, AngleDirection> direction_;
+  std::variant<RationalDirection, PolynomialDirection, AngleDirection, RootDirection> direction_;
 };
 
 }  // namespace fathom::lens

@@ -25,15 +25,17 @@ bool is_beyond_every_angle(double radius) {
   return radius > std::numbers::pi;
 }
 
-/// Whether the angle between d and the z axis is at most `radius` > 0: the sign of z −
+/// Whether the angle between an algebraic d and the z axis is at most `radius` > 0: the sign of z −
 /// |d|·cos(radius). The cosine of a rational number other than 0 is transcendental, so it is never
 /// 0.
-bool is_within_angle(const ExactVector3& d, double radius) {
+template <class Direction>
+bool is_within_angle(const Direction& d, double radius) {
   if (is_beyond_every_angle(radius)) return true;
-  const Dyadic squared_length = dot(d, d);
   for (long bits = 128;; bits *= 2) {
-    const BigInterval length = sqrt(BigInterval(squared_length, bits));
-    const Sign sign = (BigInterval(d[2], bits) - length * cos(BigInterval(radius, bits))).sign();
+    const auto [dx, dy, dz] = d.enclosure(bits);
+    const BigInterval x(dx, bits), y(dy, bits), z(dz, bits);
+    const BigInterval length = sqrt(square(x) + square(y) + square(z));
+    const Sign sign = (z - length * cos(BigInterval(radius, bits))).sign();
     if (sign != Sign::zero) return sign == Sign::positive;
   }
 }
@@ -64,21 +66,41 @@ ExactVector3 scaled_to_one(ExactVector3 direction) {
 }
 
 Preimages::Preimages(const Projection& projection, const Lens& lens)
-    : plane_(projection), lens_(lens), tilt_(Tilt::of(lens)), stage_(prepared_stage(lens)) {}
+    : plane_(projection),
+      lens_(lens),
+      tilt_(Tilt::of(lens)),
+      stage_(prepared_stage(lens)),
+      roots_(root_formula(lens)) {}
 
 std::optional<ExactDirection> Preimages::of(const Dyadic& u, const Dyadic& v) const {
   const StandardArithmetic standard;
   if (lens_.directions) {
     throw UsageError("the lens TABLE: has directions of the centres of its pixels only");
   }
+  if (roots_) return by_root(plane_.at(u, v));
   if (!has_stage(lens_.model)) {
     std::optional<RationalDirection> d = divide(plane_.at(u, v), division_term(lens_));
-    if (!d || !is_within_angle(d->vector(), lens_.max_radius)) return std::nullopt;
+    if (!d || !is_within_angle(*d, lens_.max_radius)) return std::nullopt;
     return ExactDirection(std::move(*d));
   }
   std::optional<PlaneDirection> m = find_before_stage(u, v);
   if (!m) return std::nullopt;
   return lifted(std::move(*m));
+}
+
+// The axis is rational, and so is every direction where the root has no factor but 0: d is then a
+// positive multiple of (y.a, y.b, y.c).
+std::optional<ExactDirection> Preimages::by_root(const DistortedPoint& y) const {
+  RootVector<Dyadic> d = roots_->at(y);
+  if (d.s.sign() != Sign::positive) return std::nullopt;
+  const auto kept = [this](auto direction) {
+    const bool is_kept = is_within_angle(direction, lens_.max_radius);
+    return is_kept ? std::optional(ExactDirection(std::move(direction))) : std::nullopt;
+  };
+  const bool is_on_axis = y.a.is_zero() && y.b.is_zero();
+  const bool is_straight = roots_->aside_root.is_zero() && roots_->ahead_root.is_zero();
+  if (is_on_axis || is_straight) return kept(RationalDirection({y.a, y.b, y.c}, y.c));
+  return kept(RootDirection(std::move(d)));
 }
 
 std::optional<ExactDirection> Preimages::before_stage(const Dyadic& u, const Dyadic& v) const {
@@ -119,7 +141,7 @@ std::optional<ExactDirection> Preimages::of_pixel(std::uint32_t column, std::uin
   const auto d = lens_.directions->at(column, row);
   if (!d) return std::nullopt;
   RationalDirection direction(scaled_to_one({(*d)[0], (*d)[1], (*d)[2]}));
-  if (!is_within_angle(direction.vector(), lens_.max_radius)) return std::nullopt;
+  if (!is_within_angle(direction, lens_.max_radius)) return std::nullopt;
   return ExactDirection(std::move(direction));
 }
 

@@ -68,11 +68,13 @@ class Preimages {
   [[nodiscard]] std::optional<PlaneDirection> find_before_stage(const Dyadic& u,
                                                                 const Dyadic& v) const;
   [[nodiscard]] ExactDirection lifted(PlaneDirection m) const;
+  [[nodiscard]] std::optional<ExactDirection> by_root(const DistortedPoint& y) const;
 
   SamplePlane plane_;
   Lens lens_;
   std::optional<Tilt> tilt_;
   PolynomialStage stage_;
+  std::optional<RootFormula<Dyadic>> roots_;
 };
 
 }  // namespace fathom::lens

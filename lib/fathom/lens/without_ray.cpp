@@ -104,10 +104,17 @@ std::optional<Rim> rim_of_division(const Lens& lens) {
   return std::isfinite(end) ? std::optional(Rim{Reason::end_of_model, end}) : std::nullopt;
 }
 
+std::optional<Rim> rim_of_root(const RootProfile& profile, double farthest, const Lens& lens) {
+  if (const auto radius = profile.radius_at(lens.max_radius, farthest))
+    return Rim{Reason::max_radius, *radius};
+  if (!std::isfinite(profile.end())) return std::nullopt;
+  return Rim{Reason::end_of_model, profile.end()};
+}
+
 /// From the plane before the stage to the image.
 class Forward {
  public:
-  /// `stage`: none of the models of division.
+  /// `stage`: none of the models without one.
   Forward(const Projection& projection, const StageNumbers<double>* stage)
       : to_image_(projection), stage_(stage), tilt_(Tilt::of(*projection.lens)) {
     if (!tilt_) return;
@@ -212,8 +219,10 @@ std::optional<WithoutRay> find_samples_without_ray(const Projection& projection,
   for (const double u : {0.0, static_cast<double>(width)})
     for (const double v : {0.0, static_cast<double>(height)})
       farthest = std::max(farthest, forward.distance_from_axis(u, v));
-  const std::optional<Rim> rim =
-      is_by_stage ? rim_of_stage(stage, farthest, lens) : rim_of_division(lens);
+  const auto roots = root_formula(lens);
+  const std::optional<Rim> rim = is_by_stage ? rim_of_stage(stage, farthest, lens)
+                                 : roots     ? rim_of_root(RootProfile(*roots), farthest, lens)
+                                             : rim_of_division(lens);
   if (!rim) return std::nullopt;
   const Polygon seen = image_of_circle(forward, rim->radius);
   if (seen.empty()) return std::nullopt;

@@ -39,6 +39,13 @@ Certified<double> operator/(const Certified<double>& a, const Certified<double>&
   return {q, ((a.error + size * b.error) / least + u * size + most_underflow) * bound_rounding};
 }
 
+// |√X − √x| = |X − x| / (√X + √x) ≤ error of x / √x, and √x is within u of r = fl(√x).
+Certified<double> sqrt(const Certified<double>& x) {
+  if (certain_sign(x) != Sign::positive) return {0, std::numeric_limits<double>::infinity()};
+  const double r = std::sqrt(x.value);
+  return {r, (x.error / (r * (1 - 4 * u)) + u * r) * bound_rounding};
+}
+
 Interval enclose(const Certified<double>& x) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (!(x.error < infinity)) return {-infinity, infinity};

@@ -79,6 +79,8 @@ Certified<double> operator+(const Certified<double>& a, const Certified<double>&
 Certified<double> operator*(const Certified<double>& a, const Certified<double>& b);
 /// The bound is +∞ if b may be 0.
 Certified<double> operator/(const Certified<double>& a, const Certified<double>& b);
+/// The bound is +∞ if x may be 0 or less.
+Certified<double> sqrt(const Certified<double>& x);
 
 /// An interval that contains the exact number; [−∞, ∞] if the bound is +∞ or not known.
 Interval enclose(const Certified<double>& x);

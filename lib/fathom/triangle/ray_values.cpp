@@ -105,12 +105,6 @@ Real quotient_of(const ExactDirection& d, const Form& numerator, const Form& den
           [quotient] { return quotient->decide(); }};
 }
 
-/// |√X − √x| = |X − x| / (√X + √x) ≤ E_x / √x; the root itself errs by half a unit of roundoff.
-Certified<double> root_of(const Certified<double>& x) {
-  const double root = std::sqrt(x.value);
-  return {root, (x.error / root + epsilon<double> * root) * slack};
-}
-
 Certified<double> certified_in(const RayBox& box, const LinearForm& form) {
   return to_certified(form.enclose_at(box));
 }
@@ -150,7 +144,7 @@ std::optional<float> distance_in(const RayBox& box, const Dyadic& volume,
   }
   const Certified<double> along =
       quotient(to_certified(enclose(volume)), certified_in(box, weight));
-  const Certified<double> value = product(along, root_of(squared));
+  const Certified<double> value = product(along, sqrt(squared));
   return fathom::to_binary32(value.value, value.error);
 }
 

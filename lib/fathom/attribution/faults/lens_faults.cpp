@@ -62,7 +62,9 @@ class ForwardLens {
   explicit ForwardLens(const Camera& camera)
       : lens_(*camera.projection.lens),
         stage_(lens::stage_of(lens_)),
-        disc_(lens::Preimages(camera.projection, lens_).disc()) {}
+        disc_(lens::Preimages(camera.projection, lens_).disc()) {
+    if (const auto formula = lens::root_formula(lens_)) roots_.emplace(*formula);
+  }
 
   /// Not of a table, nor of a tilted sensor.
   [[nodiscard]] static bool knows(const Lens& lens) {
@@ -78,6 +80,7 @@ class ForwardLens {
       const auto [x_d, y_d] = lens::stage_value<double>(stage_, angle * x, angle * y);
       return Point{x_d, y_d};
     }
+    if (roots_) return by_root(x, y);
     // r/(1 + k·r²) = |m|
     const double k = lens::division_term(lens_);
     const double rest = 1 - 4 * k * square;
@@ -87,9 +90,19 @@ class ForwardLens {
   }
 
  private:
+  [[nodiscard]] std::optional<Point> by_root(double x, double y) const {
+    constexpr double farthest = 0x1p40;
+    const double size = std::hypot(x, y);
+    if (size == 0) return Point{0, 0};
+    const std::optional<double> radius = roots_->radius_at(std::atan(size), farthest);
+    if (!radius) return std::nullopt;
+    return Point{x / size * *radius, y / size * *radius};
+  }
+
   const Lens& lens_;
   lens::StageNumbers<double> stage_;
   double disc_;
+  std::optional<lens::RootProfile> roots_;
 };
 
 /// The mesh in the frame of the camera, its points moved so that a pinhole shows them where the

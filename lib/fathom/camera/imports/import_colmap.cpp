@@ -57,9 +57,8 @@ constexpr std::array<std::string_view, 18> model_names{"SIMPLE_PINHOLE",
                                                        "EQUIRECTANGULAR"};
 
 /// The models that Fathom does not have.
-constexpr std::array<Model, 4> models_of_colmap_alone{{{"FOV", 5, 2, true},
+constexpr std::array<Model, 3> models_of_colmap_alone{{{"FOV", 5, 2, true},
                                                        {"RAD_TAN_THIN_PRISM_FISHEYE", 16, 2, false},
-                                                       {"EUCM", 6, 2, true},
                                                        {"EQUIRECTANGULAR", 2, 0, false}}};
 
 /// `name` is one of model_names.

@@ -90,6 +90,8 @@ DirectionModel::DirectionModel(const lens::Preimages& the_preimages, const Proje
                  : CertifiedPlane(the_preimages, projection, grid.width, grid.height)),
       limit_{the_preimages.cosine_of_end()} {
   if (the_preimages.stage() != nullptr) angles_.emplace(the_preimages, projection, grid);
+  if (const auto exact = lens::root_formula(*projection.lens))
+    roots_ = exact->in([](const Dyadic& x) { return to_certified(enclose(x)); });
 }
 
 template <class DirectionAt>
@@ -111,7 +113,8 @@ std::vector<DirectionModel::Sample> DirectionModel::collected(std::uint32_t tile
 std::vector<DirectionModel::Sample> DirectionModel::of_tile(std::uint32_t tile) const {
   if (angles_) return fisheye_tile(tile);
   return collected(tile, [this](std::uint32_t column, std::uint32_t row) {
-    return table_ ? in_table(column, row) : divided(column, row);
+    if (table_ != nullptr) return in_table(column, row);
+    return roots_ ? by_root(column, row) : divided(column, row);
   });
 }
 
@@ -156,6 +159,32 @@ std::optional<ApproximateDirection> DirectionModel::divided(std::uint32_t column
   if (bend - of_z > 1) return std::nullopt;
   if (!(bend + of_z < 1)) return exactly_at(column, row);
   const ApproximateDirection direction{{x, y, 1 + bend}, std::max(e, of_z)};
+  const std::optional<bool> keeps = limit_.keeps(direction);
+  if (!keeps) return exactly_at(column, row);
+  return *keeps ? std::optional(direction) : std::nullopt;
+}
+
+// There is a ray where s > 0. Each operation carries the bound of its operands.
+std::optional<ApproximateDirection> DirectionModel::by_root(std::uint32_t column,
+                                                            std::uint32_t row) const {
+  const auto [x, y] = plane_.at(column + 0.5, row + 0.5);
+  const double e = plane_.error();
+  const auto [a, b, s] = roots_->at({{x, e}, {y, e}, {1, 0}});
+  const Sign is_seen = certain_sign(s);
+  if (is_seen == Sign::negative) return std::nullopt;
+  if (is_seen == Sign::zero) return exactly_at(column, row);
+  const Certified<double> root = sqrt(s);
+  ApproximateDirection direction{{}, 0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Certified<double> component = a[k] + b[k] * root;
+    if (!(component.error < std::numeric_limits<double>::infinity()))
+      return exactly_at(column, row);
+    direction.d[k] = component.value;
+    direction.error = std::max(direction.error, component.error);
+  }
+  const double size =
+      std::max({std::abs(direction.d[0]), std::abs(direction.d[1]), std::abs(direction.d[2])});
+  if (!(direction.error < size)) return exactly_at(column, row);
   const std::optional<bool> keeps = limit_.keeps(direction);
   if (!keeps) return exactly_at(column, row);
   return *keeps ? std::optional(direction) : std::nullopt;

@@ -12,6 +12,7 @@
 #include "fathom/fast/lenses/view_axes.h"
 #include "fathom/geometry/frames.h"
 #include "fathom/lens/preimages.h"
+#include "fathom/numeric/certified_value.h"
 #include "fathom/numeric/interval.h"
 
 namespace fathom::fast {
@@ -36,7 +37,7 @@ class AngleLimit {
 };
 
 /// The directions of the samples of a lens whose rays may go to all sides: a table, a model of
-/// division, a fisheye.
+/// division or with a root, a fisheye.
 class DirectionModel {
  public:
   DirectionModel(const lens::Preimages& the_preimages, const Projection& projection,
@@ -58,6 +59,8 @@ class DirectionModel {
                                                              std::uint32_t row) const;
   [[nodiscard]] std::optional<ApproximateDirection> divided(std::uint32_t column,
                                                             std::uint32_t row) const;
+  [[nodiscard]] std::optional<ApproximateDirection> by_root(std::uint32_t column,
+                                                            std::uint32_t row) const;
   [[nodiscard]] std::vector<Sample> fisheye_tile(std::uint32_t tile) const;
   template <class DirectionAt>
   [[nodiscard]] std::vector<Sample> collected(std::uint32_t tile, const DirectionAt& at) const;
@@ -65,8 +68,10 @@ class DirectionModel {
   const lens::Preimages& preimages_;
   const TileGrid& grid_;
   const DirectionTable* table_;
-  /// Of a model of division: k of d = (x_d, y_d, 1 + k·r²), and the map to (x_d, y_d).
+  /// Of a model of division: k of d = (x_d, y_d, 1 + k·r²).
   double k_;
+  std::optional<lens::RootFormula<Certified<double>>> roots_;
+  /// Of a model of division or with a root: the map to (x_d, y_d).
   CertifiedPlane plane_;
   AngleLimit limit_;
   /// Of a fisheye: the points whose |m| is the angle.
