@@ -140,7 +140,7 @@ class LensCaseMaker {
         y * factor + n.p1 * (q + 2 * y * y) + 2 * n.p2 * x * y + n.s3 * q + n.s4 * q * q;
     // The direction of the ray.
     const std::array d{x, y, n.division ? 1 + *n.division * q : 1.0};
-    // Corners of few bits lie on no ray of a fisheye but the axis, and on few rays of a model with a
+    // Corners of few bits lie on no ray of a fisheye but the axis, and on few of a model with a
     // root. Edges in the plane of the ray and the axis meet it.
     const bool is_meridian = (n.is_angle || n.root != oracle::LensNumbers::Root::none) && q > 0;
     p.skew = 0;
