@@ -45,7 +45,7 @@ TEST(LensNumbers, EveryModelTakesItsOwnCount) {
 
 // As the specification has them; files, importers and C take keys and lists from the same table.
 TEST(LensModels, HaveTheirParametersInOrder) {
-  const std::array<std::string, 23> rows{
+  const std::array<std::string, 24> rows{
       "SIMPLE_PINHOLE f cx cy",
       "PINHOLE fx fy cx cy",
       "SIMPLE_RADIAL f cx cy k",
@@ -67,6 +67,7 @@ TEST(LensModels, HaveTheirParametersInOrder) {
       "FISHEYE_EQUISOLID fx fy cx cy",
       "UCM fx fy cx cy alpha",
       "EUCM fx fy cx cy alpha beta",
+      "DOUBLE_SPHERE fx fy cx cy xi alpha",
       "OMNI fx fy cx cy xi",
       "TABLE"};
   std::vector<std::string> found;
@@ -111,6 +112,9 @@ TEST(LensNumbers, FaultsAreNamed) {
   EXPECT_EQ(fault("EUCM", {0, std::numeric_limits<double>::quiet_NaN()}),
             "beta is not a finite number");
   EXPECT_EQ(fault("OMNI", {-0.125}), "xi is less than 0");
+  EXPECT_EQ(fault("DOUBLE_SPHERE", {-1, 0.5}), "xi is not between -1 and 1");
+  EXPECT_EQ(fault("DOUBLE_SPHERE", {0.5, 2}), "alpha is not between 0 and 1");
+  EXPECT_EQ(fault("DOUBLE_SPHERE", {-0.5, 1}), "none");
   EXPECT_EQ(fault("EUCM", {1, 1e-300}), "none");
 }
 

@@ -69,13 +69,15 @@ std::string name_of_case(const ::testing::TestParamInfo<std::tuple<LensModel, Ki
 INSTANTIATE_TEST_SUITE_P(
     Fast, LensAdversaries,
     ::testing::Combine(
-        ::testing::Values(
-            LensModel::simple_radial, LensModel::radial, LensModel::opencv, LensModel::full_opencv,
-            LensModel::opencv_14, LensModel::brown, LensModel::simple_division, LensModel::division,
-            LensModel::fisheye_stereographic, LensModel::simple_fisheye, LensModel::fisheye,
-            LensModel::simple_radial_fisheye, LensModel::radial_fisheye, LensModel::opencv_fisheye,
-            LensModel::thin_prism_fisheye, LensModel::fisheye_orthographic,
-            LensModel::fisheye_equisolid, LensModel::ucm, LensModel::eucm, LensModel::omni),
+        ::testing::Values(LensModel::simple_radial, LensModel::radial, LensModel::opencv,
+                          LensModel::full_opencv, LensModel::opencv_14, LensModel::brown,
+                          LensModel::simple_division, LensModel::division,
+                          LensModel::fisheye_stereographic, LensModel::simple_fisheye,
+                          LensModel::fisheye, LensModel::simple_radial_fisheye,
+                          LensModel::radial_fisheye, LensModel::opencv_fisheye,
+                          LensModel::thin_prism_fisheye, LensModel::fisheye_orthographic,
+                          LensModel::fisheye_equisolid, LensModel::ucm, LensModel::eucm,
+                          LensModel::double_sphere, LensModel::omni),
         ::testing::Values(Kind::few_bits, Kind::neighbours, Kind::huge, Kind::tiny)),
     name_of_case);
 
@@ -122,6 +124,7 @@ std::vector<NamedLens> lenses() {
       {"unified", {LensModel::ucm, {0.625}}},
       {"unified to all sides", {LensModel::eucm, {0.45, 12}}},
       {"unified that ends", {LensModel::eucm, {0.7, 1.25}, 1.5}},
+      {"double sphere", {LensModel::double_sphere, {-0.25, 0.6}}},
       {"omnidirectional", {LensModel::omni, {0.875}}},
       {"mirror", {LensModel::omni, {1.5}}}};
 }

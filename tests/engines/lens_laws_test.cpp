@@ -38,6 +38,7 @@ std::vector<NamedLens> lenses() {
       {"orthographic", {LensModel::fisheye_orthographic}},
       {"equisolid", {LensModel::fisheye_equisolid}},
       {"unified", {LensModel::eucm, {0.75, 0.5}}},
+      {"double sphere", {LensModel::double_sphere, {-0.25, 0.625}}},
       {"omnidirectional", {LensModel::omni, {0.75}}}};
 }
 
@@ -113,7 +114,9 @@ TEST(LensLaws, AModelGivesTheMapOfTheModelThatContainsIt) {
       {{LensModel::ucm, {0.625}}, {LensModel::eucm, {0.625, 1}}},
       {{LensModel::fisheye_stereographic}, {LensModel::ucm, {0.5}}},
       {{LensModel::division, {-0.125}}, {LensModel::eucm, {0.5, 0.5}}},
-      {{LensModel::fisheye_orthographic}, {LensModel::ucm, {1}}}};
+      {{LensModel::fisheye_orthographic}, {LensModel::ucm, {1}}},
+      {{LensModel::ucm, {0.625}}, {LensModel::double_sphere, {0, 0.625}}},
+      {{LensModel::omni, {0.75}}, {LensModel::double_sphere, {0.75, 0}}}};
   std::mt19937_64 random(42);
   for (const auto& [special, general] : same) {
     SCOPED_TRACE(name_of(special.model));

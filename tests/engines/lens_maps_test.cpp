@@ -85,6 +85,7 @@ constexpr std::array models{LensModel::simple_radial,
                             LensModel::fisheye_equisolid,
                             LensModel::ucm,
                             LensModel::eucm,
+                            LensModel::double_sphere,
                             LensModel::omni};
 
 std::string name_of_case(const ::testing::TestParamInfo<std::tuple<LensModel, Kind>>& info) {

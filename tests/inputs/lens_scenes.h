@@ -107,6 +107,10 @@ class LensCaseMaker {
         lens.distortion[0] = n.alpha = below(9) / 8.0;
         if (model == LensModel::eucm) lens.distortion[1] = n.beta = (1 + below(8)) / 4.0;
         break;
+      case LensModel::double_sphere:
+        n.root = oracle::LensNumbers::Root::double_sphere;
+        lens.distortion = {n.xi = (below(15) - 7) / 8.0, n.alpha = below(9) / 8.0};
+        break;
       case LensModel::omni:
         n.root = oracle::LensNumbers::Root::omnidirectional;
         lens.distortion[0] = n.xi = below(13) / 8.0;

@@ -107,6 +107,7 @@ INSTANTIATE_TEST_SUITE_P(
                       NamedLens{"equisolid", {LensModel::fisheye_equisolid}},
                       NamedLens{"unified", {LensModel::ucm, {0.625}}},
                       NamedLens{"extended", {LensModel::eucm, {0.4, 7}, 2.5}},
+                      NamedLens{"double_sphere", {LensModel::double_sphere, {-0.25, 0.6}}},
                       NamedLens{"omnidirectional", {LensModel::omni, {0.875}}},
                       NamedLens{"mirror", {LensModel::omni, {1.5}}}),
     [](const auto& lens) { return std::string(lens.param.name); });

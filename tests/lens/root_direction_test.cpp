@@ -37,6 +37,10 @@ Point projected(const Lens& lens, const Direction& d) {
       return over(alpha * length + (one - alpha) * z);
     case LensModel::eucm:
       return over(alpha * (ArbBall(numbers["beta"]) * aside + z * z).root() + (one - alpha) * z);
+    case LensModel::double_sphere: {
+      const ArbBall ahead = xi * length + z, second = (aside + ahead * ahead).root();
+      return over(alpha * second + (one - alpha) * ahead);
+    }
     default:  // OMNI
       return over(z + xi * length);
   }
@@ -58,6 +62,12 @@ Direction direction_of(const Lens& lens, const Point& y) {
     case LensModel::eucm: {
       const ArbBall S = (one - (two * alpha - one) * beta * r2).root();
       return {y.x, y.y, (one - alpha * alpha * beta * r2) / (alpha * S + one - alpha)};
+    }
+    case LensModel::double_sphere: {
+      const ArbBall S = (one - (two * alpha - one) * r2).root();
+      const ArbBall z = (one - alpha * alpha * r2) / (alpha * S + one - alpha);
+      const ArbBall kappa = (z * xi + (z * z + (one - xi * xi) * r2).root()) / (z * z + r2);
+      return {kappa * y.x, kappa * y.y, kappa * z - xi};
     }
     default: {
       const ArbBall eta = (xi + (one + (one - xi * xi) * r2).root()) / (one + r2);
@@ -115,7 +125,8 @@ class Roots : public ::testing::TestWithParam<LensModel> {};
 INSTANTIATE_TEST_SUITE_P(Lenses, Roots,
                          ::testing::Values(LensModel::fisheye_orthographic,
                                            LensModel::fisheye_equisolid, LensModel::ucm,
-                                           LensModel::eucm, LensModel::omni),
+                                           LensModel::eucm, LensModel::double_sphere,
+                                           LensModel::omni),
                          [](const auto& model) { return std::string(name_of(model.param)); });
 
 /// Numbers within the ranges of the parameters, their ends among them.
@@ -123,6 +134,8 @@ Lens random_lens(std::mt19937_64& random, LensModel model) {
   std::uniform_real_distribution<double> uniform(0, 1);
   Lens lens{model};
   if (model == LensModel::omni) lens.distortion[0] = 2 * uniform(random);
+  if (model == LensModel::double_sphere)
+    lens.distortion = {2 * uniform(random) - 1, random() % 4 == 0 ? 1 : uniform(random)};
   if (model == LensModel::ucm || model == LensModel::eucm)
     lens.distortion[0] =
         random() % 4 == 0 ? 0.5 * static_cast<double>(random() % 3) : uniform(random);
@@ -187,6 +200,8 @@ const RationalRay rational_rays[] = {
     {{LensModel::ucm, {0.5}}, 1, 2, 4, {2, 4, -4}},
     {{LensModel::eucm, {0.5, 0.25}}, 1, 2, 4, {2, 4, -0.25}},
     {{LensModel::eucm, {0, 0.25}}, 1, 2, 4, {2, 4, 1}},
+    {{LensModel::double_sphere, {0, 1}}, 5, 3, 0, {3, 0, 4}},
+    {{LensModel::double_sphere, {0.5, 0}}, 1, 2, 0, {1, 0, 0}},
     {{LensModel::omni, {0}}, 3, 1, 2, {1, 2, 3}},
     {{LensModel::omni, {0.5}}, 1, 2, 0, {1, 0, 0}},
     {{LensModel::omni, {1}}, 1, 1, 2, {1, 2, -2}},
@@ -235,6 +250,7 @@ TEST(Root, EndWhereTheRootIsZero) {
                                 {{LensModel::ucm, {1}}, 1},
                                 {{LensModel::eucm, {0.625, 4}}, 1},
                                 {{LensModel::eucm, {1, 0.0625}}, 4},
+                                {{LensModel::double_sphere, {0.5, 0.625}}, 2},
                                 {{LensModel::omni, {1.25}}, 4.0 / 3}}) {
     SCOPED_TRACE(name_of(lens.model));
     EXPECT_TRUE(sees(lens, r * (1 - 0x1p-52)));
@@ -244,7 +260,8 @@ TEST(Root, EndWhereTheRootIsZero) {
     }
   }
   for (const Lens& endless :
-       {Lens{LensModel::ucm, {0.5}}, Lens{LensModel::eucm, {0.25, 7}}, Lens{LensModel::omni, {1}}})
+       {Lens{LensModel::ucm, {0.5}}, Lens{LensModel::eucm, {0.25, 7}},
+        Lens{LensModel::double_sphere, {-0.5, 0.25}}, Lens{LensModel::omni, {1}}})
     EXPECT_TRUE(sees(endless, 1e300));
 }
 
@@ -276,6 +293,7 @@ TEST(Root, SeeTheirAxisExactly) {
                            {LensModel::fisheye_equisolid},
                            {LensModel::ucm, {1}},
                            {LensModel::eucm, {0.7, 1e-300}},
+                           {LensModel::double_sphere, {-0.75, 1}},
                            {LensModel::omni, {1e300}}}) {
     const auto d = Preimages({}, lens).of(0.0, 0.0);
     ASSERT_TRUE(d.has_value() && d->rational() != nullptr);
@@ -301,6 +319,7 @@ TEST(Root, HaveFocalLengthsNearTheEndOfBinary64) {
     for (const Lens& lens : {Lens{LensModel::fisheye_orthographic},
                              {LensModel::fisheye_equisolid},
                              {LensModel::eucm, {0.75, 1e-300}},
+                             {LensModel::double_sphere, {-0.5, 0.625}},
                              {LensModel::omni, {1.25}}}) {
       const Preimages preimages(camera, lens);
       const Dyadic u = Dyadic(f).scaled(-2), v = Dyadic(f).scaled(-1);  // (¼, ½)

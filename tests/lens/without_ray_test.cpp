@@ -86,6 +86,7 @@ TEST(WithoutRay, IsTheAreaBeyondTheEndOfARoot) {
   expect_share({LensModel::fisheye_equisolid}, 8, Reason::end_of_model);
   expect_share({LensModel::ucm, {0.75}}, 12, Reason::end_of_model);
   expect_share({LensModel::eucm, {1, 4}}, 30, Reason::end_of_model);
+  expect_share({LensModel::double_sphere, {0.25, 0.75}}, 12, Reason::end_of_model);
   expect_share({LensModel::omni, {1.25}}, 12, Reason::end_of_model);
   expect_share({LensModel::fisheye_orthographic, {}, 1.6}, 15, Reason::end_of_model);
 }
@@ -95,6 +96,7 @@ TEST(WithoutRay, IsTheAreaBeyondMaxRadiusOfARoot) {
   expect_share({LensModel::fisheye_equisolid, {}, 2}, 11, Reason::max_radius);
   expect_share({LensModel::ucm, {0.25}, 0.5}, 40, Reason::max_radius);
   expect_share({LensModel::eucm, {0.75, 0.5}, 1.25}, 14, Reason::max_radius);
+  expect_share({LensModel::double_sphere, {-0.25, 0.6}, 1}, 22, Reason::max_radius);
   expect_share({LensModel::omni, {0.75}, 1.25}, 25, Reason::max_radius);
 }
 

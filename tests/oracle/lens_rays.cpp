@@ -138,10 +138,13 @@ std::optional<Vector> bent_by_root(const LensNumbers& lens, const Q& x, const Q&
     const Q c = root_of(1 - q / 4);
     return Vector{c * x, c * y, 1 - q / 2};
   }
-  if (lens.root == Root::unified) {
+  if (lens.root == Root::unified || lens.root == Root::double_sphere) {
     const Q under = (2 * alpha - 1) * beta * q;
     if (under >= 1) return std::nullopt;
-    return Vector{x, y, (1 - alpha * alpha * beta * q) / (alpha * root_of(1 - under) + 1 - alpha)};
+    const Q z = (1 - alpha * alpha * beta * q) / (alpha * root_of(1 - under) + 1 - alpha);
+    if (lens.root == Root::unified) return Vector{x, y, z};
+    const Q kappa = (z * xi + root_of(z * z + (1 - xi * xi) * q)) / (z * z + q);
+    return Vector{kappa * x, kappa * y, kappa * z - xi};
   }
   const Q under = (xi * xi - 1) * q;
   if (under >= 1) return std::nullopt;

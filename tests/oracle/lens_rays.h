@@ -8,7 +8,7 @@ namespace fathom::oracle {
 /// All of them 0: a pinhole.
 struct LensNumbers {
   /// The models whose rays have square roots.
-  enum class Root { none, orthographic, equisolid, unified, omnidirectional };
+  enum class Root { none, orthographic, equisolid, unified, double_sphere, omnidirectional };
 
   /// Of r², r⁴, … above and below the fraction bar.
   std::array<double, 4> above{};

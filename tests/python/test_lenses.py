@@ -122,6 +122,8 @@ def over(denominator):
     ("FISHEYE_EQUISOLID", [], over(lambda aside, z, length: aside / (2 * np.sin(np.arctan2(aside, z) / 2)))),
     ("UCM", [0.6], over(lambda aside, z, length: 0.6 * length + 0.4 * z)),
     ("EUCM", [0.7, 1.5], over(lambda aside, z, length: 0.7 * np.sqrt(1.5 * aside**2 + z**2) + 0.3 * z)),
+    ("DOUBLE_SPHERE", [-0.2, 0.6], over(lambda aside, z, length: 0.6 * np.hypot(aside, z - 0.2 * length)
+                                        + 0.4 * (z - 0.2 * length))),
     ("OMNI", [0.9], over(lambda aside, z, length: z + 0.9 * length)),
 ])
 def test_models_with_a_root_show_points_where_their_publications_do(model, numbers, project):

@@ -35,12 +35,13 @@ constexpr std::span<const Name> first(std::size_t count) {
 constexpr std::array<Name, 8> of_thin_prism{"k1", "k2", "p1", "p2", "k3", "k4", "sx1", "sy1"};
 // UCM has the first.
 constexpr std::array<Name, 2> of_eucm{"alpha", "beta"};
+constexpr std::array<Name, 2> of_double_sphere{"xi", "alpha"};
 constexpr std::array<Name, 1> of_omni{"xi"};
 
-constexpr auto plane = RayFormula::plane, angle = RayFormula::angle, root = RayFormula::root,
+constexpr auto plane = RayFormula::plane, angle = RayFormula::angle, with_root = RayFormula::root,
                direct = RayFormula::direct;
 
-constexpr std::array<LensModelEntry, 23> table{{
+constexpr std::array<LensModelEntry, 24> table{{
     {LensModel::simple_pinhole, "SIMPLE_PINHOLE", plane, one_focal_length, {}, {}},
     {LensModel::pinhole, "PINHOLE", plane, two_focal_lengths, {}, {}},
     {LensModel::simple_radial, "SIMPLE_RADIAL", plane, one_focal_length, of_one_term, {}},
@@ -73,11 +74,12 @@ constexpr std::array<LensModelEntry, 23> table{{
      two_focal_lengths,
      of_thin_prism,
      {}},
-    {LensModel::fisheye_orthographic, "FISHEYE_ORTHOGRAPHIC", root, two_focal_lengths, {}, {}},
-    {LensModel::fisheye_equisolid, "FISHEYE_EQUISOLID", root, two_focal_lengths, {}, {}},
-    {LensModel::ucm, "UCM", root, two_focal_lengths, std::span(of_eucm).first(1), {}},
-    {LensModel::eucm, "EUCM", root, two_focal_lengths, of_eucm, {}},
-    {LensModel::omni, "OMNI", root, two_focal_lengths, of_omni, {}},
+    {LensModel::fisheye_orthographic, "FISHEYE_ORTHOGRAPHIC", with_root, two_focal_lengths, {}, {}},
+    {LensModel::fisheye_equisolid, "FISHEYE_EQUISOLID", with_root, two_focal_lengths, {}, {}},
+    {LensModel::ucm, "UCM", with_root, two_focal_lengths, std::span(of_eucm).first(1), {}},
+    {LensModel::eucm, "EUCM", with_root, two_focal_lengths, of_eucm, {}},
+    {LensModel::double_sphere, "DOUBLE_SPHERE", with_root, two_focal_lengths, of_double_sphere, {}},
+    {LensModel::omni, "OMNI", with_root, two_focal_lengths, of_omni, {}},
     {LensModel::table, "TABLE", direct, {}, {}, {}},
 }};
 
@@ -124,7 +126,7 @@ namespace {
 
 /// The fault of the number of a parameter; nullopt if it is in range. The binary64 number nearest
 /// to π/2 is less than π/2, so the greatest angle of a tilt is that number.
-std::optional<std::string> range_fault(std::string_view parameter, double value) {
+std::optional<std::string> range_fault(LensModel model, std::string_view parameter, double value) {
   const std::string name(parameter);
   if (!std::isfinite(value)) return name + " is not a finite number";
   const bool is_tilt = parameter == "tauX" || parameter == "tauY";
@@ -132,7 +134,10 @@ std::optional<std::string> range_fault(std::string_view parameter, double value)
     return name + " is not between -pi/2 and pi/2";
   if (parameter == "alpha" && !(value >= 0 && value <= 1)) return name + " is not between 0 and 1";
   if (parameter == "beta" && !(value > 0)) return name + " is not greater than 0";
-  if (parameter == "xi" && !(value >= 0)) return name + " is less than 0";
+  if (parameter != "xi") return std::nullopt;
+  if (model == LensModel::double_sphere && !(std::abs(value) < 1))
+    return "xi is not between -1 and 1";
+  if (model == LensModel::omni && !(value >= 0)) return "xi is less than 0";
   return std::nullopt;
 }
 
@@ -158,7 +163,7 @@ std::optional<std::string> find_fault(const Lens& lens) {
       if (value != 0) return "more numbers of distortion than the lens model has parameters";
       continue;
     }
-    if (auto fault = range_fault(names[i], value)) return fault;
+    if (auto fault = range_fault(lens.model, names[i], value)) return fault;
   }
   if (!(lens.max_radius > 0)) return "max_radius is not greater than 0";
   if (lens.model == LensModel::table && !lens.directions) return "TABLE has no table of directions";

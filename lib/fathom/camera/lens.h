@@ -38,6 +38,7 @@ enum class LensModel : std::uint8_t {
   fisheye_equisolid,
   ucm,
   eucm,
+  double_sphere,
   omni,
   table,
 };

@@ -379,7 +379,9 @@ ExactDirection::ExactDirection(PolynomialDirection direction) : direction_(std::
 
 ExactDirection::ExactDirection(AngleDirection direction) : direction_(std::move(direction)) {}
 
-ExactDirection::ExactDirection(RootDirection direction) : direction_(std::move(direction)) {}
+ExactDirection::ExactDirection(OneRootDirection direction) : direction_(std::move(direction)) {}
+
+ExactDirection::ExactDirection(NestedRootDirection direction) : direction_(std::move(direction)) {}
 
 const std::array<Interval, 3>& ExactDirection::box() const {
   return std::visit(

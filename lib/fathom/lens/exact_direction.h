@@ -120,7 +120,8 @@ class ExactDirection {
   explicit ExactDirection(RationalDirection direction);
   explicit ExactDirection(PolynomialDirection direction);
   explicit ExactDirection(AngleDirection direction);
-  explicit ExactDirection(RootDirection direction);
+  explicit ExactDirection(OneRootDirection direction);
+  explicit ExactDirection(NestedRootDirection direction);
 
   /// Binary64 intervals that contain d: the filter that should be asked first. d has z = 1 for
   /// models of the plane and |d| = 1 for fisheyes by the angle; the greatest component of a
@@ -144,7 +145,9 @@ class ExactDirection {
   [[nodiscard]] const ExactVector3* rational() const;
 
  private:
-  std::variant<RationalDirection, PolynomialDirection, AngleDirection, RootDirection> direction_;
+  std::variant<RationalDirection, PolynomialDirection, AngleDirection, OneRootDirection,
+               NestedRootDirection>
+      direction_;
 };
 
 }  // namespace fathom::lens

@@ -45,6 +45,12 @@ bool is_within(const std::optional<Dyadic>& limit, const DistortedPoint& m) {
   return !limit || m.a * m.a + m.b * m.b <= *limit * (m.c * m.c);
 }
 
+/// Whether d is a positive multiple of (x_d, y_d, 1) everywhere.
+bool is_straight(const AnyRootFormula<Dyadic>& formula) {
+  const auto* const one_root = std::get_if<RootFormula<Dyadic>>(&formula);
+  return one_root != nullptr && one_root->aside_root.is_zero() && one_root->ahead_root.is_zero();
+}
+
 PolynomialStage prepared_stage(const Lens& lens) {
   return PolynomialStage(has_stage(lens.model) ? lens : Lens());
 }
@@ -88,19 +94,21 @@ std::optional<ExactDirection> Preimages::of(const Dyadic& u, const Dyadic& v) co
   return lifted(std::move(*m));
 }
 
-// The axis is rational, and so is every direction where the root has no factor but 0: d is then a
-// positive multiple of (y.a, y.b, y.c).
+// The axis is rational, and so is every direction of a formula that bends nothing.
 std::optional<ExactDirection> Preimages::by_root(const DistortedPoint& y) const {
-  RootVector<Dyadic> d = roots_->at(y);
-  if (d.s.sign() != Sign::positive) return std::nullopt;
   const auto kept = [this](auto direction) {
     const bool is_kept = is_within_angle(direction, lens_.max_radius);
     return is_kept ? std::optional(ExactDirection(std::move(direction))) : std::nullopt;
   };
   const bool is_on_axis = y.a.is_zero() && y.b.is_zero();
-  const bool is_straight = roots_->aside_root.is_zero() && roots_->ahead_root.is_zero();
-  if (is_on_axis || is_straight) return kept(RationalDirection({y.a, y.b, y.c}, y.c));
-  return kept(RootDirection(std::move(d)));
+  if (is_on_axis || is_straight(*roots_)) return kept(RationalDirection({y.a, y.b, y.c}, y.c));
+  return std::visit(
+      [&](const auto& formula) -> std::optional<ExactDirection> {
+        auto d = formula.at(y);
+        if (d.s.sign() != Sign::positive) return std::nullopt;
+        return kept(RootDirection(std::move(d)));
+      },
+      *roots_);
 }
 
 std::optional<ExactDirection> Preimages::before_stage(const Dyadic& u, const Dyadic& v) const {

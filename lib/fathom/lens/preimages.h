@@ -74,7 +74,7 @@ class Preimages {
   Lens lens_;
   std::optional<Tilt> tilt_;
   PolynomialStage stage_;
-  std::optional<RootFormula<Dyadic>> roots_;
+  std::optional<AnyRootFormula<Dyadic>> roots_;
 };
 
 }  // namespace fathom::lens

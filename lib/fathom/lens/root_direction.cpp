@@ -32,9 +32,20 @@ RootFormula<Dyadic> formula_of_omni(const Dyadic& xi) {
           .under = Dyadic(1.0) - xi * xi};
 }
 
+DoubleSphereFormula<Dyadic> formula_of_double_sphere(const Dyadic& xi, const Dyadic& alpha) {
+  const Dyadic one = 1.0;
+  return {.alpha = alpha,
+          .rest_of_alpha = one - alpha,
+          .alpha_squared = alpha * alpha,
+          .under = one - alpha - alpha,
+          .xi = xi,
+          .rest_of_xi_squared = one - xi * xi,
+          .zero = 0.0};
+}
+
 }  // namespace
 
-std::optional<RootFormula<Dyadic>> root_formula(const Lens& lens) {
+std::optional<AnyRootFormula<Dyadic>> root_formula(const Lens& lens) {
   const StandardArithmetic standard;
   switch (lens.model) {
     case LensModel::fisheye_orthographic:
@@ -57,20 +68,35 @@ std::optional<RootFormula<Dyadic>> root_formula(const Lens& lens) {
       return formula_of_eucm(lens.distortion[0], lens.distortion[1]);
     case LensModel::omni:
       return formula_of_omni(lens.distortion[0]);
+    case LensModel::double_sphere:
+      return formula_of_double_sphere(lens.distortion[0], lens.distortion[1]);
     default:
       return std::nullopt;
   }
 }
 
-RootProfile::RootProfile(const RootFormula<Dyadic>& formula)
-    : formula_(formula.in([](const Dyadic& x) { return enclose(x).lower; })),
-      end_(formula_.under < 0 ? 1 / std::sqrt(-formula_.under)
-                              : std::numeric_limits<double>::infinity()) {}
+namespace {
+
+double end_of(const AnyRootFormula<double>& formula) {
+  const double under = std::visit([](const auto& f) { return f.under; }, formula);
+  return under < 0 ? 1 / std::sqrt(-under) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+RootProfile::RootProfile(const AnyRootFormula<Dyadic>& formula)
+    : formula_(converted(formula, [](const Dyadic& x) { return enclose(x).lower; })),
+      end_(end_of(formula_)) {}
 
 double RootProfile::angle_at(double radius) const {
-  const RootVector<double> d = formula_.at({radius, 0.0, 1.0});
-  const double root = std::sqrt(std::max(d.s, 0.0));
-  return std::atan2(d.a[0] + d.b[0] * root, d.a[2] + d.b[2] * root);
+  return std::visit(
+      [radius](const auto& formula) {
+        auto d = formula.at({radius, 0.0, 1.0});
+        d.s = std::max(d.s, 0.0);
+        const std::array<double, 3> components = d.components();
+        return std::atan2(components[0], components[2]);
+      },
+      formula_);
 }
 
 std::optional<double> RootProfile::radius_at(double angle, double farthest) const {
@@ -90,57 +116,124 @@ namespace {
 /// The bits of the arithmetic of a box, and of what the sums of the formula may lose.
 constexpr long bits_of_box = 72, spare_bits = 16;
 
-std::array<DyadicInterval, 3> enclose_in_bits(const RootVector<Dyadic>& d, long bits) {
-  const BigInterval root = sqrt(BigInterval(d.s, bits));
-  const auto component = [&](std::size_t k) {
-    return (BigInterval(d.a[k], bits) + BigInterval(d.b[k], bits) * root).ends();
-  };
-  return {component(0), component(1), component(2)};
+template <class Vector>
+std::array<DyadicInterval, 3> enclose_in_bits(const Vector& d, long bits) {
+  const auto [x, y, z] =
+      d.in([bits](const Dyadic& x) { return BigInterval(x, bits); }).components();
+  return {x.ends(), y.ends(), z.ends()};
 }
 
 Dyadic size_of(const DyadicInterval& x) {
   return std::max(abs(x.low), abs(x.high));
 }
 
-/// Of the greatest component.
-RootVector<Dyadic> scaled_to_about_one(RootVector<Dyadic> d) {
-  const auto [x, y, z] = enclose_in_bits(d, bits_of_box);
-  const long top = std::max({size_of(x), size_of(y), size_of(z)}).top();
+RootVector<Dyadic> scaled(RootVector<Dyadic> d, long power) {
   for (std::size_t k = 0; k < 3; ++k) {
-    d.a[k] = d.a[k].scaled(-top);
-    d.b[k] = d.b[k].scaled(-top);
+    d.a[k] = d.a[k].scaled(power);
+    d.b[k] = d.b[k].scaled(power);
   }
   return d;
 }
 
-/// The sign of p + q·√s, s > 0.
-Sign sign_with_root(const Dyadic& p, const Dyadic& q, const Dyadic& s) {
-  if (p.sign() == q.sign() || q.is_zero()) return p.sign();
-  if (p.is_zero()) return q.sign();
-  const int greater = compare(p * p, q * q * s);
+NestedRootVector<Dyadic> scaled(NestedRootVector<Dyadic> d, long power) {
+  d.a = scaled(std::move(d.a), power);
+  d.b = scaled(std::move(d.b), power);
+  return d;
+}
+
+/// Of the greatest component.
+template <class Vector>
+Vector scaled_to_about_one(Vector d) {
+  const auto [x, y, z] = enclose_in_bits(d, bits_of_box);
+  return scaled(std::move(d), -std::max({size_of(x), size_of(y), size_of(z)}).top());
+}
+
+/// p + q·√s
+struct RootNumber {
+  Dyadic p, q;
+};
+
+RootNumber operator+(const RootNumber& x, const RootNumber& y) {
+  return {x.p + y.p, x.q + y.q};
+}
+RootNumber operator-(const RootNumber& x, const RootNumber& y) {
+  return {x.p - y.p, x.q - y.q};
+}
+RootNumber product(const RootNumber& x, const RootNumber& y, const Dyadic& s) {
+  return {x.p * y.p + x.q * y.q * s, x.p * y.q + x.q * y.p};
+}
+
+/// The sign of a number, s > 0.
+Sign sign_of_number(const RootNumber& x, const Dyadic& s) {
+  if (x.p.sign() == x.q.sign() || x.q.is_zero()) return x.p.sign();
+  if (x.p.is_zero()) return x.q.sign();
+  const int greater = compare(x.p * x.p, x.q * x.q * s);
   if (greater == 0) return Sign::zero;
-  return greater > 0 ? p.sign() : q.sign();
+  return greater > 0 ? x.p.sign() : x.q.sign();
+}
+
+/// The sign of x + y·√t, t > 0.
+Sign sign_of_number(const RootNumber& x, const RootNumber& y, const RootNumber& t,
+                    const Dyadic& s) {
+  const Sign of_x = sign_of_number(x, s), of_y = sign_of_number(y, s);
+  if (of_x == of_y || of_y == Sign::zero) return of_x;
+  if (of_x == Sign::zero) return of_y;
+  const RootNumber squares = product(x, x, s) - product(product(y, y, s), t, s);
+  const Sign greater = sign_of_number(squares, s);
+  if (greater == Sign::zero) return Sign::zero;
+  return greater == Sign::positive ? of_x : of_y;
+}
+
+RootNumber value_at(const ExactVector3& form, const RootVector<Dyadic>& d) {
+  return {dot(form, d.a), dot(form, d.b)};
+}
+
+ExactVector3 sum(const ExactVector3& a, const ExactVector3& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+
+// F(a + b·√s) = F(a) + F(b)·s + (F(a + b) − F(a) − F(b))·√s.
+RootNumber value_at(const QuadraticForm& form, const RootVector<Dyadic>& d) {
+  const Dyadic of_a = form.at(d.a), of_b = form.at(d.b);
+  return {of_a + of_b * d.s, form.at(sum(d.a, d.b)) - of_a - of_b};
+}
+
+template <class Form>
+Sign sign_at(const Form& form, const RootVector<Dyadic>& d) {
+  return sign_of_number(value_at(form, d), d.s);
+}
+
+Sign sign_at(const ExactVector3& form, const NestedRootVector<Dyadic>& d) {
+  return sign_of_number(value_at(form, d.a), value_at(form, d.b), {d.t_plain, d.t_root}, d.s);
+}
+
+Sign sign_at(const QuadraticForm& form, const NestedRootVector<Dyadic>& d) {
+  const RootNumber t{d.t_plain, d.t_root};
+  const RootNumber of_a = value_at(form, d.a), of_b = value_at(form, d.b);
+  const RootNumber of_sum = value_at(form, {sum(d.a.a, d.b.a), sum(d.a.b, d.b.b), d.s});
+  return sign_of_number(of_a + product(of_b, t, d.s), of_sum - of_a - of_b, t, d.s);
 }
 
 }  // namespace
 
-RootDirection::RootDirection(RootVector<Dyadic> d) : d_(scaled_to_about_one(std::move(d))) {
+template <class Vector>
+RootDirection<Vector>::RootDirection(Vector d) : d_(scaled_to_about_one(std::move(d))) {
   const auto [x, y, z] = enclosure(bits_of_box);
   box_ = {enclose(x), enclose(y), enclose(z)};
 }
 
-Sign RootDirection::sign_of(const ExactVector3& form) const {
-  return sign_with_root(dot(form, d_.a), dot(form, d_.b), d_.s);
+template <class Vector>
+Sign RootDirection<Vector>::sign_of(const ExactVector3& form) const {
+  return sign_at(form, d_);
 }
 
-// F(a + b·√s) = F(a) + F(b)·s + (F(a + b) − F(a) − F(b))·√s.
-Sign RootDirection::sign_of(const QuadraticForm& form) const {
-  const Dyadic of_a = form.at(d_.a), of_b = form.at(d_.b);
-  const Dyadic of_sum = form.at({d_.a[0] + d_.b[0], d_.a[1] + d_.b[1], d_.a[2] + d_.b[2]});
-  return sign_with_root(of_a + of_b * d_.s, of_sum - of_a - of_b, d_.s);
+template <class Vector>
+Sign RootDirection<Vector>::sign_of(const QuadraticForm& form) const {
+  return sign_at(form, d_);
 }
 
-std::array<DyadicInterval, 3> RootDirection::enclosure(long bits) const {
+template <class Vector>
+std::array<DyadicInterval, 3> RootDirection<Vector>::enclosure(long bits) const {
   for (long precision = bits + spare_bits;; precision *= 2) {
     auto d = enclose_in_bits(d_, precision);
     const Dyadic aside = std::max(size_of(d[0]), size_of(d[1])).scaled(-bits);
@@ -152,9 +245,13 @@ std::array<DyadicInterval, 3> RootDirection::enclosure(long bits) const {
   }
 }
 
-std::optional<DirectionWords> RootDirection::words() const {
+template <class Vector>
+std::optional<DirectionWords> RootDirection<Vector>::words() const {
   constexpr long bits = 90;
   return words_within(enclosure(bits));
 }
+
+template class RootDirection<RootVector<Dyadic>>;
+template class RootDirection<NestedRootVector<Dyadic>>;
 
 }  // namespace fathom::lens

@@ -91,7 +91,7 @@ DirectionModel::DirectionModel(const lens::Preimages& the_preimages, const Proje
       limit_{the_preimages.cosine_of_end()} {
   if (the_preimages.stage() != nullptr) angles_.emplace(the_preimages, projection, grid);
   if (const auto exact = lens::root_formula(*projection.lens))
-    roots_ = exact->in([](const Dyadic& x) { return to_certified(enclose(x)); });
+    roots_ = lens::converted(*exact, [](const Dyadic& x) { return to_certified(enclose(x)); });
 }
 
 template <class DirectionAt>
@@ -164,26 +164,40 @@ std::optional<ApproximateDirection> DirectionModel::divided(std::uint32_t column
   return *keeps ? std::optional(direction) : std::nullopt;
 }
 
+namespace {
+
+using Bounded = std::array<Certified<double>, 3>;
+
+/// The components; nothing where the sample has no ray. Bounds are infinite where that is open.
+std::optional<Bounded> bounded_direction(const lens::AnyRootFormula<Certified<double>>& formula,
+                                         const lens::HomogeneousPoint<Certified<double>>& y) {
+  return std::visit(
+      [&y](const auto& f) -> std::optional<Bounded> {
+        const auto d = f.at(y);
+        if (certain_sign(d.s) == Sign::negative) return std::nullopt;
+        return d.components();
+      },
+      formula);
+}
+
+}  // namespace
+
 // There is a ray where s > 0. Each operation carries the bound of its operands.
 std::optional<ApproximateDirection> DirectionModel::by_root(std::uint32_t column,
                                                             std::uint32_t row) const {
   const auto [x, y] = plane_.at(column + 0.5, row + 0.5);
   const double e = plane_.error();
-  const auto [a, b, s] = roots_->at({{x, e}, {y, e}, {1, 0}});
-  const Sign is_seen = certain_sign(s);
-  if (is_seen == Sign::negative) return std::nullopt;
-  if (is_seen == Sign::zero) return exactly_at(column, row);
-  const Certified<double> root = sqrt(s);
+  const std::optional<Bounded> bounded = bounded_direction(*roots_, {{x, e}, {y, e}, {1, 0}});
+  if (!bounded) return std::nullopt;
   ApproximateDirection direction{{}, 0};
+  double size = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Certified<double> component = a[k] + b[k] * root;
-    if (!(component.error < std::numeric_limits<double>::infinity()))
-      return exactly_at(column, row);
-    direction.d[k] = component.value;
-    direction.error = std::max(direction.error, component.error);
+    const auto& [value, error] = (*bounded)[k];
+    if (!(error < std::numeric_limits<double>::infinity())) return exactly_at(column, row);
+    direction.d[k] = value;
+    direction.error = std::max(direction.error, error);
+    size = std::max(size, std::abs(value));
   }
-  const double size =
-      std::max({std::abs(direction.d[0]), std::abs(direction.d[1]), std::abs(direction.d[2])});
   if (!(direction.error < size)) return exactly_at(column, row);
   const std::optional<bool> keeps = limit_.keeps(direction);
   if (!keeps) return exactly_at(column, row);

@@ -70,7 +70,7 @@ class DirectionModel {
   const DirectionTable* table_;
   /// Of a model of division: k of d = (x_d, y_d, 1 + k·r²).
   double k_;
-  std::optional<lens::RootFormula<Certified<double>>> roots_;
+  std::optional<lens::AnyRootFormula<Certified<double>>> roots_;
   /// Of a model of division or with a root: the map to (x_d, y_d).
   CertifiedPlane plane_;
   AngleLimit limit_;
