@@ -91,16 +91,15 @@ RootProfile::RootProfile(const AnyRootFormula<Dyadic>& formula)
 double RootProfile::angle_at(double radius) const {
   return std::visit(
       [radius](const auto& formula) {
-        auto d = formula.at({radius, 0.0, 1.0});
-        d.s = std::max(d.s, 0.0);
-        const std::array<double, 3> components = d.components();
+        const std::array<double, 3> components = formula.at({radius, 0.0, 1.0}).components();
         return std::atan2(components[0], components[2]);
       },
       formula_);
 }
 
 std::optional<double> RootProfile::radius_at(double angle, double farthest) const {
-  double inner = 0, outer = std::min(end_, farthest);
+  constexpr double below_end = 1 - 0x1p-40;  // where s is positive when rounded
+  double inner = 0, outer = std::min(end_ * below_end, farthest);
   if (!std::isfinite(outer) || !(angle_at(outer) > angle)) return std::nullopt;
   constexpr int steps = 100;
   for (int i = 0; i < steps; ++i) {
@@ -119,7 +118,7 @@ constexpr long bits_of_box = 72, spare_bits = 16;
 template <class Vector>
 std::array<DyadicInterval, 3> enclose_in_bits(const Vector& d, long bits) {
   const auto [x, y, z] =
-      d.in([bits](const Dyadic& x) { return BigInterval(x, bits); }).components();
+      d.in([bits](const Dyadic& number) { return BigInterval(number, bits); }).components();
   return {x.ends(), y.ends(), z.ends()};
 }
 

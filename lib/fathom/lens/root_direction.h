@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <variant>
 
@@ -30,6 +31,7 @@ struct RootVector {
   }
   /// The components; s > 0.
   [[nodiscard]] std::array<T, 3> components() const {
+    using std::sqrt;
     const T root = sqrt(s);
     return {a[0] + b[0] * root, a[1] + b[1] * root, a[2] + b[2] * root};
   }
@@ -51,6 +53,7 @@ struct NestedRootVector {
   /// The components; s > 0 and t > 0.
   [[nodiscard]] std::array<T, 3> components() const {
     const auto of_a = a.components(), of_b = b.components();
+    using std::sqrt;
     const T root = sqrt(t_plain + t_root * sqrt(s));
     return {of_a[0] + of_b[0] * root, of_a[1] + of_b[1] * root, of_a[2] + of_b[2] * root};
   }
