@@ -115,16 +115,23 @@ std::string describe_table(const Lens& lens) {
   return lines + "\n";
 }
 
+/// What the model calls fx and fy.
+std::string names_of_scales(const Projection& projection) {
+  if (!projection.lens || !is_panorama(projection.lens->model)) return "fx, fy";
+  const auto names = entry_of(projection.lens->model).intrinsics;
+  return fmt::format("{}, {}", names[0], names[1]);
+}
+
 /// fx, fy, cx, cy and skew, and the lens.
 std::string describe_projection(const Camera& camera) {
   const Projection& projection = camera.projection;
   if (directions_of(projection)) return describe_table(*projection.lens);
   std::string lines = fmt::format(
-      "    fx, fy        {}, {}\n    cx, cy        {}, {}   (the centre of the top left pixel is "
+      "    {:<14}{}, {}\n    cx, cy        {}, {}   (the centre of the top left pixel is "
       "{})\n"
       "    skew          {}\n",
-      projection.fx, projection.fy, projection.cx, projection.cy, projection.pixel_centre,
-      projection.skew);
+      names_of_scales(projection), projection.fx, projection.fy, projection.cx, projection.cy,
+      projection.pixel_centre, projection.skew);
   if (projection.lens) lines += describe_lens(camera);
   return lines;
 }

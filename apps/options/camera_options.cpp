@@ -168,7 +168,7 @@ std::vector<Option> add_lens_options(Command& command, LensChoice& lens) {
 void DistortionOptions::add_to(Command& command) {
   command.option("--model", "NAME", model_,
                  "Lens model, e.g. SIMPLE_RADIAL, OPENCV or OPENCV_14 (default: a pinhole). Focal "
-                 "length and framing are as without distortion");
+                 "length and framing are as without distortion; a panorama shows the full turn");
   command.option(
       "--distortion", "K1,K2,...",
       [this](const std::string& text) {

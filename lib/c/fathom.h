@@ -108,8 +108,9 @@ typedef struct {
  *   count        how many; OPENCV_14 has 4, 5, 8, 12 or 14
  *   max_radius   where the lens ends; INFINITY: where its model does
  *
- * Models with one focal length need cameras with fx = fy and skew = 0. FATHOM_USAGE for an unknown
- * model, another count and a number that is not finite.
+ * Models with one focal length need cameras with fx = fy and skew = 0. For panoramas fx is w, the
+ * pixels of a full turn; for EQUIRECTANGULAR fy is h, the pixels from pole to pole. FATHOM_USAGE
+ * for an unknown model, another count and a number that is not finite.
  */
 FATHOM_API fathom_status fathom_lens_new(const char* model, const double* distortion, size_t count,
                                          double max_radius, fathom_lens** lens);

@@ -371,6 +371,36 @@ TEST(CameraJson, LensesAreWrittenAsTheyAreRead) {
   }
 }
 
+TEST(CameraJson, ReadsPanoramas) {
+  Projection full{.fx = 8, .fy = 4, .cx = 4, .cy = 2};
+  full.lens = Lens{LensModel::equirectangular};
+  const std::string model = R"("model": "EQUIRECTANGULAR", )";
+  for (const char* numbers : {R"("params": [8, 4])", R"("params": [8, 4, 4, 2])",
+                              R"("w": 8, "h": 4)", R"("w": 8, "h": 4, "cx": 4, "cy": 2)"})
+    EXPECT_EQ(with_lens(model + numbers).projection, full) << numbers;
+  const Camera strip =
+      with_lens(R"("model": "CYLINDRICAL", "w": 8, "fy": -2, "cx": 1, "cy": 3, "max_radius": 2)");
+  Projection expected{.fx = 8, .fy = -2, .cx = 1, .cy = 3};
+  expected.lens = Lens{LensModel::cylindrical, {}, 2};
+  EXPECT_EQ(strip.projection, expected);
+  EXPECT_TRUE(counts_distance(strip.projection));
+}
+
+TEST(CameraJson, NamesWhatIsWrongWithAPanorama) {
+  const auto fault = [](const std::string& members) {
+    return message_of<InputError>([&] { with_lens(members); });
+  };
+  const std::string model = R"("model": "EQUIRECTANGULAR", )";
+  EXPECT_THAT(fault(model + R"("params": [0, 4])"), HasSubstr("w is not greater than 0"));
+  EXPECT_THAT(fault(model + R"("params": [8, -4])"), HasSubstr("h is not greater than 0"));
+  EXPECT_THAT(fault(model + R"("params": [8, 4, 1])"), HasSubstr("found 3 numbers"));
+  EXPECT_THAT(fault(model + R"("w": 8, "h": 4, "cx": 1)"), HasSubstr("\"cy\""));
+  EXPECT_THAT(fault(model + R"("w": 8, "h": 4, "skew": 0)"), HasSubstr("unknown key \"skew\""));
+  EXPECT_THAT(fault(model + R"("K": [[5, 0, 3], [0, 6, 2], [0, 0, 1]])"),
+              HasSubstr("unknown key \"K\""));
+  EXPECT_THAT(fault(R"("model": "CYLINDRICAL", "params": [8, 0, 1, 1])"), HasSubstr("fy is 0"));
+}
+
 TEST(CameraJson, NamesWhatIsWrongWithALens) {
   const std::string K = R"("fx": 5, "fy": 6, "cx": 3, "cy": 2)", f = R"("f": 5, "cx": 3, "cy": 2)";
   const auto fault = [](const std::string& members) {

@@ -102,6 +102,27 @@ TEST(LookAt, LensesAreAsDescribed) {
   EXPECT_EQ(pixel(camera, {3, 2, 1}), (std::array<double, 2>{300, 0}));
 }
 
+// w and h are the image's; a cylinder's fy is the focal length of its height.
+TEST(LookAt, PanoramasShowTheFullTurn) {
+  LensChoice lens;
+  lens.width = 300, lens.height = 200;
+  lens.distortion = Lens{LensModel::equirectangular};
+  Projection expected{.fx = 300, .fy = 200, .cx = 150, .cy = 100};
+  expected.lens = lens.distortion;
+  EXPECT_EQ(look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, lens).projection, expected);
+  lens.distortion = expected.lens = Lens{LensModel::cylindrical};
+  lens.vertical_fov = 90;
+  expected.fy = 100;
+  EXPECT_EQ(look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, lens).projection, expected);
+  lens.focal = expected.fy = 80;
+  EXPECT_EQ(look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, lens).projection, expected);
+  lens.distortion = Lens{LensModel::equirectangular};
+  EXPECT_EQ(message_of<UsageError>([&] {
+              look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, lens);
+            }),
+            "EQUIRECTANGULAR has no focal length");
+}
+
 TEST(LookAt, RefusesWhatCannotBe) {
   const auto refused = [](const Vector3& eye, const Vector3& target, const Vector3& up,
                           const LensChoice& lens = {}) {

@@ -154,11 +154,10 @@ TEST(ImportColmap, DistortionIsToldUnlessItIsZero) {
   EXPECT_EQ(bent.camera.projection.cx, 2);
   EXPECT_EQ(colmap_text("1 EUCM 4 2 3 3 2 1 2 1", image).at(0).distortion,
             "cameras.txt: line 1: camera 1: alpha is not between 0 and 1");
-  for (const char* no_pinhole : {"RAD_TAN_THIN_PRISM_FISHEYE 4 2 3 3 2 1 0 0 0 0 0 0 0 0 0 0 0 0",
-                                 "EQUIRECTANGULAR 4 2 4 2"})
-    EXPECT_THAT(colmap_text(std::string("1 ") + no_pinhole, image).at(0).absence,
-                AllOf(HasSubstr("cameras.txt: line 1"), HasSubstr("undistort")))
-        << no_pinhole;
+  EXPECT_THAT(colmap_text("1 RAD_TAN_THIN_PRISM_FISHEYE 4 2 3 3 2 1 0 0 0 0 0 0 0 0 0 0 0 0", image)
+                  .at(0)
+                  .absence,
+              AllOf(HasSubstr("cameras.txt: line 1"), HasSubstr("undistort")));
 }
 
 TEST(ImportColmap, FisheyesKeepTheirLens) {
@@ -188,8 +187,25 @@ TEST(ImportColmap, AFisheyeHasNoPinholePart) {
             "a.png: the lens OPENCV_FISHEYE has no pinhole part to take");
 }
 
-TEST(ImportColmap, APanoramaIsLeftOutOfAModelOfOthers) {
-  std::istringstream cameras("1 EQUIRECTANGULAR 4 2 4 2\n2 OPENCV 4 2 3 3 2 1 1 0 0 0\n"),
+TEST(ImportColmap, PanoramasHaveTheirMiddleInTheMiddle) {
+  const ImportedCamera one =
+      colmap_text("1 EQUIRECTANGULAR 8 4 8 4", "1 1 0 0 0 0 0 0 1 a.png\n\n").at(0);
+  EXPECT_EQ(one.absence + one.fault + one.distortion, "");
+  Projection expected{.fx = 8, .fy = 4, .cx = 4, .cy = 2};
+  expected.lens = Lens{LensModel::equirectangular};
+  EXPECT_EQ(one.camera.projection, expected);
+  Warnings warnings;
+  EXPECT_EQ(message_of<InputError>(
+                [&] { chosen_cameras({one}, "model", {.ignore_distortion = true}, warnings); }),
+            "a.png: the lens EQUIRECTANGULAR has no pinhole part to take");
+  EXPECT_THAT(colmap_text("1 EQUIRECTANGULAR 8 4 0 4", "1 1 0 0 0 0 0 0 1 a.png\n\n").at(0).fault,
+              HasSubstr("w is not greater than 0"));
+}
+
+TEST(ImportColmap, AModelThatFathomDoesNotHaveIsLeftOut) {
+  std::istringstream cameras(
+      "1 RAD_TAN_THIN_PRISM_FISHEYE 4 2 3 3 2 1 0 0 0 0 0 0 0 0 0 0 0 0\n2 OPENCV 4 2 3 3 2 1 1 0 "
+      "0 0\n"),
       images("1 1 0 0 0 0 0 0 1 a.png\n\n2 1 0 0 0 0 0 0 2 b.png\n\n");
   const std::vector<ImportedCamera> imported =
       parse_colmap_text({cameras, "cameras.txt"}, {images, "images.txt"});
@@ -202,10 +218,10 @@ TEST(ImportColmap, APanoramaIsLeftOutOfAModelOfOthers) {
     EXPECT_EQ(chosen[0].projection.lens.has_value(), !ignore);
     EXPECT_THAT(warnings,
                 ElementsAre(HasSubstr("1 of 2 cameras is left out: cameras.txt: line 1: camera 1: "
-                                      "the model EQUIRECTANGULAR is not supported")));
+                                      "the model RAD_TAN_THIN_PRISM_FISHEYE is not supported")));
     EXPECT_THAT(message_of<InputError>(
                     [&] { chosen_cameras(imported, "model", {.image = "a.png"}, warnings); }),
-                HasSubstr("EQUIRECTANGULAR"));
+                HasSubstr("RAD_TAN_THIN_PRISM_FISHEYE"));
   }
 }
 

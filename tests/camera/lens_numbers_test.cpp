@@ -45,7 +45,7 @@ TEST(LensNumbers, EveryModelTakesItsOwnCount) {
 
 // As the specification has them; files, importers and C take keys and lists from the same table.
 TEST(LensModels, HaveTheirParametersInOrder) {
-  const std::array<std::string, 24> rows{
+  const std::array<std::string, 26> rows{
       "SIMPLE_PINHOLE f cx cy",
       "PINHOLE fx fy cx cy",
       "SIMPLE_RADIAL f cx cy k",
@@ -69,6 +69,8 @@ TEST(LensModels, HaveTheirParametersInOrder) {
       "EUCM fx fy cx cy alpha beta",
       "DOUBLE_SPHERE fx fy cx cy xi alpha",
       "OMNI fx fy cx cy xi",
+      "EQUIRECTANGULAR w h cx cy",
+      "CYLINDRICAL w fy cx cy",
       "TABLE"};
   std::vector<std::string> found;
   for (const LensModelEntry& entry : lens_models()) {

@@ -86,7 +86,9 @@ constexpr std::array models{LensModel::simple_radial,
                             LensModel::ucm,
                             LensModel::eucm,
                             LensModel::double_sphere,
-                            LensModel::omni};
+                            LensModel::omni,
+                            LensModel::equirectangular,
+                            LensModel::cylindrical};
 
 std::string name_of_case(const ::testing::TestParamInfo<std::tuple<LensModel, Kind>>& info) {
   const auto [model, kind] = info.param;

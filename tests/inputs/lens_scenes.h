@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "tests/inputs/random_scenes.h"
@@ -25,7 +26,8 @@ class LensCaseMaker {
     do c.view = cases_.make();
     while (is_orthographic(c.view.camera.projection));
     set_lens(model, c);
-    if (below(2) == 0) put_corners_on_a_ray(c);
+    if (below(2) != 0) return c;
+    is_panorama(model) ? put_corners_on_a_turned_ray(c) : put_corners_on_a_ray(c);
     return c;
   }
 
@@ -124,13 +126,25 @@ class LensCaseMaker {
       projection.fy = projection.fx;
       projection.skew = 0;
     }
+    if (is_panorama(model)) set_panorama(model, c);
     projection.lens = lens;
+  }
+
+  /// Widths and heights of which samples lie at 30°, 45°, 36° and others.
+  void set_panorama(LensModel model, LensCase& c) {
+    constexpr std::array turns{6.0, 8.0, 10.0, 12.0, 14.0, 24.0};
+    const bool is_sphere = model == LensModel::equirectangular;
+    Projection& p = c.view.camera.projection;
+    p.fx = turns[static_cast<std::size_t>(below(6))];
+    if (is_sphere) p.fy = turns[static_cast<std::size_t>(below(6))] / 2;
+    p.skew = 0;
+    using Panorama = oracle::LensNumbers::Panorama;
+    c.numbers.panorama = is_sphere ? Panorama::sphere : Panorama::cylinder;
   }
 
   /// Moves the image so that a sample sees a point m of few bits, and corners onto its ray.
   void put_corners_on_a_ray(LensCase& c) {
-    Camera& camera = c.view.camera;
-    Projection& p = camera.projection;
+    Projection& p = c.view.camera.projection;
     for (const double below : c.numbers.below)
       if (below != 0) return;
     const double x = std::ldexp(this->below(9) - 4, -3), y = std::ldexp(this->below(9) - 4, -3);
@@ -142,7 +156,6 @@ class LensCaseMaker {
         x * factor + 2 * n.p1 * x * y + n.p2 * (q + 2 * x * x) + n.s1 * q + n.s2 * q * q;
     const double gy =
         y * factor + n.p1 * (q + 2 * y * y) + 2 * n.p2 * x * y + n.s3 * q + n.s4 * q * q;
-    // The direction of the ray.
     const std::array d{x, y, n.division ? 1 + *n.division * q : 1.0};
     // Corners of few bits lie on no ray of a fisheye but the axis, and on few of a model with a
     // root. Edges in the plane of the ray and the axis meet it.
@@ -151,7 +164,34 @@ class LensCaseMaker {
     p.pixel_centre = 0.5;
     p.cx = this->below(6) + 0.5 - p.fx * gx;
     p.cy = this->below(5) + 0.5 - p.fy * gy;
-    camera.world_to_camera = Camera().world_to_camera;
+    move_corners(c, d, is_meridian ? std::optional<std::size_t>(2) : std::nullopt);
+  }
+
+  /// Moves the image so that a sample looks along a multiple of 45°. Where its ray has no direction
+  /// of few bits, edges in its meridian plane meet it.
+  void put_corners_on_a_turned_ray(LensCase& c) {
+    Projection& p = c.view.camera.projection;
+    const bool is_sphere = c.numbers.panorama == oracle::LensNumbers::Panorama::sphere;
+    const int eighths = below(8), down = below(3) - 1;
+    constexpr std::array<double, 8> sines{0, 1, 1, 1, 0, -1, -1, -1};
+    const double across = sines[static_cast<std::size_t>(eighths)];
+    const double ahead = sines[static_cast<std::size_t>((eighths + 2) % 8)];
+    p.pixel_centre = 0.5;
+    p.cx = below(6) + 0.5 - p.fx * eighths / 8;
+    p.cy = below(5) + 0.5 - p.fy * down / 4;
+    const bool is_meridian = eighths % 2 != 0 && down != 0;
+    move_corners(c, {across, is_sphere ? down : down / 4.0, ahead},
+                 is_meridian ? std::optional<std::size_t>(1) : std::nullopt);
+  }
+
+  /// Moves corners onto the ray d, or (`free`) into the plane of the ray and this axis.
+  void move_corners(LensCase& c, const std::array<double, 3>& d, std::optional<std::size_t> free) {
+    c.view.camera.world_to_camera = Camera().world_to_camera;
+    const auto in_plane = [&](double t, double along) {
+      std::array<double, 3> p{d[0] * t, d[1] * t, d[2] * t};
+      p[*free] = along;
+      return MeshPoint{p[0], p[1], p[2]};
+    };
     for (Mesh& mesh : c.view.scene.meshes) {
       std::vector<MeshPoint> corners(mesh.vertices.begin(), mesh.vertices.end());
       for (std::size_t i = 0; i + 1 < corners.size(); i += 2) {
@@ -159,10 +199,10 @@ class LensCaseMaker {
         const double across = std::ldexp(this->below(9) - 4, -1),
                      up = std::ldexp(this->below(9) - 4, -1);
         // Either the corner is on the ray, or the ray meets the middle between two corners.
-        const double aside = is_meridian ? 0 : this->below(2);
+        const double aside = free ? 0 : this->below(2);
         corners[i] = {d[0] * t + aside * across, d[1] * t + aside * up, d[2] * t};
-        if (is_meridian) corners[i] = {d[0] * t, d[1] * t, across};
-        if (is_meridian && this->below(2) == 0) corners[i + 1] = {d[0] * up, d[1] * up, -across};
+        if (free) corners[i] = in_plane(t, across);
+        if (free && this->below(2) == 0) corners[i + 1] = in_plane(up, -across);
         if (aside != 0) corners[i + 1] = {d[0] * t - across, d[1] * t - up, d[2] * t};
       }
       mesh.vertices = std::move(corners);

@@ -8,7 +8,7 @@
 #include "fathom/lens/exact_direction.h"
 #include "fathom/lens/preimages.h"
 #include "tests/effort.h"
-#include "tests/lens/expect_signs.h"
+#include "tests/lens/expect_direction.h"
 #include "tests/lens/lens_oracle.h"
 
 namespace fathom::lens {
@@ -16,6 +16,7 @@ namespace {
 
 using oracle::ArbBall;
 using oracle::Direction;
+using oracle::expect_encloses;
 using oracle::expect_signs_of_oracle;
 using oracle::NamedParameters;
 using Point = oracle::OraclePoint<ArbBall>;
@@ -26,22 +27,6 @@ Direction lifted(const Point& m) {
   ArbBall sine, cosine;
   arb_sin_cos(sine, cosine, angle, ArbBall::bits);
   return {m.x * sine / angle, m.y * sine / angle, cosine};
-}
-
-void expect_encloses(const ExactDirection& direction, const Direction& exact) {
-  for (const long bits : {30L, 100L, 300L}) {
-    const auto d = direction.enclosure(bits);
-    for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_TRUE(ArbBall::hull(d[k].low, d[k].high).meets(exact[k])) << bits;
-      const ArbBall width = ArbBall(d[k].high) - ArbBall(d[k].low);
-      EXPECT_LT(width.approximate(), 4 * std::ldexp(1.0, static_cast<int>(-bits)));
-    }
-  }
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Interval& box = direction.box()[k];
-    EXPECT_TRUE(ArbBall::hull(box.lower, box.upper).meets(exact[k]));
-    EXPECT_LT(box.upper - box.lower, 0x1p-40);
-  }
 }
 
 class Fisheyes : public ::testing::TestWithParam<LensModel> {};

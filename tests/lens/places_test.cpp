@@ -97,6 +97,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(NamedLens{"opencv", {LensModel::opencv, {-0.02, 0.001, 0.001, -0.002}}},
                       NamedLens{"division", {LensModel::division, {-0.25}}},
                       NamedLens{"fisheye", {LensModel::fisheye}},
+                      NamedLens{"equirectangular", {LensModel::equirectangular}},
+                      NamedLens{"cylindrical", {LensModel::cylindrical, {}, 2}},
                       NamedLens{"fisheye_that_ends", {LensModel::simple_fisheye, {}, 1.25}},
                       NamedLens{"opencv_fisheye",
                                 {LensModel::opencv_fisheye, {0.05, -0.01, 0.002, 0.001}}},

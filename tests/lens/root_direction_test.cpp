@@ -10,7 +10,7 @@
 
 #include "fathom/lens/preimages.h"
 #include "tests/effort.h"
-#include "tests/lens/expect_signs.h"
+#include "tests/lens/expect_direction.h"
 #include "tests/lens/lens_oracle.h"
 
 namespace fathom::lens {

@@ -57,6 +57,42 @@ TEST(WithoutRay, IsTheAreaBeyondTheFold) {
                Reason::fold);
 }
 
+/// A panorama of `turns` of this image's width.
+Projection panorama(const Lens& lens, double turns, double fy) {
+  Projection projection = with(lens, 1);
+  projection.fx = width / turns;
+  projection.fy = fy;
+  projection.skew = 0;
+  return projection;
+}
+
+TEST(WithoutRay, IsTheAreaOfAPanoramaBeyondItsPolesAndMaxRadius) {
+  const auto share = [](const Projection& projection, Reason reason) {
+    const auto found = find_samples_without_ray(projection, width, height);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_EQ(found->reason, reason);
+    EXPECT_NEAR(found->share, counted(projection), 20.0 / (width * height));
+  };
+  Lens lens{LensModel::equirectangular};
+  share(panorama(lens, 1, 24), Reason::end_of_model);
+  EXPECT_EQ(why_no_ray(panorama(lens, 1, 24), 0, 0),
+            "it is beyond a pole, 90 degrees above or below");
+  EXPECT_FALSE(find_samples_without_ray(panorama(lens, 1, 40), width, height).has_value());
+  for (const auto& [turns, radius] : {std::pair(0.3, 0.5),
+                                      {1.0, 0.5},
+                                      {1.0, 1.5},
+                                      {1.0, 2.5},
+                                      {2.2, 0.5},
+                                      {2.2, 1.5},
+                                      {2.2, 2.5}}) {
+    lens = {LensModel::equirectangular, {}, radius};
+    share(panorama(lens, turns, 40), Reason::max_radius);
+    lens.model = LensModel::cylindrical;
+    share(panorama(lens, turns, -20), Reason::max_radius);
+  }
+  EXPECT_EQ(why_no_ray(panorama(lens, 1, 20), 0, 0), "it is beyond max_radius");
+}
+
 TEST(WithoutRay, IsTheAreaBeyondMaxRadius) {
   Lens lens{LensModel::simple_radial, {-0.1}};
   lens.max_radius = 0.7;

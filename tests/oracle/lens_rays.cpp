@@ -152,6 +152,47 @@ std::optional<Vector> bent_by_root(const LensNumbers& lens, const Q& x, const Q&
   return Vector{eta * x, eta * y, eta - xi};
 }
 
+/// atan(1/n) by its series.
+F arc_of_inverse(int n) {
+  F power = number(1) / number(n), sum = number(0);
+  for (int k = 0; k < 4000; ++k) {
+    const F term = power / number(2.0 * k + 1);
+    sum = k % 2 == 0 ? F(sum + term) : F(sum - term);
+    power = power / number(static_cast<double>(n) * n);
+  }
+  return sum;
+}
+
+struct SineAndCosine {
+  Q sine, cosine;
+};
+
+/// Of an angle in turns. π is Machin's 16·atan(1/5) − 4·atan(1/239); 400 terms of the series leave
+/// less than 2^−4000.
+SineAndCosine of_turns(const Q& turns) {
+  static const F pi = 16 * arc_of_inverse(5) - 4 * arc_of_inverse(239);
+  mpz_class whole;
+  const Q shifted = turns + Q(1, 2);
+  mpz_fdiv_q(whole.get_mpz_t(), shifted.get_num_mpz_t(), shifted.get_den_mpz_t());
+  const F angle = 2 * pi * F(Q(turns - whole), bits), q = angle * angle;
+  F sine_term = angle, cosine_term = number(1), sine = number(0), cosine = number(0);
+  for (int k = 0; k < 400; ++k) {
+    sine = sine + sine_term;
+    cosine = cosine + cosine_term;
+    sine_term = -sine_term * q / number((2.0 * k + 2) * (2.0 * k + 3));
+    cosine_term = -cosine_term * q / number((2.0 * k + 1) * (2.0 * k + 2));
+  }
+  return {settled(sine), settled(cosine)};
+}
+
+std::optional<Vector> turned(LensNumbers::Panorama panorama, const Q& x, const Q& y) {
+  const SineAndCosine around = of_turns(x);
+  if (panorama == LensNumbers::Panorama::cylinder) return Vector{around.sine, y, around.cosine};
+  if (abs(y) > Q(1, 2)) return std::nullopt;
+  const SineAndCosine down = of_turns(y / 2);
+  return Vector{down.cosine * around.sine, down.sine, down.cosine * around.cosine};
+}
+
 std::optional<Vector> bent_by_polynomial(const LensNumbers& lens, const Q& x, const Q& y,
                                          double greatest_q) {
   const auto start = search(lens, x.get_d(), y.get_d(), greatest_q);
@@ -172,6 +213,7 @@ std::function<std::optional<Vector>(const Q& u, const Q& v)> lens_rays(const Ray
     const Q y = (v + shift - camera.cy) / camera.fy;
     const Q x = (u + shift - camera.cx - camera.skew * y) / camera.fx;
     if (lens.root != LensNumbers::Root::none) return bent_by_root(lens, x, y);
+    if (lens.panorama != LensNumbers::Panorama::none) return turned(lens.panorama, x, y);
     if (!lens.division) {
       const auto ray = bent_by_polynomial(lens, x, y, greatest_q);
       return ray && lens.is_angle ? on_sphere((*ray)[0], (*ray)[1]) : ray;

@@ -21,9 +21,13 @@ struct LensNumbers {
   /// A formula with a square root instead, and its numbers.
   Root root = Root::none;
   double alpha = 0, beta = 1, xi = 0;
+  /// A panorama instead: fx is the width of a turn, fy the height of half a turn (sphere) or of 1.
+  enum class Panorama { none, sphere, cylinder } panorama = Panorama::none;
 
   /// Whether rays go to all sides, so that near and far bound the distance.
-  [[nodiscard]] bool counts_distance() const { return division || is_angle || root != Root::none; }
+  [[nodiscard]] bool counts_distance() const {
+    return division || is_angle || root != Root::none || panorama != Panorama::none;
+  }
 };
 
 /// RayCamera::bent of a lens in front of the camera's fx … skew. A sample sees the point m of the

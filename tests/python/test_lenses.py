@@ -172,6 +172,39 @@ def test_an_equidistant_fisheye_sees_walls_before_and_behind_it():
     np.testing.assert_allclose(maps["distance"][front | behind], 1 / abs(np.cos(angle[front | behind])), rtol=1e-6)
 
 
+def test_panoramas_see_as_their_definition_says():
+    width, height = 36, 20
+    v, u = np.mgrid[0:height, 0:width] + 0.5
+    around, down = 2 * np.pi * (u - 17.25) / 30, np.pi * (v - 9.5) / 18
+    level = np.where(abs(v - 9.5) <= 9, np.cos(down), np.nan)
+    sphere = np.stack([level * np.sin(around), np.sin(down), level * np.cos(around)], axis=-1)
+    cylinder = np.stack([np.sin(around), (v - 9.5) / 18, np.cos(around)], axis=-1)
+    for model, expected in (("EQUIRECTANGULAR", sphere), ("CYLINDRICAL", cylinder)):
+        camera = fathom.Camera(width, height, pixel_centre=0.5, model=model, params=[30, 18, 17.25, 9.5])
+        seen = camera.directions()
+        has_ray = np.isfinite(expected).all(axis=-1)
+        assert has_ray.mean() > 0.8
+        np.testing.assert_array_equal(np.any(seen != 0, axis=-1), has_ray)
+        greatest = abs(expected[has_ray]).max(axis=-1, keepdims=True)
+        np.testing.assert_allclose(seen[has_ray], expected[has_ray] / greatest, rtol=0, atol=1e-14)
+        assert fathom.Camera.from_json(camera.to_json()) == camera
+        assert camera.scaled(0.5).fx == 15 and camera.scaled(0.5).model == model
+
+
+def test_a_panorama_sees_the_box_around_it():
+    camera = fathom.Camera(64, 32, pixel_centre=0.5, model="EQUIRECTANGULAR", params=[64, 32])
+    assert (camera.fx, camera.fy, camera.cx, camera.cy) == (64, 32, 32, 16)
+    scene = fathom.Scene()
+    corners = np.array([(x, y, z) for x in (-2, 2) for y in (-2, 2) for z in (-2, 2)], float)
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    scene.add_mesh(corners, [(q[0], q[i], q[i + 1]) for q in quads for i in (1, 2)])
+    maps = scene.render(camera, channels=("Z", "distance", "valid"))
+    assert maps["valid"].all() and np.isfinite(maps["distance"]).all()
+    rays = camera.directions()  # with a greatest component of 1: the ray meets the box at 2 of it
+    np.testing.assert_allclose(maps["distance"], 2 * np.linalg.norm(rays, axis=-1), rtol=1e-6)
+    np.testing.assert_allclose(maps["Z"], 2 * rays[..., 2], rtol=1e-6, atol=1e-6)
+
+
 def test_lenses_are_kept():
     camera = fathom.Camera(*size, 52, 55, 32.5, 23.25, pixel_centre=0, world_to_camera=pose, model="OPENCV", skew=0.5,
                            distortion=opencv_distortions[0], max_radius=0.9, name="a.png", near=1, far=9)
@@ -279,6 +312,9 @@ table = {"width": 16, "height": 12, "model": "TABLE"}
     ({**straight, **focal, "model": "OPENCV", "k1": "a"}, "k1: is a string, expected a number"),
     ({**straight, **focal, "model": "OPENCV", "fx": 0}, "fx is 0"),
     ({**straight, "model": "SIMPLE_RADIAL", "params": [0, 8, 6, 0.1]}, "is 0"),
+    ({**straight, "model": "EQUIRECTANGULAR", "params": [16, 0]}, "h is not greater than 0"),
+    ({**straight, "model": "EQUIRECTANGULAR", "params": [16, 12, 8]}, "found 3 numbers, EQUIRECTANGULAR has 4"),
+    ({**straight, **focal, "model": "CYLINDRICAL"}, 'unknown key "fx"'),
     ({**straight, **focal, "model": "OPENCV_14", "tauX": 1.6}, "tauX is not between -pi/2 and pi/2"),
     ({**straight, **focal, "model": "OPENCV", "max_radius": 0}, "max_radius is not greater than 0"),
     ({**straight, **focal, "model": "OPENCV", "max_radius": -1}, "max_radius is not greater than 0"),

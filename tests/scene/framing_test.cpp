@@ -118,6 +118,18 @@ TEST(Frame, AnOrbitSeesAllFromEverywhere) {
   }
 }
 
+TEST(Frame, PanoramasStandWhereThePinholeStands) {
+  LensChoice lens;
+  const WorldBounds bounds{{-1, -1, -1}, {1, 2, 3}};
+  const Camera pinhole = frame(bounds, {}, lens);
+  lens.distortion = Lens{LensModel::equirectangular};
+  const Camera panorama = frame(bounds, {}, lens);
+  EXPECT_EQ(panorama.world_to_camera, pinhole.world_to_camera);
+  EXPECT_EQ(panorama.projection.fx, lens.width);
+  EXPECT_EQ(panorama.projection.fy, lens.height);
+  EXPECT_EQ(panorama.projection.lens, lens.distortion);
+}
+
 TEST(Frame, KeepsAGivenExtent) {
   LensChoice lens;
   lens.model = ProjectionModel::orthographic;

@@ -54,6 +54,7 @@ int main() {
   print("beyond_room", fast::place_arithmetic::beyond_room);
   print("lift_rounding", fast::place_arithmetic::lift_rounding);
   print("end_of_series", fast::place_arithmetic::end_of_series);
+  print("turn_rounding", fast::place_arithmetic::turn_rounding);
   print("square_rounding", fast::place_arithmetic::square_rounding);
   print("bend_rounding", fast::place_arithmetic::bend_rounding);
   print("place_rounding", fast::place_arithmetic::place_rounding);

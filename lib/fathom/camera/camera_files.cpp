@@ -56,6 +56,12 @@ void set_intrinsics(const LensModelEntry& model, std::vector<double>::const_iter
   projection.cy = *number;
 }
 
+/// The middle of w × h pixels, where a panorama of both has no cx and cy.
+void add_default_centre(const LensModelEntry& model, std::vector<double>& numbers) {
+  if (model.model == LensModel::equirectangular && numbers.size() == 2)
+    numbers.insert(numbers.end(), {numbers[0] / 2, numbers[1] / 2});
+}
+
 std::vector<double> numbers_of(const JsonValue& list) {
   std::vector<double> numbers;
   for (const JsonValue& element : list.elements()) numbers.push_back(element.number());
@@ -70,7 +76,8 @@ void require_count(const JsonValue& list, const LensModelEntry& model, std::size
 
 void read_parameters(const JsonValue& value, const LensModelEntry& model, Projection& projection) {
   const JsonValue list = value.at("params");
-  const std::vector<double> numbers = numbers_of(list);
+  std::vector<double> numbers = numbers_of(list);
+  add_default_centre(model, numbers);
   const std::size_t before = model.intrinsics.size();
   require_count(list, model, numbers.size(), before);
   set_intrinsics(model, numbers.begin(), projection);
@@ -91,14 +98,18 @@ void read_intrinsics(const JsonValue& value, Projection& projection) {
 
 void read_intrinsics_of_lens(const JsonValue& value, const LensModelEntry& model,
                              Projection& projection) {
-  if (!has_one_focal_length(model)) return read_intrinsics(value, projection);
+  if (has_two_focal_lengths(model)) return read_intrinsics(value, projection);
   for (const std::string_view name : model.intrinsics) expect_either(value, "K", name);
   if (const auto K = value.find("K")) {
     return read_intrinsic_matrix(*K, projection);
   }
+  const bool is_centred =
+      model.model == LensModel::equirectangular && !value.find("cx") && !value.find("cy");
   std::vector<double> numbers;
-  for (const std::string_view name : model.intrinsics)
+  for (const std::string_view name :
+       model.intrinsics.first(is_centred ? 2 : model.intrinsics.size()))
     numbers.push_back(value.at(std::string(name)).number());
+  add_default_centre(model, numbers);
   set_intrinsics(model, numbers.begin(), projection);
 }
 
@@ -109,9 +120,11 @@ std::vector<std::string_view> keys_of_lens(const JsonValue& value) {
   const LensModelEntry& model = model_of(value);
   if (model.model == LensModel::table)
     return {"model", "directions", "directions_sha256", "max_radius", "origins", "row_poses"};
-  std::vector<std::string_view> keys{"model", "params", "K", "distortion", "max_radius"};
+  std::vector<std::string_view> keys{"model", "params"};
+  if (!is_panorama(model.model)) keys.insert(keys.end(), {"K", "distortion"});
+  keys.emplace_back("max_radius");
   keys.insert(keys.end(), model.intrinsics.begin(), model.intrinsics.end());
-  if (!has_one_focal_length(model)) keys.emplace_back("skew");
+  if (has_two_focal_lengths(model)) keys.emplace_back("skew");
   keys.insert(keys.end(), model.distortion.begin(), model.distortion.end());
   return keys;
 }
@@ -160,7 +173,7 @@ void read_lens(const JsonValue& value, Projection& projection) {
     for (const std::string_view name : model.intrinsics) expect_either(value, "params", name);
     expect_either(value, "params", "K");
     read_parameters(value, model, projection);
-    if (!has_one_focal_length(model)) read_number(value, "skew", projection.skew);
+    if (has_two_focal_lengths(model)) read_number(value, "skew", projection.skew);
     return;
   }
   read_intrinsics_of_lens(value, model, projection);
@@ -334,13 +347,10 @@ void write_lens(const Projection& projection, const Member& member, const Number
   const Lens& lens = *projection.lens;
   const LensModelEntry& model = entry_of(lens.model);
   member("model", json_string(model.name));
-  const bool one_focal_length = has_one_focal_length(model);
-  if (one_focal_length) member("f", number(projection.fx));
-  for (const auto& [key, value] : intrinsics) {
-    const std::string_view name(key);
-    if (one_focal_length && name != "cx" && name != "cy") continue;
-    member(key, number(projection.*value));
-  }
+  const std::size_t skipped = has_one_focal_length(model) ? 1 : 0;  // fy
+  for (std::size_t i = 0; i < model.intrinsics.size(); ++i)
+    member(model.intrinsics[i], number(projection.*intrinsics[i == 0 ? 0 : i + skipped].number));
+  if (has_two_focal_lengths(model)) member("skew", number(projection.skew));
   for (std::size_t i = 0; i < model.distortion.size(); ++i) {
     member(model.distortion[i], number(lens.distortion[i]));
   }

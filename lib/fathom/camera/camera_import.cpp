@@ -19,8 +19,7 @@ constexpr const char* what_to_do =
 /// Why there is no camera to take. A fisheye has no pinhole part.
 std::string absence_of(const ImportedCamera& one, const CameraChoice& choice) {
   const auto& lens = one.camera.projection.lens;
-  if (!choice.ignore_distortion || !lens || entry_of(lens->model).formula != RayFormula::angle)
-    return one.absence;
+  if (!choice.ignore_distortion || !lens || has_pinhole_part(lens->model)) return one.absence;
   return fmt::format("{}: the lens {} has no pinhole part to take", one.camera.name,
                      name_of(lens->model));
 }

@@ -50,6 +50,14 @@ double product_rounded_once(const Vector3& a, const Vector3& b) {
   return count == 1 ? last : round_to_binary64(Ratio(sum));
 }
 
+/// A panorama of the full turn; a cylinder keeps the focal length that its height has.
+void show_full_turn(Camera& camera, const LensChoice& lens) {
+  camera.projection.fx = camera.width;
+  if (lens.distortion->model != LensModel::equirectangular) return;
+  expect(!lens.focal, "EQUIRECTANGULAR has no focal length");
+  camera.projection.fy = camera.height;
+}
+
 }  // namespace
 
 void expect_finite(const Vector3& v, const std::string& name) {
@@ -79,6 +87,7 @@ Camera with_lens(const LensChoice& lens) {
   }
   camera.projection.fy = camera.projection.fx;
   camera.projection.lens = lens.distortion;
+  if (lens.distortion && is_panorama(lens.distortion->model)) show_full_turn(camera, lens);
   return camera;
 }
 

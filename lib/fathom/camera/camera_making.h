@@ -26,7 +26,8 @@ struct LensChoice {
   /// Orthographic: scene units that the image's height spans; look_at() and orbit() need it.
   std::optional<double> vertical_extent;
   /// Perspective: how the lens bends rays. The angle and the framing of scenes ignore the lens:
-  /// they are computed for the pinhole.
+  /// they are computed for the pinhole. A panorama shows the full turn; EQUIRECTANGULAR, 180° from
+  /// top to bottom.
   std::optional<Lens> distortion;
   /// The range of planar depth that counts, in scene units.
   double near = 0;

@@ -32,6 +32,9 @@ constexpr std::span<const Name> first(std::size_t count) {
   return std::span(of_opencv).first(count);
 }
 
+constexpr std::array<Name, 4> of_equirectangular{"w", "h", "cx", "cy"};
+constexpr std::array<Name, 4> of_cylinder{"w", "fy", "cx", "cy"};
+
 constexpr std::array<Name, 8> of_thin_prism{"k1", "k2", "p1", "p2", "k3", "k4", "sx1", "sy1"};
 // UCM has the first.
 constexpr std::array<Name, 2> of_eucm{"alpha", "beta"};
@@ -39,9 +42,9 @@ constexpr std::array<Name, 2> of_double_sphere{"xi", "alpha"};
 constexpr std::array<Name, 1> of_omni{"xi"};
 
 constexpr auto plane = RayFormula::plane, angle = RayFormula::angle, with_root = RayFormula::root,
-               direct = RayFormula::direct;
+               turn = RayFormula::turn, direct = RayFormula::direct;
 
-constexpr std::array<LensModelEntry, 24> table{{
+constexpr std::array<LensModelEntry, 26> table{{
     {LensModel::simple_pinhole, "SIMPLE_PINHOLE", plane, one_focal_length, {}, {}},
     {LensModel::pinhole, "PINHOLE", plane, two_focal_lengths, {}, {}},
     {LensModel::simple_radial, "SIMPLE_RADIAL", plane, one_focal_length, of_one_term, {}},
@@ -80,6 +83,8 @@ constexpr std::array<LensModelEntry, 24> table{{
     {LensModel::eucm, "EUCM", with_root, two_focal_lengths, of_eucm, {}},
     {LensModel::double_sphere, "DOUBLE_SPHERE", with_root, two_focal_lengths, of_double_sphere, {}},
     {LensModel::omni, "OMNI", with_root, two_focal_lengths, of_omni, {}},
+    {LensModel::equirectangular, "EQUIRECTANGULAR", turn, of_equirectangular, {}, {}},
+    {LensModel::cylindrical, "CYLINDRICAL", turn, of_cylinder, {}, {}},
     {LensModel::table, "TABLE", direct, {}, {}, {}},
 }};
 
@@ -111,6 +116,19 @@ bool has_stage(LensModel model) {
 
 bool has_one_focal_length(const LensModelEntry& model) {
   return !model.intrinsics.empty() && model.intrinsics.front() == "f";
+}
+
+bool has_two_focal_lengths(const LensModelEntry& model) {
+  return !model.intrinsics.empty() && model.intrinsics.front() == "fx";
+}
+
+bool is_panorama(LensModel model) {
+  return entry_of(model).formula == RayFormula::turn;
+}
+
+bool has_pinhole_part(LensModel model) {
+  const RayFormula formula = entry_of(model).formula;
+  return formula != RayFormula::angle && formula != RayFormula::turn;
 }
 
 std::string_view name_of(LensModel model) {

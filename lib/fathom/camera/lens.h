@@ -40,6 +40,8 @@ enum class LensModel : std::uint8_t {
   eucm,
   double_sphere,
   omni,
+  equirectangular,
+  cylindrical,
   table,
 };
 
@@ -53,6 +55,8 @@ enum class RayFormula : std::uint8_t {
   root,
   /// A rational formula or a table gives the ray.
   direct,
+  /// A panorama: the horizontal position of the sample is an angle, in parts of a turn.
+  turn,
 };
 
 /// A row of the table.
@@ -60,7 +64,7 @@ struct LensModelEntry {
   LensModel model;
   std::string_view name;
   RayFormula formula;
-  /// f cx cy or fx fy cx cy; empty for TABLE.
+  /// f cx cy, fx fy cx cy, or of a panorama w h cx cy or w fy cx cy; empty for TABLE.
   std::span<const std::string_view> intrinsics;
   /// The parameters after these, in order.
   std::span<const std::string_view> distortion;
@@ -80,6 +84,13 @@ bool is_plane(LensModel model);
 bool has_stage(LensModel model);
 /// Whether the model has f in the place of fx and fy, and no skew.
 bool has_one_focal_length(const LensModelEntry& model);
+/// Whether the model has fx and fy, and skew.
+bool has_two_focal_lengths(const LensModelEntry& model);
+/// Whether the model is a panorama. Projection::fx is then w, the pixels of a full turn; fy is h,
+/// the pixels of half a turn, where the model has it.
+bool is_panorama(LensModel model);
+/// Whether a camera with the model is a pinhole if the numbers of distortion are all 0.
+bool has_pinhole_part(LensModel model);
 
 /// How a camera's lens bends rays (specification, section 2): everything except fx, fy, cx, cy and
 /// skew. Every number is the real number that it denotes. Valid if find_fault() finds nothing.

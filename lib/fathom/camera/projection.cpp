@@ -25,6 +25,17 @@ bool has_no_intrinsics(const Projection& p) {
                   untouched.pixel_centre);
 }
 
+std::optional<std::string> fault_of_panorama(const Projection& p) {
+  const LensModelEntry& model = entry_of(p.lens->model);
+  const std::pair<std::string_view, double> numbers[] = {{model.intrinsics[0], p.fx},
+                                                         {model.intrinsics[1], p.fy}};
+  for (const auto& [name, value] : numbers)
+    if ((name == "w" || name == "h") && !(value > 0))
+      return std::string(name) + " is not greater than 0";
+  if (p.skew != 0) return std::string(model.name) + " has no skew";
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::string> find_fault(const Projection& projection) {
@@ -34,6 +45,8 @@ std::optional<std::string> find_fault(const Projection& projection) {
       {"cy", projection.cy}, {"skew", projection.skew}, {"pixel_centre", projection.pixel_centre}};
   for (const auto& [name, value] : numbers)
     if (!std::isfinite(value)) return std::string(name) + " is not a finite number";
+  if (projection.lens && is_panorama(projection.lens->model))
+    if (auto fault = fault_of_panorama(projection)) return fault;
   if (projection.fx == 0) return "fx is 0, expected any other number";
   if (projection.fy == 0) return "fy is 0, expected any other number";
   if (!projection.lens) return std::nullopt;

@@ -21,7 +21,7 @@ std::string_view name_of(ProjectionModel model);
 ///
 /// Frame    camera: x right, y down, z forward; image: u right, v down.
 /// Unit     cx and cy in pixels; fx, fy and skew in pixels (perspective) or pixels per scene unit
-///          (orthographic).
+///          (orthographic). Of a panorama, fx is w, and fy is h or fy (lens.h).
 struct Projection {
   ProjectionModel model = ProjectionModel::perspective;
   double fx = 1, fy = 1, cx = 0, cy = 0, skew = 0;
@@ -55,7 +55,7 @@ struct Projection {
 
 /// The fault of a projection, in one line, or nothing if all numbers are finite, fx and fy ≠ 0, and
 /// a lens is valid and belongs to a perspective camera. With the model TABLE, fx … skew and
-/// pixel_centre must have their default values.
+/// pixel_centre must have their default values; a panorama has w > 0, h > 0 and no skew.
 std::optional<std::string> find_fault(const Projection& projection);
 
 /// The homogeneous image point of a camera point in pixels, exactly; accounts for `pixel_centre`.

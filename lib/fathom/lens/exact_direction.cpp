@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fathom/lens/elimination.h"
+#include "fathom/lens/form_values.h"
 #include "fathom/numeric/big_interval.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
@@ -127,29 +128,6 @@ class RootNarrowing {
   const DistortedPoint& y_;
   DyadicInterval q_;
 };
-
-template <class T>
-T form_at(const std::array<T, 3>& form, const std::array<T, 3>& d) {
-  return form[0] * d[0] + form[1] * d[1] + form[2] * d[2];
-}
-
-template <class T>
-T form_at(const std::array<T, 6>& form, const std::array<T, 3>& d) {
-  const auto& [xx, yy, zz, xy, xz, yz] = form;
-  return d[0] * (xx * d[0] + xy * d[1] + xz * d[2]) + d[1] * (yy * d[1] + yz * d[2]) +
-         zz * d[2] * d[2];
-}
-
-template <std::size_t size, class Convert, std::size_t... i>
-auto converted(const std::array<Dyadic, size>& form, const Convert& convert,
-               std::index_sequence<i...> /*indices*/) {
-  return std::array<decltype(convert(form[0])), size>{convert(form[i])...};
-}
-
-template <std::size_t size, class Convert>
-auto converted(const std::array<Dyadic, size>& form, const Convert& convert) {
-  return converted(form, convert, std::make_index_sequence<size>());
-}
 
 /// F and the polynomial h that has the sign of a form at its root, primitive.
 struct Polynomials {
@@ -382,6 +360,7 @@ ExactDirection::ExactDirection(AngleDirection direction) : direction_(std::move(
 ExactDirection::ExactDirection(OneRootDirection direction) : direction_(std::move(direction)) {}
 
 ExactDirection::ExactDirection(NestedRootDirection direction) : direction_(std::move(direction)) {}
+ExactDirection::ExactDirection(TurnDirection direction) : direction_(std::move(direction)) {}
 
 const std::array<Interval, 3>& ExactDirection::box() const {
   return std::visit(

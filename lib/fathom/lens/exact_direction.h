@@ -8,6 +8,7 @@
 #include "fathom/lens/polynomial_stage.h"
 #include "fathom/lens/root_direction.h"
 #include "fathom/lens/sample_plane.h"
+#include "fathom/lens/turn_direction.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/dyadic.h"
 #include "fathom/numeric/exact_polynomial.h"
@@ -122,10 +123,11 @@ class ExactDirection {
   explicit ExactDirection(AngleDirection direction);
   explicit ExactDirection(OneRootDirection direction);
   explicit ExactDirection(NestedRootDirection direction);
+  explicit ExactDirection(TurnDirection direction);
 
   /// Binary64 intervals that contain d: the filter that should be asked first. d has z = 1 for
-  /// models of the plane and |d| = 1 for fisheyes by the angle; the greatest component of a
-  /// RootDirection is about 1. An end may be infinite.
+  /// models of the plane, |d| = 1 for fisheyes by the angle and equirectangular panoramas; the
+  /// greatest component of a RootDirection is about 1. An end may be infinite.
   [[nodiscard]] const std::array<Interval, 3>& box() const;
 
   /// The sign of form·d. Does not try the box.
@@ -146,7 +148,7 @@ class ExactDirection {
 
  private:
   std::variant<RationalDirection, PolynomialDirection, AngleDirection, OneRootDirection,
-               NestedRootDirection>
+               NestedRootDirection, TurnDirection>
       direction_;
 };
 

@@ -40,6 +40,13 @@ bool is_within_angle(const Direction& d, double radius) {
   }
 }
 
+/// The direction, if it lies within `radius` of the axis.
+template <class Direction>
+std::optional<ExactDirection> kept_within(double radius, Direction direction) {
+  if (!is_within_angle(direction, radius)) return std::nullopt;
+  return ExactDirection(std::move(direction));
+}
+
 /// Whether |m|² ≤ limit.
 bool is_within(const std::optional<Dyadic>& limit, const DistortedPoint& m) {
   return !limit || m.a * m.a + m.b * m.b <= *limit * (m.c * m.c);
@@ -84,6 +91,7 @@ std::optional<ExactDirection> Preimages::of(const Dyadic& u, const Dyadic& v) co
     throw UsageError("the lens TABLE: has directions of the centres of its pixels only");
   }
   if (roots_) return by_root(plane_.at(u, v));
+  if (is_panorama(lens_.model)) return by_turns(plane_.at(u, v));
   if (!has_stage(lens_.model)) {
     std::optional<RationalDirection> d = divide(plane_.at(u, v), division_term(lens_));
     if (!d || !is_within_angle(*d, lens_.max_radius)) return std::nullopt;
@@ -96,19 +104,27 @@ std::optional<ExactDirection> Preimages::of(const Dyadic& u, const Dyadic& v) co
 
 // The axis is rational, and so is every direction of a formula that bends nothing.
 std::optional<ExactDirection> Preimages::by_root(const DistortedPoint& y) const {
-  const auto kept = [this](auto direction) {
-    const bool is_kept = is_within_angle(direction, lens_.max_radius);
-    return is_kept ? std::optional(ExactDirection(std::move(direction))) : std::nullopt;
-  };
   const bool is_on_axis = y.a.is_zero() && y.b.is_zero();
-  if (is_on_axis || is_straight(*roots_)) return kept(RationalDirection({y.a, y.b, y.c}, y.c));
+  if (is_on_axis || is_straight(*roots_))
+    return kept_within(lens_.max_radius, RationalDirection({y.a, y.b, y.c}, y.c));
   return std::visit(
       [&](const auto& formula) -> std::optional<ExactDirection> {
         auto d = formula.at(y);
         if (d.s.sign() != Sign::positive) return std::nullopt;
-        return kept(RootDirection(std::move(d)));
+        return kept_within(lens_.max_radius, RootDirection(std::move(d)));
       },
       *roots_);
+}
+
+// At a pole, ½ of half a turn, the cosine is 0: d = (0, ±1, 0).
+std::optional<ExactDirection> Preimages::by_turns(const DistortedPoint& sample) const {
+  if (lens_.model == LensModel::cylindrical)
+    return kept_within(lens_.max_radius, TurnDirection::cylindrical(sample));
+  const int beyond_pole = compare(abs(sample.b).scaled(1), sample.c);
+  if (beyond_pole > 0) return std::nullopt;
+  if (beyond_pole < 0) return kept_within(lens_.max_radius, TurnDirection::equirectangular(sample));
+  const double down = sample.b.sign() == Sign::positive ? 1 : -1;
+  return kept_within(lens_.max_radius, RationalDirection({0.0, down, 0.0}));
 }
 
 std::optional<ExactDirection> Preimages::before_stage(const Dyadic& u, const Dyadic& v) const {

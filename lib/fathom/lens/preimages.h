@@ -69,6 +69,7 @@ class Preimages {
                                                                 const Dyadic& v) const;
   [[nodiscard]] ExactDirection lifted(PlaneDirection m) const;
   [[nodiscard]] std::optional<ExactDirection> by_root(const DistortedPoint& y) const;
+  [[nodiscard]] std::optional<ExactDirection> by_turns(const DistortedPoint& sample) const;
 
   SamplePlane plane_;
   Lens lens_;

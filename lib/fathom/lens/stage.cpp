@@ -54,6 +54,8 @@ StageNumbers<double> stage_of(const Lens& lens) {
     case LensModel::simple_division:
     case LensModel::division:
     case LensModel::fisheye_stereographic:
+    case LensModel::equirectangular:
+    case LensModel::cylindrical:
     case LensModel::table:
       break;
   }

@@ -204,6 +204,55 @@ std::optional<WithoutRay> of_table(const DirectionTable& table) {
   return WithoutRay{Reason::table, static_cast<double>(missing) / all};
 }
 
+/// Of a panorama: the columns of one row that have a ray within max_radius, as a number of pixels.
+class PanoramaRow {
+ public:
+  /// `height` of the row: sin φ of an equirectangular panorama, tan φ of a cylinder.
+  PanoramaRow(const Projection& projection, std::uint32_t width)
+      : turn_(projection.fx), width_(width), centre_(principal_point(projection).x) {}
+
+  /// The columns whose angle to the middle is at most `half` ≤ π.
+  [[nodiscard]] double columns_within(double half) const {
+    const auto up_to = [&](double u) {
+      const double turns = (u - centre_) / turn_ + 0.5, whole = std::floor(turns);
+      const double share = half / std::numbers::pi, rest = turns - whole;
+      return turn_ * (whole * share + std::clamp(rest - (1 - share) / 2, 0.0, share));
+    };
+    return up_to(width_) - up_to(0);
+  }
+
+ private:
+  double turn_, width_, centre_;
+};
+
+/// The cosine of half the angle of a row that max_radius leaves: cos(max_radius) is cos φ·cos λ.
+double cosine_of_half(const Lens& lens, double y) {
+  if (lens.max_radius > std::numbers::pi) return -1;
+  const double level =
+      lens.model == LensModel::cylindrical ? 1 / std::hypot(1, y) : std::cos(std::numbers::pi * y);
+  const double cosine = std::cos(lens.max_radius) / std::max(level, 0x1p-1000);
+  return std::clamp(cosine, -1.0, 1.0);
+}
+
+/// In 4096 rows of equal height.
+std::optional<WithoutRay> of_panorama(const Projection& projection, std::uint32_t width,
+                                      std::uint32_t height) {
+  constexpr int rows = 4096;
+  const RoundedProjection to_image(projection);
+  const PanoramaRow row(projection, width);
+  const Lens& lens = *projection.lens;
+  double seen = 0;
+  for (int i = 0; i < rows; ++i) {
+    const double y = to_image.plane_point_at(0, (i + 0.5) / rows * height)[1];
+    if (lens.model == LensModel::equirectangular && std::abs(y) > 0.5) continue;
+    seen += row.columns_within(std::acos(cosine_of_half(lens, y))) / width / rows;
+  }
+  const double missing = 1 - seen;
+  if (!(missing * width * height >= 0.5)) return std::nullopt;
+  const bool ends = std::isfinite(lens.max_radius);
+  return WithoutRay{ends ? Reason::max_radius : Reason::end_of_model, missing};
+}
+
 }  // namespace
 
 std::optional<WithoutRay> find_samples_without_ray(const Projection& projection,
@@ -211,6 +260,7 @@ std::optional<WithoutRay> find_samples_without_ray(const Projection& projection,
   const StandardArithmetic standard;
   if (!projection.lens || is_pinhole(*projection.lens)) return std::nullopt;
   if (projection.lens->directions) return of_table(*projection.lens->directions);
+  if (is_panorama(projection.lens->model)) return of_panorama(projection, width, height);
   const Lens& lens = *projection.lens;
   const bool is_by_stage = has_stage(lens.model);
   const StageNumbers<double> stage = stage_of(is_by_stage ? lens : Lens());
@@ -250,6 +300,7 @@ std::string why_no_ray(const Projection& projection, std::uint32_t column, std::
   const Preimages preimages(projection, endless);
   if (preimages.of_pixel(column, row)) return "it is beyond max_radius";
   if (endless.directions) return "the table has no direction for this pixel";
+  if (is_panorama(endless.model)) return "it is beyond a pole, 90 degrees above or below";
   if (!has_stage(endless.model)) return "the model ends nearer to its axis";
   if (is_behind_sensor(preimages, column, row)) return "it is behind the tilted sensor";
   const bool is_last_angle = !is_plane(endless.model) && preimages.disc() == end_of_angles;

@@ -67,6 +67,13 @@ BigInterval::~BigInterval() {
   mpfr_clear(high_);
 }
 
+BigInterval BigInterval::pi(long bits) {
+  BigInterval value(bits);
+  mpfr_const_pi(value.low_, MPFR_RNDD);
+  mpfr_const_pi(value.high_, MPFR_RNDU);
+  return value;
+}
+
 BigInterval operator+(const BigInterval& a, const BigInterval& b) {
   BigInterval sum(greater_precision(a.low_, b.low_));
   mpfr_add(sum.low_, a.low_, b.low_, MPFR_RNDD);

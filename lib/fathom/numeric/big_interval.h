@@ -19,6 +19,7 @@ class BigInterval {
   /// Contains low and high; low ≤ high.
   BigInterval(const Dyadic& low, const Dyadic& high, long bits);
   BigInterval(const DyadicInterval& x, long bits) : BigInterval(x.low, x.high, bits) {}
+  static BigInterval pi(long bits);
   BigInterval(const BigInterval& other);
   BigInterval(BigInterval&& other) noexcept;
   BigInterval& operator=(const BigInterval& other);

@@ -148,13 +148,23 @@ Camera place(const Box& box, const Matrix3& R, const LensChoice& lens, double di
 
 }  // namespace
 
+namespace {
+
+/// Framing computes for the pinhole: a panorama has no image of the scene's corners.
+LensChoice without_panorama(LensChoice lens) {
+  if (lens.distortion && is_panorama(lens.distortion->model)) lens.distortion.reset();
+  return lens;
+}
+
+}  // namespace
+
 std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBounds& bounds,
                           const LensChoice& lens, const std::function<void(double)>& progress) {
   const StandardArithmetic standard;
   expect_count(count);
   const Box box = box_of(bounds);
   const bool extent_is_free = lens.model == ProjectionModel::orthographic && !lens.vertical_extent;
-  LensChoice chosen = lens;
+  LensChoice chosen = without_panorama(lens);
   if (extent_is_free) chosen.vertical_extent = 1;
   checked(with_lens(chosen));
   std::vector<Matrix3> rotations;
@@ -180,7 +190,10 @@ std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBou
       path.push_back(camera);
       if (progress) progress(0.25 + 0.75 * static_cast<double>(path.size()) / count);
     }
-    if (path.size() == count) return path;
+    if (path.size() != count) continue;
+    if (lens.distortion)
+      for (Camera& camera : path) camera.projection = with_lens(lens).projection;
+    return path;
   }
   throw InputError("no camera with finite numbers sees the whole scene");
 }

@@ -69,13 +69,13 @@ class Camera:
     world_to_camera  4×4 or 3×4, [R | t]; x right, y down, z forward (OpenCV's axes). R need not be
                      a rotation.
     near, far        range of planar depths that are rendered, in scene units; of ray distances for
-                     fisheyes, DIVISION, SIMPLE_DIVISION and TABLE
+                     fisheyes, panoramas, DIVISION, SIMPLE_DIVISION and TABLE
     name             name of the camera's image; it does not change the map
     model            model of the lens, as "OPENCV" (docs/lenses.md); without it the lens bends no ray
     distortion       its numbers of distortion, in the model's order
     params           all parameters of the model in its order, in place of fx, fy, cx, cy and
-                     distortion
-    max_radius       where the lens ends, on the plane z = 1; for fisheyes, DIVISION,
+                     distortion; [w, h] for EQUIRECTANGULAR, whose fx is then w and fy h
+    max_radius       where the lens ends, on the plane z = 1; for fisheyes, panoramas, DIVISION,
                      SIMPLE_DIVISION and TABLE the angle to the z axis in radians
 
     >>> camera = Camera(640, 480, 500, 500, 320, 240, pixel_centre=0.5)

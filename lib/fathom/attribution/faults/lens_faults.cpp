@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -81,6 +82,12 @@ class ForwardLens {
       return Point{x_d, y_d};
     }
     if (roots_) return by_root(x, y);
+    if (is_panorama(lens_.model)) {
+      const double down = y / std::sqrt(1 + x * x);
+      const bool is_cylinder = lens_.model == LensModel::cylindrical;
+      return Point{std::atan(x) / (2 * std::numbers::pi),
+                   is_cylinder ? down : std::atan(down) / std::numbers::pi};
+    }
     // r/(1 + k·r²) = |m|
     const double k = lens::division_term(lens_);
     const double rest = 1 - 4 * k * square;

@@ -21,7 +21,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "COLMAP's files are little endian");
 
-/// A camera model of COLMAP: `focals` focal lengths, the principal point, then distortion.
+/// A camera model of COLMAP: `focals` focal lengths, the principal point, then distortion; or the
+/// size of a panorama alone.
 struct Model {
   std::string_view name;
   std::size_t parameters;
@@ -31,9 +32,8 @@ struct Model {
   /// Absent if Fathom does not have this lens.
   std::optional<LensModel> lens = std::nullopt;
 
-  [[nodiscard]] bool is_fisheye() const {
-    return lens && entry_of(*lens).formula == RayFormula::angle;
-  }
+  /// A fisheye or a panorama.
+  [[nodiscard]] bool always_bends() const { return lens && !has_pinhole_part(*lens); }
 };
 
 /// In the order of COLMAP 4's model ids. COLMAP 3.8 had the first eleven models.
@@ -57,19 +57,20 @@ constexpr std::array<std::string_view, 18> model_names{"SIMPLE_PINHOLE",
                                                        "EQUIRECTANGULAR"};
 
 /// The models that Fathom does not have.
-constexpr std::array<Model, 3> models_of_colmap_alone{{{"FOV", 5, 2, true},
-                                                       {"RAD_TAN_THIN_PRISM_FISHEYE", 16, 2, false},
-                                                       {"EQUIRECTANGULAR", 2, 0, false}}};
+constexpr std::array<Model, 2> models_of_colmap_alone{
+    {{"FOV", 5, 2, true}, {"RAD_TAN_THIN_PRISM_FISHEYE", 16, 2, false}}};
 
 /// `name` is one of model_names.
 Model colmap_model(std::string_view name) {
   const auto* const alone = std::ranges::find(models_of_colmap_alone, name, &Model::name);
   if (alone != models_of_colmap_alone.end()) return *alone;
   const LensModelEntry& lens = lens_model_of(name);
+  if (lens.model == LensModel::equirectangular)
+    return {.name = name, .parameters = 2, .focals = 2, .pinhole = false, .lens = lens.model};
   return {.name = name,
           .parameters = lens.intrinsics.size() + lens.distortion.size(),
           .focals = lens.intrinsics.size() - 2,
-          .pinhole = lens.formula != RayFormula::angle,
+          .pinhole = has_pinhole_part(lens.model),
           .lens = lens.model};
 }
 
@@ -101,7 +102,7 @@ ImportedCamera make_camera(const CameraRecord& record, const Model& model,
   const std::string about = where + ": camera " + std::to_string(record.id) + ": ";
   ImportedCamera result;
   constexpr std::uint64_t largest = std::numeric_limits<std::uint32_t>::max();
-  if (!model.pinhole && !model.is_fisheye()) {
+  if (!model.pinhole && !model.always_bends()) {
     result.absence = about + "the model " + std::string(model.name) +
                      " is not supported; undistort the images (colmap image_undistorter)";
     return result;
@@ -110,14 +111,17 @@ ImportedCamera make_camera(const CameraRecord& record, const Model& model,
     result.fault = about + "the image is too large";
     return result;
   }
-  const auto distortion = record.parameters.begin() + static_cast<long>(model.focals) + 2;
+  std::vector<double> numbers = record.parameters;
+  if (model.lens == LensModel::equirectangular)
+    numbers.insert(numbers.end(), {numbers[0] / 2, numbers[1] / 2});
+  const auto distortion = numbers.begin() + static_cast<long>(model.focals) + 2;
   Camera& camera = result.camera;
-  if (model.is_fisheye() ||
+  if (model.always_bends() ||
       std::any_of(distortion, distortion + static_cast<long>(distortion_parameters(model)),
                   [](double k) { return k != 0; })) {
     if (model.lens) {
       Lens lens{*model.lens};
-      std::copy(distortion, record.parameters.end(), lens.distortion.begin());
+      std::copy(distortion, numbers.end(), lens.distortion.begin());
       if (const auto fault = find_fault(lens)) {
         result.distortion = about + *fault;
       } else {
@@ -129,10 +133,10 @@ ImportedCamera make_camera(const CameraRecord& record, const Model& model,
   }
   camera.width = static_cast<std::uint32_t>(record.width);
   camera.height = static_cast<std::uint32_t>(record.height);
-  camera.projection.fx = record.parameters[0];
-  camera.projection.fy = record.parameters[model.focals - 1];
-  camera.projection.cx = record.parameters[model.focals];
-  camera.projection.cy = record.parameters[model.focals + 1];
+  camera.projection.fx = numbers[0];
+  camera.projection.fy = numbers[model.focals - 1];
+  camera.projection.cx = numbers[model.focals];
+  camera.projection.cy = numbers[model.focals + 1];
   if (const auto fault = find_fault(camera)) result.fault = about + *fault;
   return result;
 }

@@ -84,6 +84,7 @@ DirectionModel::DirectionModel(const lens::Preimages& the_preimages, const Proje
     : preimages_(the_preimages),
       grid_(grid),
       table_(projection.lens->directions.get()),
+      model_(projection.lens->model),
       k_(lens::division_term(*projection.lens)),
       plane_(table_ != nullptr || the_preimages.stage() != nullptr
                  ? CertifiedPlane()
@@ -114,6 +115,7 @@ std::vector<DirectionModel::Sample> DirectionModel::of_tile(std::uint32_t tile) 
   if (angles_) return fisheye_tile(tile);
   return collected(tile, [this](std::uint32_t column, std::uint32_t row) {
     if (table_ != nullptr) return in_table(column, row);
+    if (is_panorama(model_)) return turned(column, row);
     return roots_ ? by_root(column, row) : divided(column, row);
   });
 }
@@ -180,6 +182,33 @@ std::optional<Bounded> bounded_direction(const lens::AnyRootFormula<Certified<do
       formula);
 }
 
+struct SineAndCosine {
+  double sine, cosine;
+};
+
+/// Of 2π·turns; each errs by at most turn_rounding.
+///
+/// The rest r after whole quarters, |r| ≤ ⅛, is exact. θ = 2πr errs by 2u of it, and θ² by 5u. In
+/// the series (lifted()), with q = θ² < 0.62, r_1·s_2 errs by 0.31·3.2u, and the difference by u/2:
+/// cos θ by less than 1.5u + ½·5u·0.62 < 3.1u. Likewise sin θ/θ errs by less than 0.9u + 5u·0.62/6
+/// < 1.5u, and its product with θ < 0.79 by less than 0.79·(1.5u + 2u) + u/2 < 3.3u.
+SineAndCosine of_turns(double turns) {
+  const double quarters = std::nearbyint(4 * turns);
+  const double angle = (turns - quarters / 4) * (2 * std::numbers::pi);
+  const double sine = angle * alternating_series<1>(angle * angle);
+  const double cosine = alternating_series<0>(angle * angle);
+  switch (static_cast<long>(quarters) & 3) {
+    case 0:
+      return {sine, cosine};
+    case 1:
+      return {cosine, -sine};
+    case 2:
+      return {-sine, -cosine};
+    default:
+      return {-cosine, sine};
+  }
+}
+
 }  // namespace
 
 // There is a ray where s > 0. Each operation carries the bound of its operands.
@@ -199,6 +228,28 @@ std::optional<ApproximateDirection> DirectionModel::by_root(std::uint32_t column
     size = std::max(size, std::abs(value));
   }
   if (!(direction.error < size)) return exactly_at(column, row);
+  const std::optional<bool> keeps = limit_.keeps(direction);
+  if (!keeps) return exactly_at(column, row);
+  return *keeps ? std::optional(direction) : std::nullopt;
+}
+
+// An angle that errs by e moves sines and cosines by at most e. With errors of E and F of the
+// factors, a product of numbers up to 1 errs by E + F + E·F and a rounding.
+std::optional<ApproximateDirection> DirectionModel::turned(std::uint32_t column,
+                                                           std::uint32_t row) const {
+  const double e = plane_.error();
+  if (!(e < 1)) return exactly_at(column, row);
+  const auto [x, y] = plane_.at(column + 0.5, row + 0.5);
+  const auto [sine, cosine] = of_turns(x);
+  const double of_x = (2 * std::numbers::pi * e + turn_rounding) * up;
+  ApproximateDirection direction{{sine, y, cosine}, std::max(of_x, e)};
+  if (model_ == LensModel::equirectangular) {
+    if (std::abs(y) - e > 0.5) return std::nullopt;
+    if (!((std::abs(y) + e) * up < 0.5)) return exactly_at(column, row);
+    const auto [down, level] = of_turns(y / 2);
+    const double of_y = (std::numbers::pi * e + turn_rounding) * up;
+    direction = {{level * sine, down, level * cosine}, (of_x + of_y + of_x * of_y + u) * up};
+  }
   const std::optional<bool> keeps = limit_.keeps(direction);
   if (!keeps) return exactly_at(column, row);
   return *keeps ? std::optional(direction) : std::nullopt;

@@ -37,7 +37,7 @@ class AngleLimit {
 };
 
 /// The directions of the samples of a lens whose rays may go to all sides: a table, a model of
-/// division or with a root, a fisheye.
+/// division or with a root, a fisheye, a panorama.
 class DirectionModel {
  public:
   DirectionModel(const lens::Preimages& the_preimages, const Projection& projection,
@@ -61,6 +61,8 @@ class DirectionModel {
                                                             std::uint32_t row) const;
   [[nodiscard]] std::optional<ApproximateDirection> by_root(std::uint32_t column,
                                                             std::uint32_t row) const;
+  [[nodiscard]] std::optional<ApproximateDirection> turned(std::uint32_t column,
+                                                           std::uint32_t row) const;
   [[nodiscard]] std::vector<Sample> fisheye_tile(std::uint32_t tile) const;
   template <class DirectionAt>
   [[nodiscard]] std::vector<Sample> collected(std::uint32_t tile, const DirectionAt& at) const;
@@ -68,6 +70,7 @@ class DirectionModel {
   const lens::Preimages& preimages_;
   const TileGrid& grid_;
   const DirectionTable* table_;
+  LensModel model_;
   /// Of a model of division: k of d = (x_d, y_d, 1 + k·r²).
   double k_;
   std::optional<lens::AnyRootFormula<Certified<double>>> roots_;

@@ -38,6 +38,8 @@ inline constexpr double beyond_room = 8;
 /// The direction of a fisheye's m, where |m|² is less than the second (lens_cosine, lens_sine).
 inline constexpr double lift_rounding = 68 * u;
 inline constexpr double end_of_series = 10;
+/// Sines and cosines of the angles of a panorama (lens_turn_cosine, lens_turn_sine).
+inline constexpr double turn_rounding = 4 * u;
 /// 1 + k·r²: of x² + y², and of both terms (lens_bend).
 inline constexpr double square_rounding = 4 * u;
 inline constexpr double bend_rounding = 2 * u;

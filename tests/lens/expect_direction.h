@@ -3,12 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <random>
 
 #include "fathom/lens/exact_direction.h"
 #include "tests/lens/arb_ball.h"
 
-/// Forms at exact directions against the oracle's directions.
+/// What a direction has to answer, given the oracle's components of it.
 namespace fathom::oracle {
 
 using Direction = std::array<ArbBall, 3>;
@@ -21,6 +22,22 @@ inline ArbBall value_of(const QuadraticForm& form, const Direction& d) {
   const auto& [xx, yy, zz, xy, xz, yz] = form.coefficients;
   return ArbBall(xx) * d[0] * d[0] + ArbBall(yy) * d[1] * d[1] + ArbBall(zz) * d[2] * d[2] +
          ArbBall(xy) * d[0] * d[1] + ArbBall(xz) * d[0] * d[2] + ArbBall(yz) * d[1] * d[2];
+}
+
+inline void expect_encloses(const lens::ExactDirection& direction, const Direction& exact) {
+  for (const long bits : {30L, 100L, 300L}) {
+    const auto d = direction.enclosure(bits);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_TRUE(ArbBall::hull(d[k].low, d[k].high).meets(exact[k])) << bits;
+      const ArbBall width = ArbBall(d[k].high) - ArbBall(d[k].low);
+      EXPECT_LT(width.approximate(), 4 * std::ldexp(1.0, static_cast<int>(-bits)));
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Interval& box = direction.box()[k];
+    EXPECT_TRUE(ArbBall::hull(box.lower, box.upper).meets(exact[k]));
+    EXPECT_LT(box.upper - box.lower, 0x1p-40);
+  }
 }
 
 /// Planes and cones through about the direction, off by 2^−offset of their size.

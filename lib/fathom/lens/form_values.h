@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "fathom/numeric/certified.h"
+#include "fathom/numeric/exact_polynomial.h"
+
+/// Values of linear and quadratic forms in any arithmetic. Only for .cpp files of this module.
+namespace fathom::lens {
+
+inline const std::array<Dyadic, 3>& coefficients_of(const ExactVector3& form) {
+  return form;
+}
+inline const std::array<Dyadic, 6>& coefficients_of(const QuadraticForm& form) {
+  return form.coefficients;
+}
+
+/// form·d
+template <class T>
+T form_at(const std::array<T, 3>& form, const std::array<T, 3>& d) {
+  return form[0] * d[0] + form[1] * d[1] + form[2] * d[2];
+}
+
+/// The quadratic form with the coefficients of x², y², z², xy, xz and yz, at d.
+template <class T>
+T form_at(const std::array<T, 6>& form, const std::array<T, 3>& d) {
+  const auto& [xx, yy, zz, xy, xz, yz] = form;
+  return d[0] * (xx * d[0] + xy * d[1] + xz * d[2]) + d[1] * (yy * d[1] + yz * d[2]) +
+         zz * d[2] * d[2];
+}
+
+template <class Number, std::size_t size, class Convert, std::size_t... i>
+auto converted(const std::array<Number, size>& numbers, const Convert& convert,
+               std::index_sequence<i...> /*indices*/) {
+  return std::array<decltype(convert(numbers[0])), size>{convert(numbers[i])...};
+}
+
+/// The same numbers in another arithmetic.
+template <class Number, std::size_t size, class Convert>
+auto converted(const std::array<Number, size>& numbers, const Convert& convert) {
+  return converted(numbers, convert, std::make_index_sequence<size>());
+}
+
+}  // namespace fathom::lens
