@@ -113,7 +113,7 @@ std::optional<double> RootProfile::radius_at(double angle, double farthest) cons
 namespace {
 
 /// The bits of the arithmetic of a box, and of what the sums of the formula may lose.
-constexpr long bits_of_box = 72, spare_bits = 16;
+constexpr long bits_of_root_box = 72, bits_of_sums = 16;
 
 template <class Vector>
 std::array<DyadicInterval, 3> enclose_in_bits(const Vector& d, long bits) {
@@ -143,7 +143,7 @@ NestedRootVector<Dyadic> scaled(NestedRootVector<Dyadic> d, long power) {
 /// Of the greatest component.
 template <class Vector>
 Vector scaled_to_about_one(Vector d) {
-  const auto [x, y, z] = enclose_in_bits(d, bits_of_box);
+  const auto [x, y, z] = enclose_in_bits(d, bits_of_root_box);
   return scaled(std::move(d), -std::max({size_of(x), size_of(y), size_of(z)}).top());
 }
 
@@ -217,7 +217,7 @@ Sign sign_at(const QuadraticForm& form, const NestedRootVector<Dyadic>& d) {
 
 template <class Vector>
 RootDirection<Vector>::RootDirection(Vector d) : d_(scaled_to_about_one(std::move(d))) {
-  const auto [x, y, z] = enclosure(bits_of_box);
+  const auto [x, y, z] = enclosure(bits_of_root_box);
   box_ = {enclose(x), enclose(y), enclose(z)};
 }
 
@@ -233,7 +233,7 @@ Sign RootDirection<Vector>::sign_of(const QuadraticForm& form) const {
 
 template <class Vector>
 std::array<DyadicInterval, 3> RootDirection<Vector>::enclosure(long bits) const {
-  for (long precision = bits + spare_bits;; precision *= 2) {
+  for (long precision = bits + bits_of_sums;; precision *= 2) {
     auto d = enclose_in_bits(d_, precision);
     const Dyadic aside = std::max(size_of(d[0]), size_of(d[1])).scaled(-bits);
     const auto is_within = [&d](std::size_t k, const Dyadic& width) {

@@ -56,6 +56,12 @@ StageNumbers<double> stage_of(const Lens& lens) {
     case LensModel::fisheye_stereographic:
     case LensModel::equirectangular:
     case LensModel::cylindrical:
+    case LensModel::fisheye_orthographic:
+    case LensModel::fisheye_equisolid:
+    case LensModel::ucm:
+    case LensModel::eucm:
+    case LensModel::double_sphere:
+    case LensModel::omni:
     case LensModel::table:
       break;
   }
