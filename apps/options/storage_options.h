@@ -7,8 +7,8 @@
 #include "apps/shell/command.h"
 #include "apps/shell/console.h"
 #include "fathom/image/channel_table.h"
+#include "fathom/image/files/renamed_channels.h"
 #include "fathom/image/map_files.h"
-#include "fathom/image/renamed_channels.h"
 #include "fathom/rendering/options.h"
 
 namespace fathom::app {

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "fathom/image/files/renamed_channels.h"
 #include "fathom/image/map_files.h"
-#include "fathom/image/renamed_channels.h"
 #include "fathom/image/surface.h"
 #include "tests/image/map_samples.h"
 #include "tests/image/run_program.h"

@@ -1,4 +1,4 @@
-#include "fathom/image/renamed_channels.h"
+#include "fathom/image/files/renamed_channels.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,8 +6,8 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/image/files/file_texts.h"
-#include "fathom/image/files/png_stream.h"
 #include "fathom/image/png_files.h"
+#include "fathom/image/png_stream.h"
 #include "fathom/image/rgb_image.h"
 #include "fathom/text/version.h"
 

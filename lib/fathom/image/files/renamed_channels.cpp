@@ -1,4 +1,4 @@
-#include "fathom/image/renamed_channels.h"
+#include "fathom/image/files/renamed_channels.h"
 
 #include <algorithm>
 #include <set>

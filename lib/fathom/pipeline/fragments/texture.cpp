@@ -10,7 +10,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
 #include "fathom/image/depth_map.h"
-#include "fathom/image/files/png_stream.h"
+#include "fathom/image/png_stream.h"
 #include "fathom/text/counted.h"
 #include "fathom/threads/interruption.h"
 
