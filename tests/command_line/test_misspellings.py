@@ -1,5 +1,5 @@
-"""Every option, command and named value, with a letter missing, doubled or exchanged with the next: the error, one line,
-asks whether the right one was meant, wherever it is the only one that lies so near."""
+"""Every option, command and named value, with a letter missing, doubled or exchanged with the next at random: the error,
+one line, asks whether the right one was meant, wherever it is the only one that lies so near."""
 
 import random
 import re
@@ -28,16 +28,17 @@ def distance_of(a: str, b: str) -> int:
 
 
 def mistakes(word: str, others: list[str], chance: random.Random) -> list[str]:
-    """One of each kind, of those that are nearer to the word than to any other."""
-    made = []
-    for kind in ("missing", "doubled", "exchanged"):
+    """One of any kind that is nearer to the word than to any other; none if there is no such one."""
+    kinds = ["missing", "doubled", "exchanged"]
+    chance.shuffle(kinds)
+    for kind in kinds:
         at = chance.randrange(len(word) - (kind == "exchanged"))
         wrong = {"missing": word[:at] + word[at + 1:],
                  "doubled": word[:at] + word[at] + word[at:],
                  "exchanged": word[:at] + word[at:at + 2][::-1] + word[at + 2:]}[kind]
         if wrong != word and all(distance_of(wrong, other) > 1 for other in others if other != word):
-            made.append(wrong)
-    return made
+            return [wrong]
+    return []
 
 
 def expect_questions(cases: list[tuple[list[str], str]], least: int) -> None:
