@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -10,6 +11,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/scene/bounds.h"
 #include "tests/camera/seen_points.h"
+#include "tests/effort.h"
 #include "tests/inputs/scene_of_points.h"
 #include "tests/scratch_folder.h"
 
@@ -44,7 +46,7 @@ std::vector<MeshPoint> cloud(const Vector3& centre, const Vector3& size) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> any(-1, 1);
   std::vector<MeshPoint> points;
-  for (int i = 0; i < 50; ++i)
+  for (int i = 0; i < std::max(4, 50 / testing::effort); ++i)
     points.push_back({centre[0] + size[0] * any(random), centre[1] + size[1] * any(random),
                       centre[2] + size[2] * any(random)});
   return points;
