@@ -54,8 +54,8 @@ void add_sees(Command& program) {
           "corner); or NPY file with an array of shape N×6")
       .required();
   command.option("--edges", "RULE", into(arguments->edges, parse_edges),
-                 "Edges of triangles hide what is behind them (closed, the default), or as they "
-                 "do from rays of `fathom cast` (generic)");
+                 "How an edge hides: closed (default; every edge hides the points behind it) or "
+                 "generic (each edge belongs to one triangle, as in 'fathom cast')");
   add_output_option(command, "FILE", arguments->output,
                     "Write the table to this file, .csv or .npz (default -, standard output)");
   command.runs([arguments](const Console& console) { return run_sees(*arguments, console); });

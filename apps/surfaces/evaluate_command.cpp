@@ -258,10 +258,10 @@ void add_evaluate(Command& program) {
   add_cull_option(command, arguments->comparison.cull);
   command.option("--accuracy-points", "PLY", arguments->accuracy_points,
                  "Write the measured points of the reconstruction to this PLY, with their "
-                 "distances as `quality`");
+                 "distances as 'quality'");
   command.option(
       "--completeness-points", "PLY", arguments->completeness_points,
-      "Write the measured points of the truth to this PLY, with their distances as `quality`");
+      "Write the measured points of the truth to this PLY, with their distances as 'quality'");
   command.flag("--json", arguments->json, "Print JSON");
   add_output_option(command, "FILE", arguments->output,
                     "Write the result to this file (default -, standard output)");

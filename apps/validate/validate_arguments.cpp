@@ -101,8 +101,8 @@ void ValidateArguments::add_to(Command& command) {
                  "Codes per unit, if the integer map does not state them");
   command.option(
       "--camera", "FILE", camera,
-      "Camera file (JSON), or a map, which contains its camera; of a path, --map takes the "
-      "camera with its name (a.npy that of a.jpg). --map also takes a camera with a lens");
+      "Camera file (JSON), or a map, which contains its camera. From a path, --map takes the "
+      "camera of the same name (a.jpg for a.npy). The camera of --map may have a lens");
   command.option(
       "--model", "NAME", into(model, parse_model),
       "Model of the renderer (default with --map: auto, the best fit). With --against, judge the "

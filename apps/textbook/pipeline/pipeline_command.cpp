@@ -160,8 +160,7 @@ void add_run(Command& family) {
       "    fathom pipeline run viewport | fathom pipeline run scan-conversion |\n"
       "    fathom pipeline run output-merger\n"
       "\n"
-      "A record comes out with the stage's results, so the answer of a stage is the case of the "
-      "next. "
+      "The output record contains the results of the stage and can be passed to the next stage. "
       "Keys of each stage: pipeline.md in the documentation.");
   command
       .argument("STAGE", into(arguments->stage, parse_stage),
