@@ -51,13 +51,12 @@ def help_of(program, words):
 
 def parse(words, text):
     command = Command(words)
-    lines = text.splitlines()
-    command.summary = lines.pop(0).strip()
+    summary, _, rest = text.partition("\nUsage: ")
+    command.summary = " ".join(summary.split())
+    command.usage, *lines = rest.splitlines()
     section, in_examples, paragraph = None, False, []
     for line in [*lines, ""]:
-        if line.startswith("Usage: "):
-            command.usage = line[len("Usage: "):]
-        elif line == "Examples:":
+        if line == "Examples:":
             section, in_examples = None, True
         elif in_examples and line.startswith("  "):
             command.examples.append(line[2:])

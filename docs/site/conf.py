@@ -22,7 +22,7 @@ exclude_patterns = ["files/**"]
 
 html_theme = "furo"
 html_title = f"Fathom {version}"
-pygments_style = "default"  # its colours have a contrast of 4.5 and more
+pygments_style, pygments_dark_style = "default", "github-dark"  # their colours have a contrast of 4.5 and more
 html_static_path = [str(here / "static")]
 html_css_files = ["site.css"]
 html_copy_source = False
@@ -56,7 +56,7 @@ nitpick_ignore_regex = [
     ("c:identifier", r"u?int\d+_t|size_t"),
 ]
 
-SHORT = 24  # characters of code that a line on a telephone holds easily
+SHORT = 24  # characters of code that a line on a telephone holds easily; half as many in a cell
 INLINED = re.compile(r"(?:^|/)images/(?:conventions|lenses)-[\w-]+\.svg$")
 ANCHOR = re.compile(r'^<a id="([^"]+)">$')
 
@@ -78,17 +78,18 @@ def drawings_in_the_page(app, document, name):
             image.replace_self(nodes.raw("", drawing, format="html"))
 
 
-def short_code(app, document, name):
-    """An option such as --near is not broken after its hyphens."""
-    for literal in document.findall(nodes.literal):
-        if len(literal.astext()) <= SHORT:
-            literal["classes"].append("short")
+def short_texts(app, document, name):
+    """An option such as --near is not broken after its hyphens, nor a cell such as 49.9 %."""
+    for kind, length in ((nodes.literal, SHORT), (nodes.entry, SHORT // 2)):
+        for node in document.findall(kind):
+            if len(node.astext()) <= length:
+                node["classes"].append("short")
 
 
 def setup(app):
     app.connect("doctree-read", anchors_of_raw_html)
     app.connect("doctree-resolved", drawings_in_the_page)
-    app.connect("doctree-resolved", short_code)
+    app.connect("doctree-resolved", short_texts)
     app.connect("build-finished", theme.repair)
     app.connect("autodoc-process-docstring", docstrings.to_restructured_text)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -65,8 +65,8 @@ def lines_of(block):
 def to_restructured_text(app, what, name, owner, options, lines):
     """For autodoc-process-docstring: changes the lines in place."""
     changed = []
-    if lines and ALIAS.fullmatch(lines[0]):
-        lines.clear()  # what Python says of a field that has no comment
+    if what == "data" or lines and ALIAS.fullmatch(lines[0]):
+        lines.clear()  # what Python says of int and str, and of a field that has no comment
     for block in blocks(lines):
         changed += [*lines_of(block), ""]
     lines[:] = changed

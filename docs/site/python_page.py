@@ -2,6 +2,7 @@
 
 import ast
 import pathlib
+import re
 
 package = pathlib.Path(__file__).resolve().parent.parent.parent / "lib/python/fathom"
 
@@ -10,7 +11,9 @@ GROUPS = {
     "Scenes": ["Scene", "scene.Object", "scene.Origin"],
     "Cameras": ["Camera", "Lens", "read_cameras", "write_cameras", "ViewWarning"],
     "Rays": ["Rays", "compat.RaycastingScene", "compat.RayMeshIntersector", "compat.Hits", "compat.Tensor"],
-    "Maps": ["Map", "read_map", "compare", "MapComparison", "NO_SURFACE"],
+    "Maps": ["Map", "read_map", "compare", "MapComparison", "NO_SURFACE", "NO_SEGMENT"],
+    "Sight": ["SurfacePoints"],
+    "Drawings": ["draw"],
     "Questions": ["probe", "questions.CoveringTriangle", "visible", "questions.VisibleAreas", "questions.PixelAreas",
                   "areas", "Areas", "lit_areas.ExactArea",
                   "render_deep", "DeepMap", "verify", "questions.Verification", "questions.Disagreement"],
@@ -32,10 +35,16 @@ def public_names():
                 if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", "") == "__all__")
 
 
+def constants():
+    """Name: text; in maps.py a comment."""
+    comments = re.findall(r"^#: (.+)\n([A-Z_]+) = ", (package / "maps.py").read_text(encoding="utf-8"), re.M)
+    return {"__version__": "The version of Fathom.", **{name: comment for comment, name in comments}}
+
+
 def directive(name):
     word = name.rpartition(".")[2]
-    if word in ("NO_SURFACE", "__version__"):
-        return f".. autodata:: fathom.{name}\n"
+    if word in constants():
+        return f".. autodata:: fathom.{name}\n\n   {constants()[word]}\n"
     if not word[0].isupper():
         return f".. autofunction:: fathom.{name}\n"
     if word.endswith(("Error", "Warning")):
@@ -45,7 +54,7 @@ def directive(name):
 
 def text():
     listed = {name for names in GROUPS.values() for name in names} | {"pipeline", "compat"}  # modules, by their members
-    groups = {**GROUPS, "Others": [name for name in public_names() if name not in listed]}
+    groups = {**GROUPS, "Other names": [name for name in public_names() if name not in listed]}
     parts = []
     for title, names in groups.items():
         if names:
