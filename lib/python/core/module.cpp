@@ -50,18 +50,19 @@ void translate(std::exception_ptr pointer) {
 
 /// Makes Error, UsageError, InputError and OutputError, and has ours become them.
 void bind_errors(py::module_& core) {
-  PyObject* const base = make_error(core, "Error", "What fathom cannot do, and why, in one line.",
+  PyObject* const base = make_error(core, "Error", "An error of fathom; its message is one line.",
                                     py::make_tuple(py::handle(PyExc_Exception)));
   const auto under = [&](PyObject* builtin) {
     return py::make_tuple(py::handle(base), py::handle(builtin));
   };
-  usage_error = make_error(core, "UsageError", "A request that makes no sense: a ValueError, too.",
+  usage_error = make_error(core, "UsageError", "A request that makes no sense; also a ValueError.",
                            under(PyExc_ValueError));
   input_error = make_error(core, "InputError",
-                           "A file, scene, camera or map that cannot be used: a ValueError, too.",
+                           "A file, scene, camera or map that cannot be used; also a ValueError.",
                            under(PyExc_ValueError));
   output_error = make_error(core, "OutputError",
-                            "What cannot be written, or does not fit its format: an OSError, too.",
+                            "An output that cannot be written or does not fit its format; also an "
+                            "OSError.",
                             under(PyExc_OSError));
   py::register_exception_translator(&translate);
 }
