@@ -5,9 +5,11 @@ Help has a sentence, a line "Usage: …", sections ("Options:") of items, exampl
 """
 
 import dataclasses
+import pathlib
 import re
 import subprocess
 
+docs = pathlib.Path(__file__).resolve().parent.parent
 text_column = 26
 COMMANDS = re.compile(r"Commands:|Companion programs.*:")
 
@@ -99,8 +101,7 @@ def escaped(text):
 
 def code(text):
     """An option or a name of a file; one of a page is a link."""
-    page = re.fullmatch(r"docs/([\w-]+\.md)", text)
-    return f"[`{text}`](../../{page[1]})" if page else f"`{text}`"
+    return f"[`{text}`](../../{text})" if text.endswith(".md") and (docs / text).is_file() else f"`{text}`"
 
 
 def sentence(text):
