@@ -115,7 +115,7 @@ class Areas:
     @property
     def background(self) -> Numbers | None:
         """N areas in pixels in which nothing is visible, from cameras; None of directions and points, which see a whole
-        plane. Computed when it is asked for."""
+        plane. Computed at each access."""
         q = self._question
         if not q.cameras:
             return None

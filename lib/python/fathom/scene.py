@@ -342,8 +342,8 @@ class Scene:
         eyes, points  N×3, or any shape that ends in 3; numbers are taken exactly. Or SurfacePoints: coordinates of a
                       surface that were rounded lie beside it, perhaps behind it
         pairs         eyes and points are pairs, and one eye fits many points; False: all eyes and all points
-        edges         "closed": the edges of triangles hide what is behind them. "generic": an edge hides what it hides
-                      from a ray of cast()
+        edges         "closed": every edge of a triangle hides the points behind it. "generic": each edge belongs to one
+                      triangle, as in cast()
 
         Returns an array of the shape of the pairs, or of eyes and points one after the other.
 
