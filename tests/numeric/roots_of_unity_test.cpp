@@ -64,7 +64,7 @@ TEST(RootsOfUnity, RandomSumsAreZeroWhereTheirValuesAre) {
     return static_cast<int>(random() % static_cast<unsigned>(n));
   };
   int zeroes = 0, others = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < 4000; ++i) {
     const double turn = std::array{12, 30, 42, 60, 24, 10}[static_cast<std::size_t>(below(6))];
     Waves waves;
     const int count = 1 + below(5);
@@ -74,7 +74,7 @@ TEST(RootsOfUnity, RandomSumsAreZeroWhereTheirValuesAre) {
     ASSERT_EQ(is_zero(waves, turn), expected) << i;
     ++(expected ? zeroes : others);
   }
-  EXPECT_GT(zeroes, 300);
+  EXPECT_GT(zeroes, 100);
   EXPECT_GT(others, 300);
 }
 
