@@ -112,6 +112,7 @@ void expect_encloses(const ExactDirection& direction, const Direction& exact) {
                 std::ldexp(1.0, static_cast<int>(-bits)));
   }
   EXPECT_TRUE(may_contain(hull_of(direction.box()), exact));
+  if (direction.rational() != nullptr) return;  // of z = 1, where alpha is 0
   double greatest = 0;
   for (const Interval& x : direction.box()) {
     EXPECT_LT(x.upper - x.lower, 0x1p-50);

@@ -132,7 +132,7 @@ TEST(WithoutRay, IsTheAreaBeyondMaxRadiusOfARoot) {
   expect_share({LensModel::fisheye_equisolid, {}, 2}, 11, Reason::max_radius);
   expect_share({LensModel::ucm, {0.25}, 0.5}, 40, Reason::max_radius);
   expect_share({LensModel::eucm, {0.75, 0.5}, 1.25}, 14, Reason::max_radius);
-  expect_share({LensModel::double_sphere, {-0.25, 0.6}, 1}, 22, Reason::max_radius);
+  expect_share({LensModel::double_sphere, {-0.25, 0.6}, 0.75}, 22, Reason::max_radius);
   expect_share({LensModel::omni, {0.75}, 1.25}, 25, Reason::max_radius);
 }
 
