@@ -103,7 +103,7 @@ bool may_contain(const Direction& box, const Direction& d) {
   return (box[0] * d[0] + box[1] * d[1] + box[2] * d[2]).sign() > 0;
 }
 
-void expect_encloses(const ExactDirection& direction, const Direction& exact) {
+void expect_encloses_multiple(const ExactDirection& direction, const Direction& exact) {
   for (const long bits : {30L, 100L, 300L}) {
     const auto d = direction.enclosure(bits);
     EXPECT_TRUE(may_contain(hull_of(d), exact)) << bits;
@@ -170,7 +170,7 @@ TEST_P(Roots, SeeWhatTheForwardModelShows) {
       EXPECT_LT(std::abs((image.x - y.x).approximate()), 1e-100);
       EXPECT_LT(std::abs((image.y - y.y).approximate()), 1e-100);
       beyond_90_degrees += exact[2].sign() < 0 ? 1 : 0;
-      expect_encloses(*d, exact);
+      expect_encloses_multiple(*d, exact);
       for (const int offset : {4, 40, 100, 250, 380})
         oracle::expect_signs_of_oracle(*d, exact, offset, random);
     }
@@ -326,7 +326,7 @@ TEST(Root, HaveFocalLengthsNearTheEndOfBinary64) {
       const Dyadic u = Dyadic(f).scaled(-2), v = Dyadic(f).scaled(-1);  // (¼, ½)
       const auto d = preimages.of(u, v);
       ASSERT_TRUE(d.has_value()) << f;
-      expect_encloses(*d, direction_of(lens, {0.25, 0.5}));
+      expect_encloses_multiple(*d, direction_of(lens, {0.25, 0.5}));
       const auto near_axis = preimages.of(Dyadic(f).scaled(-1000), Dyadic(f).scaled(-999));
       ASSERT_TRUE(near_axis.has_value()) << f;
       EXPECT_EQ(near_axis->sign_of(ExactVector3{2.0, -1.0, 0.0}), Sign::zero);
