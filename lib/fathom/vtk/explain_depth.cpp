@@ -45,7 +45,10 @@ class Hidden {
 
 vtkOpenGLRenderWindow& window_to_judge(vtkRenderWindow& window, vtkRenderer& renderer) {
   auto* const of_opengl = vtkOpenGLRenderWindow::SafeDownCast(&window);
-  if (of_opengl == nullptr) throw InputError("the window is not one of VTK's OpenGL");
+  if (of_opengl == nullptr) {
+    throw InputError(
+        "the window has no OpenGL: link VTK::RenderingOpenGL2 and call vtk_module_autoinit()");
+  }
   if (window.GetRenderers()->IsItemPresent(&renderer) == 0) {
     throw InputError("the renderer is not in the window");
   }
