@@ -74,8 +74,10 @@ std::string html_paragraph(const std::string& text) {
 }
 
 std::string html_plot(const std::string& name, const std::string& caption) {
+  const std::string before_command = caption.ends_with('.') ? " " : ": ";
   return "<figure><a href=\"" + name + ".svg\">" + image(name, caption) + "</a>" +
-         text_element("figcaption", caption + ": `gnuplot " + name + ".gp`") + "</figure>\n";
+         text_element("figcaption", caption + before_command + "`gnuplot " + name + ".gp`") +
+         "</figure>\n";
 }
 
 std::string html_pictures(const std::vector<ShownPicture>& pictures, const std::string& caption) {
@@ -105,7 +107,7 @@ std::string html_document(const std::string& title, const std::string& body) {
          "overflow-x:auto;margin:0}figure{margin:1em 0}"
          ".small{display:inline-block;vertical-align:top;margin-right:1.5em;max-width:100%}"
          ".small img,.row img{image-rendering:pixelated;outline:1px solid #ccc}.small "
-         "figcaption{max-width:24em}"
+         "figcaption{width:0;min-width:max(100%,min(24em,100vw - 4em))}"
          ".row{clear:both}.row figcaption{max-width:56em}"
          "code{font-size:95%;background:var(--soft)}code span{white-space:nowrap}"
          "figcaption{color:var(--dim);font-size:90%;padding-top:0.3em}"

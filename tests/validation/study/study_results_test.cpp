@@ -150,6 +150,9 @@ TEST(StudyPage, WhatIsThereDecides) {
   };
   EXPECT_THAT(shown(true, false),
               HasSubstr("<figcaption>P: <code>gnuplot p.gp</code></figcaption>"));
+  EXPECT_EQ(html_plot("p", "One. Two."),
+            "<figure><a href=\"p.svg\"><img src=\"p.png\" alt=\"One. Two.\"></a>"
+            "<figcaption>One. Two. <code>gnuplot p.gp</code></figcaption></figure>\n");
   EXPECT_THAT(shown(true, false), Not(HasSubstr("Nothing.")));
   EXPECT_THAT(shown(false, true), HasSubstr("<p>Nothing.</p>\n<p>Always.</p>\n<p>7 left.</p>\n"));
   EXPECT_THAT(shown(false, false), HasSubstr("<p>Always.</p>\n<p>Last.</p>\n"));
