@@ -58,10 +58,12 @@ Camera read_camera(const std::string& file, const Console& console) {
 studies::SceneView read_view(const StudyArguments& arguments, const Console& console) {
   Warnings warnings;
   const std::vector<std::filesystem::path> files(arguments.scene.begin(), arguments.scene.end());
-  for (const auto& file : files) note_input(file);
-  studies::SceneView view{files.front().filename().string(),
-                          read_scene(files, arguments.limits.read_options(), warnings),
-                          {}};
+  std::string names;
+  for (const auto& file : files) {
+    note_input(file);
+    names += (names.empty() ? "" : " ") + file.filename().string();
+  }
+  studies::SceneView view{names, read_scene(files, arguments.limits.read_options(), warnings), {}};
   console.warn(warnings);
   if (triangle_count(view.scene) == 0) {
     throw InputError(files.front().string() + ": the scene has no triangle");
