@@ -293,12 +293,6 @@ std::string script_of(const HeatMap& map) {
 
 }  // namespace
 
-bool has_heights(const BarChart& chart) {
-  return std::any_of(chart.series.begin(), chart.series.end(), [](const BarChart::Bars& bars) {
-    return std::any_of(bars.heights.begin(), bars.heights.end(), [](double h) { return h != 0; });
-  });
-}
-
 std::vector<StudyFile> draw(const Plot& plot) {
   const Plot shown = drawable(plot);
   if (shown.series.empty()) return {};

@@ -84,9 +84,6 @@ struct HeatMap {
   std::size_t cells_per_number = 0;
 };
 
-/// Whether a bar has a height.
-bool has_heights(const BarChart& chart);
-
 /// NAME.gp, the script that draws the plot, NAME.png and NAME.svg. No files for a plot without
 /// points.
 /// Fails    OutputError if gnuplot is missing or fails.

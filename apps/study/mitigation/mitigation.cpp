@@ -114,7 +114,7 @@ Table offsets_table(const std::vector<OffsetCount>& rows) {
             &Row::shows_through}}};
 }
 
-/// Of cures that leave anything to fight.
+/// A bar of one pixel shows nothing that the table does not.
 void plot_cures(Results& results, const std::string& name, const std::string& title,
                 const std::vector<Cure>& cures) {
   BarChart chart{
@@ -123,7 +123,7 @@ void plot_cures(Results& results, const std::string& name, const std::string& ti
     chart.categories.push_back(cure.name);
     chart.series[0].heights.push_back(static_cast<double>(cure.fights.fighting));
   }
-  if (has_heights(chart)) results.plot(chart);
+  if (std::ranges::max(chart.series[0].heights) > 1) results.plot(chart);
 }
 
 Plot offset_plot(const std::vector<OffsetCount>& counts) {

@@ -30,6 +30,11 @@ Table fights_table(const std::vector<SceneFights>& rows) {
            {Column("greatest_depth_error", ".9g"), &Row::greatest_error}}};
 }
 
+std::string fighting_text(const SceneFights& fights) {
+  if (fights.fighting == 0) return "0";
+  return std::to_string(fights.fighting) + " (" + text_of(100 * fights.share(), ".3f") + " %)";
+}
+
 /// For the page: a row of fighting pixels for each mapping, by storage. Rows are ordered by
 /// mapping.
 Table fights_by_mapping(const std::vector<SceneFights>& rows) {
@@ -41,8 +46,7 @@ Table fights_by_mapping(const std::vector<SceneFights>& rows) {
                              std::find_if(rows.begin(), rows.end(), [&](const SceneFights& f) {
                                return f.format.mapping == mapping && f.format.storage == storage;
                              });
-                         return std::to_string(fights->fighting) + " (" +
-                                text_of(100 * fights->share(), ".3f") + " %)";
+                         return fighting_text(*fights);
                        }});
   }
   return {std::vector<Mapping>(std::begin(all_mappings), std::end(all_mappings)), columns};

@@ -53,7 +53,8 @@ Table angles_table(const std::vector<FightByAngle>& rows) {
 /// How far a format keeps the surfaces apart: up to the last distance before the first fight.
 struct SafeReach {
   DepthFormat format;
-  std::optional<double> ideal, pipeline;
+  std::optional<double> ideal, pipeline;  ///< nothing where they fight at the first distance
+  bool has_pipeline;                      ///< the pipeline has matrices only for projections
 };
 
 template <class Share>
@@ -75,18 +76,25 @@ std::vector<SafeReach> safe_reaches(const std::vector<FightByDistance>& rows) {
         return f.format.mapping == mapping && f.format.storage == storage;
       });
       reaches.push_back({of_format.front().format, reach_of(of_format, &FightByDistance::ideal),
-                         reach_of(of_format, &FightByDistance::premultiplied)});
+                         reach_of(of_format, &FightByDistance::premultiplied),
+                         of_format.front().premultiplied.has_value()});
     }
   }
   return reaches;
 }
 
+std::string reach_text(const std::optional<double>& reach) {
+  return reach ? text_of(*reach, ".3g") : "fights at once";
+}
+
 Table reaches_table(const std::vector<SafeReach>& rows) {
   using Row = SafeReach;
-  return {rows,
-          {{heading("format"), [](const Row& r) { return label_of(r.format); }},
-           {heading("safe up to distance, ideal", ".3g"), &Row::ideal},
-           {heading("pipeline, premultiplied", ".3g"), &Row::pipeline}}};
+  return {
+      rows,
+      {{heading("format"), [](const Row& r) { return label_of(r.format); }},
+       {heading("safe up to distance, ideal"), [](const Row& r) { return reach_text(r.ideal); }},
+       {heading("pipeline, premultiplied"),
+        [](const Row& r) { return r.has_pipeline ? reach_text(r.pipeline) : "–"; }}}};
 }
 
 /// `y` of the fights in one format, by distance.
