@@ -193,6 +193,9 @@ int run_areas(const AreasArguments& a, const Console& console) {
   const Lights lights = lights_of(a, scene, console);
   TextOutput output(a.output);
   const AreaItems items = area_items(scene, a.by);
+  if (items.items.empty()) {
+    console.warn(fmt::format("the scene has no {}: the table has no rows", name_of(a.by)));
+  }
   const Question question{a, console, scene, lights, items};
   if (OutputFile* const file = output.file()) {
     write_file(question, format, *file);
