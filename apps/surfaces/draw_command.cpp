@@ -1,6 +1,10 @@
 // fathom draw SCENE… --camera FILE -o FILE
 
+#include <unistd.h>
+
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "apps/commands.h"
 #include "apps/options/camera_options.h"
@@ -21,7 +25,7 @@ struct DrawArguments {
   CameraOptions camera;
   EdgeOptions edges;
   DrawingStyle style;
-  std::string output = "-";
+  std::optional<std::string> output;
 };
 
 EdgeSelection parse_selection(const std::string& text) {
@@ -43,13 +47,17 @@ double parse_width(const std::string& text) {
 }
 
 int run_draw(const DrawArguments& arguments, const Console& console) {
-  const bool as_pdf = arguments.output.ends_with(".pdf");
-  if (!as_pdf && arguments.output != "-" && !arguments.output.ends_with(".svg")) {
-    throw UsageError("-o: '" + arguments.output + "' does not end in .svg or .pdf");
+  if (!arguments.output && ::isatty(STDOUT_FILENO) == 1) {
+    throw UsageError("the drawing would fill the terminal: give -o FILE, or -o - to print it");
+  }
+  const std::string name = arguments.output.value_or("-");
+  const bool as_pdf = name.ends_with(".pdf");
+  if (!as_pdf && name != "-" && !name.ends_with(".svg")) {
+    throw UsageError("-o: '" + name + "' does not end in .svg or .pdf");
   }
   EdgeOptions edges = arguments.edges;
   edges.threads = arguments.scene.threads;
-  TextOutput output(arguments.output);
+  TextOutput output(name);
   const Scene scene = arguments.scene.read(console);
   const Camera camera = arguments.camera.get_one(scene, arguments.scene.limits, "draw", console);
   require_straight(camera);
