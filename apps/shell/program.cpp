@@ -62,6 +62,16 @@ std::string suggested_option(const std::string& name, const CLI::App& command) {
   return behind_name(near);
 }
 
+/// "; --range takes LOW,HIGH, with a comma", if such an option was given; otherwise empty.
+std::string hint_of_commas(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string value = option->get_type_name();
+    if (option->count() > 0 && value.find(',') != std::string::npos)
+      return fmt::format("; {} takes {}, with a comma", option->get_name(), value);
+  }
+  return "";
+}
+
 std::string unexpected_of(const CLI::App& command) {
   const std::vector<std::string> rest = command.remaining();
   const std::vector<std::string> existing = commands_below(command);
@@ -78,7 +88,7 @@ std::string unexpected_of(const CLI::App& command) {
   }
   if (rest.empty()) return "";
   if (!existing.empty()) return unknown_command(rest[0], existing);
-  return fmt::format("unexpected argument '{}'", rest[0]);
+  return fmt::format("unexpected argument '{}'{}", rest[0], hint_of_commas(command));
 }
 
 }  // namespace
