@@ -110,9 +110,8 @@ std::string title_of(const DepthMap& map, const ImageChannel& channel) {
   for (const auto& [name, meaning] : buffer_channels)
     if (name == channel.name) text += " – " + std::string(meaning);
   if (const auto ours = channel_named(channel.name)) {
-    text += " – " + std::string(description_of(*ours).meaning);
-  } else if (channel.name == "disparity") {
-    text += " – disparity";
+    const std::string meaning(description_of(*ours).meaning);
+    if (meaning != channel.name) text += " – " + meaning;
   }
   const bool codes = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
   if (codes && !map.png_scale) text += " (codes of unknown scale)";
