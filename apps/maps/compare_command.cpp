@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -189,7 +190,11 @@ std::string as_json(const Comparison& comparison) {
 std::string as_text(const Comparison& comparison) {
   const MapComparison& maps = comparison.maps;
   std::string text;
-  for (const ChannelComparison& channel : maps.channels) text += to_text(channel);
+  // Files list channels by name, A before Z.
+  std::vector<ChannelComparison> channels = maps.channels;
+  std::ranges::stable_partition(channels,
+                                [](const ChannelComparison& c) { return c.truth_channel != "A"; });
+  for (const ChannelComparison& channel : channels) text += to_text(channel);
   if (!maps.only_in_truth.empty()) {
     text +=
         fmt::format("only in the first: {}\n", text::printable(joined(maps.only_in_truth, ", ")));
