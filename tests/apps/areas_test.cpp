@@ -246,6 +246,13 @@ TEST_F(AreasCommand, RefusesOptionsWithoutEffect) {
   EXPECT_THAT(test::run_fathom({"areas", "--help"}).out, ::testing::Not(HasSubstr("--stream")));
 }
 
+TEST_F(AreasCommand, WarnsOfATableWithoutRows) {
+  const test::Outcome outcome = areas({"--directions", "suns.csv", "--by", "material"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("the scene has no material: the table has no rows"));
+  EXPECT_EQ(areas({"--directions", "suns.csv", "--by", "face"}).err, "");
+}
+
 TEST_F(AreasCommand, RefusesDirectionsWithTheirLine) {
   EXPECT_EQ(refusal({"--directions", "zero.csv"}, 3),
             "fathom: error: zero.csv: line 3: the direction is 0\n");

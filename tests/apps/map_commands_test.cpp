@@ -93,6 +93,15 @@ TEST_F(MapCommands, CompareSaysNoByOneUnitInTheLastPlace) {
   EXPECT_EQ(with_tolerance("0.5").status, 1);
 }
 
+TEST_F(MapCommands, CompareShowsCoverageLast) {
+  expect_done(
+      {"render", "square.obj", "--camera", "camera.json", "--channels", "A,Z,id", "-o", "all.exr"});
+  const std::string text = fathom({"compare", "all.exr", "all.exr"}).out;
+  EXPECT_LT(text.find("channel Z"), text.find("channel id"));
+  EXPECT_LT(text.find("channel id"), text.find("channel A"));
+  EXPECT_LT(text.find("channel A"), text.size());
+}
+
 TEST_F(MapCommands, CompareCountsNoUlpsOfNormals) {
   folder_.write("tilted.json", R"({"meshes": [{"file": "square.obj",
       "transform": [[1,0,0,0],[0,1,0,0],[0.125,0,1,0]]}]})");
