@@ -18,6 +18,7 @@ namespace fathom::app {
 inline std::vector<std::string> free_names(const std::vector<std::string>& headings,
                                            const std::vector<std::string>& taken) {
   std::vector<std::string> names;
+  names.reserve(headings.size());
   for (const std::string& heading : headings) names.push_back(text::printable(heading));
   for (std::size_t k = 0; k < names.size(); ++k) {
     const auto is_taken = [&](const std::string& name) {

@@ -409,8 +409,8 @@ std::vector<NamedLens> lenses() {
     }
   }
 
-  // All in one place, on a line, with components that differ by hundreds of orders of magnitude, and
-  // subnormal ones.
+  // All in one place, on a line, with components that differ by hundreds of orders of magnitude,
+  // and subnormal ones.
   TEST(FastTables, HardNumbers) {
     const std::vector<std::vector<double>> tables{
         {1, 1, 2, 1, 1, 2, 1, 1, 2, 1, 1, 2},

@@ -112,6 +112,7 @@ struct RayJudge::Parts {
   [[nodiscard]] std::vector<std::vector<RayHit>> moved_hits(
       const std::vector<std::size_t>& numbers) const {
     std::vector<Ray> rays;
+    rays.reserve(numbers.size());
     for (const std::size_t i : numbers) rays.push_back(given.rays[i]);
     std::vector<std::vector<RayHit>> hits;
     if (rays.empty()) return hits;

@@ -17,11 +17,9 @@ namespace fathom::validation {
 class SurfacelessWindow : public vtkGenericOpenGLRenderWindow {
  public:
   static SurfacelessWindow* New();
-  // clang-format off
   vtkTypeMacro(SurfacelessWindow, vtkGenericOpenGLRenderWindow)
-      // clang-format on
 
-      void OpenGLInitContext() override;
+  void OpenGLInitContext() override;
 
  protected:
   SurfacelessWindow();

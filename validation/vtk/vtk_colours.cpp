@@ -36,13 +36,9 @@ namespace {
 class ReadableMapper : public vtkOpenGLPolyDataMapper {
  public:
   static ReadableMapper* New();
-  // clang-format off
   vtkTypeMacro(ReadableMapper, vtkOpenGLPolyDataMapper)
-      // clang-format on
 
-      [[nodiscard]] const std::string& fragment_shader() const {
-    return text_;
-  }
+  [[nodiscard]] const std::string& fragment_shader() const { return text_; }
 
  protected:
   void SetCameraShaderParameters(vtkOpenGLHelper& drawn, vtkRenderer* renderer,

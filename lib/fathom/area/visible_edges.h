@@ -44,7 +44,8 @@ struct EdgeName {
   };
   Kind kind = Kind::edge;
   std::uint32_t a = 0, b = 0;
-  friend auto operator<=>(const EdgeName&, const EdgeName&) = default;
+  friend auto operator<=>(const EdgeName&,
+                          const EdgeName&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// A place on the image, in pixels, y down (specification, section 2).
