@@ -49,8 +49,7 @@ function(fathom_target_options target)
   endif()
   # Unity builds stay for the user's first build: a few large compilations read the headers of the standard library,
   # Eigen and CGAL once instead of up to eight times. Their price: names in anonymous namespaces are unique in a target.
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${FATHOM_UNITY}
-                                             UNITY_BUILD_BATCH_SIZE ${FATHOM_UNITY_BATCH})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${FATHOM_UNITY} UNITY_BUILD_BATCH_SIZE 8)
   if(FATHOM_UNITY AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     # It would complain of names of the other sources; GCC sees what is shadowed within one.
     target_compile_options(${target} PRIVATE -Wno-shadow)
