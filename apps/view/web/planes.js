@@ -34,13 +34,15 @@ function unpackedThird(bytes, columns, [x, y]) {
 /// Words of 8, 16 or 32 bits.
 function unpackedWords(bytes, size, columns) {
   const count = (bytes.length - 1) / size, isGradient = (bytes[0] & 3) === 1, words = new arrays[size](count);
-  for (let k = 0; k < count; ++k) {
-    let zigzag = 0;
-    for (let byte = size - 1; byte >= 0; --byte) zigzag = zigzag << 8 | bytes[1 + byte * count + k];
-    const difference = zigzag >>> 1 ^ -(zigzag & 1), hasLeft = k % columns !== 0, hasUpper = k >= columns;
-    let expected = hasLeft ? words[k - 1] : hasUpper ? words[k - columns] : 0;
-    if (isGradient && hasLeft && hasUpper) expected += words[k - columns] - words[k - columns - 1];
-    words[k] = difference + expected;
+  for (let first = 0; first < count; first += columns) {
+    for (let k = first; k < first + columns; ++k) {
+      let zigzag = bytes[1 + k];
+      if (size > 1) zigzag |= bytes[1 + count + k] << 8;
+      if (size > 2) zigzag |= bytes[1 + 2 * count + k] << 16 | bytes[1 + 3 * count + k] << 24;
+      let expected = k > first ? words[k - 1] : first ? words[k - columns] : 0;
+      if (isGradient && first && k > first) expected += words[k - columns] - words[k - columns - 1];
+      words[k] = (zigzag >>> 1 ^ -(zigzag & 1)) + expected;
+    }
   }
   return words;
 }
@@ -87,14 +89,21 @@ export function segmentsOf(identifiers) {
   return { firsts: firsts.slice(0, found), places };
 }
 
+/// The values at these places; a loop takes a quarter of the time of `from()`.
+function at(values, places) {
+  const found = new values.constructor(places.length);
+  for (let k = 0; k < found.length; ++k) found[k] = values[places[k]];
+  return found;
+}
+
 /// `parts` are the X and Y of the unit vectors whose Z is unpacked, `segments` those of the tile; both may be missing.
 export async function unpacked(id, type, columns, parts, segments) {
   const bytes = await inflated(document.getElementById(id).textContent), { bytes: size, values } = types[type];
   const isBySegment = bytes[0] >= 4, width = isBySegment ? segments.firsts.length : columns;
-  const some = (all) => isBySegment ? Float32Array.from(segments.firsts, (first) => all[first]) : all;
+  const some = (all) => isBySegment ? at(all, segments.firsts) : all;
   const words = (bytes[0] & 3) === 2 ? unpackedThird(bytes, width, parts.map(some))
     : size === 8 ? unpackedPairs(bytes, width) : unpackedWords(bytes, size, width);
-  return values(isBySegment ? Uint32Array.from(segments.places, (place) => words[place]) : words);
+  return values(isBySegment ? at(words, segments.places) : words);
 }
 
 /// What was unpacked last, up to so many bytes; a page of 16384 × 16384 pixels holds more than a browser has room for.
