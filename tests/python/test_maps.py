@@ -133,8 +133,15 @@ def test_names_of_contents_are_those_of_the_program(spot, camera):
     assert seen["depth"] is seen["Z"] and seen["normal"] is seen["N"] and seen["segmentation"] is seen["object"]
     assert np.array_equal(seen["mask"], seen.mask()) and "depth" not in seen
     assert list(spot.render(camera, channels="depth,Z")) == ["Z"]
-    with pytest.raises(KeyError, match="camera-normal"):
+    assert seen.depth is seen["Z"] and seen.normal is seen["N"]
+    with pytest.raises(KeyError, match="the map has no channel 'camera-normal', only Z, N, object, id"):
         seen["camera-normal"]
+    with pytest.raises(KeyError, match="has no channel 'z', only Z, N, object, id; did you mean 'Z'?"):
+        seen["z"]
+    with pytest.raises(AttributeError, match="has no channel 'distance'"):
+        seen.distance
+    with pytest.raises(ValueError, match="scale: uint16 needs codes per scene unit, for example scale=1000"):
+        seen.stored_as("uint16", channel="Z")
 
 
 def test_names_of_contents_choose_a_channel(spot, camera, tmp_path):

@@ -70,8 +70,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
 
     Map({"Z": depths}, camera, background=0) makes a map from your own arrays; add scale=1000 for
     uint16 codes. copy() and pickle keep everything. Channels are attributes, too: maps.Z is
-    maps["Z"]. The names of contents are found as well: maps["depth"] is maps["Z"], and maps["mask"]
-    is mask().
+    maps["Z"]. The names of contents are found as well: maps["depth"] and maps.depth are maps["Z"],
+    and maps["mask"] is mask().
 
     >>> Map({"Z": np.array([[2, 2.5, np.inf]], np.float32)})
     Map(3×1 pixels; Z: float32, 2 to 2.5; surface in 66.67 %)
@@ -112,8 +112,13 @@ class Map(dict[str, "npt.NDArray[Any]"]):
             return self.mask()
         own = self._own_name(name)
         if own not in self:
-            raise KeyError(name)
+            raise KeyError(self._without(name))
         return self[own]
+
+    def _without(self, name: str) -> str:
+        """What is said of a channel that is missing."""
+        near = next((each for each in self if each.lower() == str(name).lower()), None)
+        return f"the map has no channel {name!r}, only {', '.join(self)}" + (f"; did you mean {near!r}?" if near else "")
 
     def _own_name(self, name: str) -> str:
         """The map's own name of a channel: "Z" for "depth"."""
@@ -347,6 +352,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         except TypeError:
             raise TypeError(f"dtype: expected float32, float64 or uint16, found {dtype!r}") from None
         factor = None if scale is None else as_number("scale", scale)
+        if factor is None and name == "uint16":
+            raise ValueError("scale: uint16 needs codes per scene unit, for example scale=1000")
         return Map._of(_core.with_storage(self._handle(), as_text("channel", channel), name, factor))
 
     def points(self, camera: Camera | None = None, *, frame: Frame = "world") -> Numbers:
@@ -487,14 +494,18 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         P: npt.NDArray[np.float32]
         bary: npt.NDArray[np.float32]
         valid: npt.NDArray[np.uint32]
+        depth: npt.NDArray[Any]
+        normal: npt.NDArray[np.float32]
+        segmentation: npt.NDArray[np.uint32]
     else:
 
         def __getattr__(self, name):
-            if name in self:
-                return self[name]
-            if name.startswith("_"):
+            if name.startswith("_") and name not in self:
                 raise AttributeError(name)
-            raise AttributeError(f"the map has no channel '{name}', only {', '.join(self)}")
+            own = self._own_name(name)
+            if own not in self:
+                raise AttributeError(self._without(name))
+            return self[own]
 
         def __setattr__(self, name, value):
             if name in rendered or name == "disparity":
