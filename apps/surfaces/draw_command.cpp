@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "apps/commands.h"
@@ -25,7 +24,7 @@ struct DrawArguments {
   CameraOptions camera;
   EdgeOptions edges;
   DrawingStyle style;
-  std::optional<std::string> output;
+  std::string output;  ///< empty unless given
 };
 
 EdgeSelection parse_selection(const std::string& text) {
@@ -47,10 +46,10 @@ double parse_width(const std::string& text) {
 }
 
 int run_draw(const DrawArguments& arguments, const Console& console) {
-  if (!arguments.output && ::isatty(STDOUT_FILENO) == 1) {
+  if (arguments.output.empty() && ::isatty(STDOUT_FILENO) == 1) {
     throw UsageError("the drawing would fill the terminal: give -o FILE, or -o - to print it");
   }
-  const std::string name = arguments.output.value_or("-");
+  const std::string name = arguments.output.empty() ? "-" : arguments.output;
   const bool as_pdf = name.ends_with(".pdf");
   if (!as_pdf && name != "-" && !name.ends_with(".svg")) {
     throw UsageError("-o: '" + name + "' does not end in .svg or .pdf");
