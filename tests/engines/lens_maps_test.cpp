@@ -57,7 +57,9 @@ TEST_P(LensMaps, EveryChannelOfEveryPixelAgreesWithRationalRays) {
     SCOPED_TRACE("scene " + std::to_string(i) + " of this seed");
     check(maker.make(model), tally);
   }
-  EXPECT_GT(tally.hits, 60 / testing::effort);
+  // Few samples of these cameras are in the circle of an orthographic fisheye.
+  const int least_hits = model == LensModel::fisheye_orthographic ? 20 : 60;
+  EXPECT_GT(tally.hits, least_hits / testing::effort);
   if (model == LensModel::simple_radial || model == LensModel::opencv) {
     EXPECT_GT(tally.without_ray, 0);
   }
