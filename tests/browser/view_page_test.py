@@ -301,11 +301,12 @@ class ViewPage(PageCase):
         p, q = a[y, x], b[y, x]
         wanted = {"absolute": float(q) - float(p), "relative": (float(q) - float(p)) / max(float(p), float(q)),
                   "ulps": int(q.view("i4")) - int(p.view("i4"))}
+        labels = {"absolute": "B − A", "relative": "(B − A) / larger", "ulps": "B − A in ulps"}
         for measure, difference in wanted.items():
             self.open(f"#mode=difference&measure={measure}&pixel={x},{y}")
             told = self.reading()
             self.assertEqual((numpy.float32(told["A: Z"]), numpy.float32(told["B: Z"])), (p, q))
-            self.assertEqual(float(told["B − A"]), difference)
+            self.assertEqual(float(told[labels[measure]]), difference)
         legend = self.texts("#legend li")
         only_a = numpy.count_nonzero(numpy.isfinite(a) & ~numpy.isfinite(b))
         self.assertTrue(any(line.startswith(f"surface in A only ({100 * only_a / a.size:.1f}") for line in legend), legend)
@@ -390,10 +391,23 @@ class ViewPage(PageCase):
         self.open(f"#pixel={x},{y}", page=(self.folder / "deep.html").as_uri())
         self.wait_for(lambda: self.table("#samples"), "the samples")
         head, *lines = self.table("#samples")
-        self.assertEqual(head, ["Z", "ZBack", "area", "A", "id"])
+        self.assertEqual(head, ["id", "Z", "ZBack", "area", "A"])
         read = deep_samples(self.folder / "deep.exr", x, y)
         self.assertEqual(len(lines), samples.max())
-        self.assertEqual([[numpy.float32(cell) for cell in line[:4]] + [int(line[4])] for line in lines], read)
+        self.assertEqual([[numpy.float32(cell) for cell in line[1:]] + [int(line[0])] for line in lines], read)
+
+    def test_counts_of_samples_begin_logarithmic(self):
+        fathom("render", DATA / "meshes/spot.obj", "--size", "160x120", "--deep", "-o", self.folder / "counted.exr")
+        page = self.viewed("counted.exr")
+        self.open("#channel=samples", page=page)
+        counts, seen = self.values(0, "samples", "f4")
+        self.assertEqual(counts[seen == 1].min(), 1)
+        scale = lambda: Select(self.one("#scale")).first_selected_option.get_attribute("value")
+        self.assertEqual(scale(), "log")
+        self.open("#channel=Z", page=page)
+        self.assertEqual(scale(), "linear")
+        self.open("#channel=samples&scale=linear", page=page)
+        self.assertEqual(scale(), "linear")
 
     def test_cryptomatte_is_shown_by_names(self):
         fathom("render", DATA / "scenes/pair.json", "--size", "160x120", "--cryptomatte", "-o", self.folder / "matte.exr")

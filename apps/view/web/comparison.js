@@ -2,6 +2,7 @@
 import { channelOf, maps } from "./channels.js";
 import { Shading } from "./colours.js";
 import { Difference, endOfDifferences } from "./difference.js";
+import { scaleOf } from "./state.js";
 import { statisticsOf, together } from "./statistics.js";
 
 /// Whether B can be laid upon A: it has the same size, and the channel.
@@ -27,10 +28,10 @@ export async function shownBy(state) {
   if (state.mode === "difference" && sources.length > 1 && sources[0].source.kind !== "colour") {
     const source = new Difference(maps[state.map], sources[0].source, sources[1].source, state.measure);
     const statistics = await statisticsOf(source), shading = new Shading(source, { ...state, ...rangeOf(state, source, statistics) }, statistics.sorted);
-    return { layers: [{ source, shading }], sources: [...sources, { name: "B − A", source }], source, statistics, shading };
+    return { layers: [{ source, shading }], sources: [...sources, { name: source.label, source }], source, statistics, shading };
   }
   const { source } = sources[0], statistics = together(await Promise.all(sources.map((each) => statisticsOf(each.source))));
-  const settings = { ...state, ...rangeOf(state, source, statistics) };
+  const settings = { ...state, scale: scaleOf(state), ...rangeOf(state, source, statistics) };
   const layers = sources.map((each) => ({ source: each.source, shading: new Shading(each.source, settings, statistics?.sorted) }));
   return { layers, sources, source, statistics, shading: layers[0].shading };
 }

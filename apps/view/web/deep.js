@@ -5,6 +5,8 @@ import { remembered, unpacked } from "./planes.js";
 import { byId, element } from "./reading.js";
 
 const parts = [["Z", "f32"], ["ZBack", "f32"], ["area", "f32"], ["A", "f32"], ["id", "u32"]];
+/// The columns of the list: the identifier is short and names the triangle.
+const columns = ["id", "Z", "ZBack", "area", "A"];
 
 /// All samples of a tile, and where those of each pixel begin.
 async function samplesOf(map, number) {
@@ -32,10 +34,10 @@ export async function showSamples(map, pixel) {
   const samples = await samplesAt(map, pixel), table = byId("samples");
   if (mine !== listing) return;
   const head = element("tr");
-  head.append(...parts.map(([name]) => element("th", name, { scope: "col" })));
+  head.append(...columns.map((name) => element("th", name, { scope: "col" })));
   table.replaceChildren(...samples.length ? [head] : [], ...samples.map((sample) => {
     const row = element("tr");
-    row.append(...parts.map(([name, type]) => element("td", textOf(sample[name], type === "f32"))));
+    row.append(...columns.map((name) => element("td", textOf(sample[name], name !== "id"))));
     return row;
   }));
   byId("deep-said").textContent = samples.length ? "nearest first" : "no sample";

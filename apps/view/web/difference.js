@@ -13,11 +13,15 @@ const differences = {
   relative: () => (a, b) => (b - a) / Math.max(Math.abs(a), Math.abs(b)),
   ulps: (a, b) => a.type === b.type && !a.scale && steps[a.type] || ((p, q) => placeOfSingle(q) - placeOfSingle(p)) };
 
+/// Names of the differences in the table and in the profile.
+const labels = { absolute: "B − A", relative: "(B − A) / larger", ulps: "B − A in ulps" };
+
 export class Difference extends Source {
   constructor(map, first, second, measure) {
     super(map, `difference-${measure}-${first.key}-${second.key}`);
     Object.assign(this, { first, second, measure, name: first.name, kind: "quantity", isDifference: true });
     this.isSingle = false;
+    this.label = first.isIdentifier ? "differs" : labels[measure];
     this.meaning = first.isIdentifier ? "1 where B differs from A" : `B − A, ${measure}`;
     this.between = first.isIdentifier ? (() => 1) : differences[measure](first, second);
   }

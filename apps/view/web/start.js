@@ -8,7 +8,7 @@ import { Picture } from "./picture.js";
 import { showProbe } from "./probe.js";
 import { Profile } from "./profile.js";
 import { byId, showReading } from "./reading.js";
-import { fragmentOf, stateOf } from "./state.js";
+import { fragmentOf, scaleOf, stateOf } from "./state.js";
 
 let state = mended(stateOf(location.hash)), shown = null, turns = 0, hovered = null;
 
@@ -81,7 +81,7 @@ async function showAll() {
   fillRange(state, shading);
   read();
   profile.show(state.line, sources);
-  await histogram.show(source, statistics, shading, state.scale);
+  await histogram.show(source, statistics, shading, scaleOf(state));
   document.documentElement.dataset.ready = mine; // for tests
 }
 

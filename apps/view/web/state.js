@@ -2,7 +2,7 @@
 import { page } from "./channels.js";
 
 export const defaults = {
-  map: 0, other: -1, mode: "single", measure: "relative", channel: "", scale: "linear", colours: "viridis",
+  map: 0, other: -1, mode: "single", measure: "relative", channel: "", scale: "", colours: "viridis",
   low: null, high: null, x: null, y: null, zoom: null, pixel: null, line: null, split: 0.5 };
 
 const words = {
@@ -17,6 +17,9 @@ const number = (text) => text !== "" && Number.isFinite(Number(text)) ? Number(t
 const readers = {
   map: number, other: number, low: number, high: number, x: number, y: number, zoom: number, split: number,
   pixel: listOf(2), line: listOf(4), channel: (text) => text };
+
+/// The scale that the user chose, or the scale that suits the channel: most pixels of a deep map have few samples.
+export const scaleOf = ({ scale, channel }) => scale || (channel === "samples" ? "log" : "linear");
 
 /// What a fragment says; what it does not say, or says wrongly, is as by default.
 export function stateOf(fragment) {
