@@ -77,16 +77,16 @@ Camera camera_for(const DepthMap& map, const ConvertArguments& arguments,
     return *camera;
   }
   const Camera& camera = in_file[number];
-  if (camera.width != map.width || camera.height != map.height) {
-    throw InputError(fmt::format("{}: a camera of {}x{} pixels, but the map has {}x{}",
-                                 arguments.camera, camera.width, camera.height, map.width,
-                                 map.height));
-  }
+  require_size_of(map, camera, arguments.camera);
   return camera;
 }
 
-Camera camera_for(const DepthMap& map, const ConvertArguments& arguments, const Console& console) {
-  return camera_for(map, arguments, cameras_in_file(arguments, console), 0);
+/// The only map, with the camera of the camera file if one is given.
+DepthMap read_only_map(const ConvertArguments& arguments, const Console& console) {
+  DepthMap map = read_map_argument(arguments.maps.front());
+  const std::vector<Camera> in_file = cameras_in_file(arguments, console);
+  if (!in_file.empty()) map.camera = camera_for(map, arguments, in_file, 0);
+  return map;
 }
 
 /// The cloud of the points of all maps.
@@ -132,7 +132,7 @@ int write_mask(const DepthMap& map, const ConvertArguments& arguments, MapFormat
   return done;
 }
 
-DepthMap converted(DepthMap map, const ConvertArguments& arguments, const Console& console) {
+DepthMap converted(DepthMap map, const ConvertArguments& arguments) {
   if (!arguments.to) {
     if (arguments.from) throw UsageError("--from needs --to");
     return map;
@@ -140,7 +140,7 @@ DepthMap converted(DepthMap map, const ConvertArguments& arguments, const Consol
   const DepthQuantity from = arguments.from.value_or(DepthQuantity::planar_depth);
   // PFM, PNG and NPY do not name their channel: the user names the quantity.
   if (map.channels.size() == 1 && map.texts.empty()) map.channels[0].name = name_of(from);
-  return convert_quantity(map, from, *arguments.to, camera_for(map, arguments, console),
+  return convert_quantity(map, from, *arguments.to, camera_for(map, arguments, {}, 0),
                           rig_of(arguments), arguments.storage.background);
 }
 
@@ -208,11 +208,11 @@ DepthMap stored(DepthMap map, const ConvertArguments& arguments, MapFormat forma
 }
 
 /// With the camera, where the format is a GeoTIFF.
-WriteOptions write_options(const DepthMap& map, const ConvertArguments& arguments, MapFormat format,
-                           const Console& console) {
+WriteOptions write_options(const DepthMap& map, const ConvertArguments& arguments,
+                           MapFormat format) {
   WriteOptions options = arguments.storage.write_options(0);
   if (format != MapFormat::tiff) return options;
-  options.camera = camera_for(map, arguments, console);
+  options.camera = camera_for(map, arguments, {}, 0);
   require_place_in_world(*options.camera, arguments.output);
   return options;
 }
@@ -244,7 +244,7 @@ int run_convert(const ConvertArguments& given, const Console& console) {
     throw UsageError(given.output + ": several maps make a point cloud; expected .ply");
   }
   const MapFormat format = given.storage.format_of(given.output);
-  DepthMap read = read_map_argument(given.maps.front());
+  DepthMap read = read_only_map(given, console);
   ConvertArguments arguments = given;
   arguments.channel = own_channel_name(read, given.channel);
   if (arguments.channel == "mask" && read.find("mask") == nullptr) {
@@ -254,9 +254,9 @@ int run_convert(const ConvertArguments& given, const Console& console) {
   // A conversion has already set the background, because it needs the background of its input.
   if (arguments.to) dress.background.reset();
   const DepthMap map = dress.dressed(
-      stored(converted(std::move(read), arguments, console), arguments, format), arguments.output);
+      stored(converted(std::move(read), arguments), arguments, format), arguments.output);
   arguments.storage.check_pictures(arguments.output, format, contents_of_file(map, format));
-  write_outputs(map, arguments, format, write_options(map, arguments, format, console));
+  write_outputs(map, arguments, format, write_options(map, arguments, format));
   warn_of_codes_beyond(map, arguments.output, console);
   return done;
 }
@@ -278,6 +278,7 @@ void add_convert(Command& program) {
       "  fathom convert spot.exr --channel mask -o mask.png\n"
       "  fathom convert plan.exr -o plan.tif             # GeoTIFF, if seen from above\n"
       "  fathom convert a.jpg.geometric.bin -o a.exr     # a dense map of COLMAP\n"
+      "  fathom convert vtk.npy --camera camera.json -o vtk.exr\n"
       "\nConversions start from the stored values, which are rounded already; 'fathom render "
       "--channels\n"
       "distance' gives the exact ray distance, and render to .png or .npy rounds once.");
@@ -301,7 +302,7 @@ void add_convert(Command& program) {
   command.option(
       "--camera", "FILE", arguments->camera,
       "Camera file, if the map does not contain its camera: one camera for each map, in order, or "
-      "cameras that are named like the maps (a.jpg for a.npy)");
+      "cameras that are named like the maps (a.jpg for a.npy). EXR, PNG and NPZ store it");
   command.option("--baseline", "B", into(arguments->baseline, parse_number),
                  "Baseline of the stereo pair, for disparity");
   command.option("--doffs", "D", into(arguments->doffs, parse_number),

@@ -308,6 +308,12 @@ Camera camera_called_as(const std::string& map, const std::vector<Camera>& camer
       found.empty() ? "none is" : std::to_string(found.size()) + " are", text::printable(map)));
 }
 
+void require_size_of(const DepthMap& map, const Camera& camera, const std::string& file) {
+  if (camera.width == map.width && camera.height == map.height) return;
+  throw InputError(fmt::format("{}: a camera of {}x{} pixels, but the map has {}x{}", file,
+                               camera.width, camera.height, map.width, map.height));
+}
+
 std::vector<Camera> read_camera_file(const std::string& file, const Console& console) {
   const auto refuse = [](const std::string&, auto, auto) -> std::shared_ptr<const DirectionTable> {
     throw UsageError("the lens TABLE: " + std::string(takes_no_lens));

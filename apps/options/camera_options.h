@@ -92,4 +92,8 @@ std::vector<Camera> read_cameras_with_lenses(const std::string& file, const Read
 /// Fails    UsageError unless there is exactly one.
 Camera camera_called_as(const std::string& map, const std::vector<Camera>& cameras);
 
+/// Refuses a camera of another size than the map. `file` is the camera's file for messages.
+/// Fails    InputError.
+void require_size_of(const DepthMap& map, const Camera& camera, const std::string& file);
+
 }  // namespace fathom::app

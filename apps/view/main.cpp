@@ -6,13 +6,16 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
+#include "apps/options/camera_options.h"
 #include "apps/options/map_arguments.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/console.h"
@@ -22,6 +25,7 @@
 #include "apps/shell/output_file.h"
 #include "apps/shell/program.h"
 #include "apps/shell/standard_streams.h"
+#include "apps/shell/values.h"
 #include "apps/surfaces/probe_answer.h"
 #include "apps/view/page.h"
 #include "apps/view/probe_server.h"
@@ -31,6 +35,7 @@
 #include "fathom/image/deep_map.h"
 #include "fathom/image/map_formats.h"
 #include "fathom/reference/probe.h"
+#include "fathom/text/printable.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom::app {
@@ -86,7 +91,7 @@ using view::ViewedMap;
 
 struct ViewArguments {
   std::vector<std::string> maps;
-  std::string output, scene;
+  std::string output, scene, camera;
   /// Without its list of files.
   SceneOptions reading;
   bool open = false, serve = false;
@@ -121,12 +126,30 @@ std::vector<ViewedMap> read_viewed(const std::string& file) {
   return maps;
 }
 
-std::vector<ViewedMap> read_maps(const ViewArguments& arguments) {
+/// The cameras of --camera: a single camera for all maps, a camera for each map in order, or
+/// cameras that are named like the maps.
+void take_cameras(std::vector<ViewedMap>& maps, const ViewArguments& arguments,
+                  const Console& console) {
+  if (arguments.camera.empty()) return;
+  const std::vector<Camera> cameras =
+      read_cameras_with_lenses(arguments.camera, arguments.reading.limits, console);
+  for (std::size_t k = 0; k < maps.size(); ++k) {
+    const bool is_for_all = cameras.size() == 1;
+    Camera camera = is_for_all || cameras.size() == maps.size()
+                        ? cameras[is_for_all ? 0 : k]
+                        : camera_called_as(maps[k].name, cameras);
+    require_size_of(maps[k].map, camera, arguments.camera);
+    maps[k].camera = std::move(camera);
+  }
+}
+
+std::vector<ViewedMap> read_maps(const ViewArguments& arguments, const Console& console) {
   std::vector<ViewedMap> maps;
   for (const std::string& file : arguments.maps) {
     std::vector<ViewedMap> some = read_viewed(file);
     std::move(some.begin(), some.end(), std::back_inserter(maps));
   }
+  take_cameras(maps, arguments, console);
   return maps;
 }
 
@@ -157,24 +180,49 @@ int write_and_open(const ViewArguments& arguments, const std::vector<ViewedMap>&
   return done;
 }
 
+/// A note if the map was rendered from a file that is not among the files of the scene: its probes
+/// explain other triangles. Empty otherwise, and for a map that does not name its files.
+std::string note_of_another_scene(const ViewedMap& viewed, const Scene& scene) {
+  const auto text = viewed.map.texts.find(sources_text);
+  if (text == viewed.map.texts.end()) return {};
+  const auto sources = nlohmann::json::parse(text->second, nullptr, false);
+  if (!sources.is_array()) return {};
+  std::vector<std::string> others;
+  for (const auto& source : sources) {
+    if (!source.is_object()) continue;
+    const std::string hash = source.value("sha256", ""), file = source.value("file", "");
+    if (std::ranges::find(scene.sources, hash, &Source::sha256) == scene.sources.end())
+      others.push_back(file);
+  }
+  if (others.empty()) return {};
+  return fmt::format("{} was rendered from {}, which this scene does not contain: another scene?",
+                     text::printable(viewed.name), text::printable(joined(others, ", ")));
+}
+
 /// The server's address goes to standard output. The maps are kept for their cameras alone.
 int serve(const ViewArguments& arguments, std::vector<ViewedMap> maps, const Console& console) {
   SceneOptions options = arguments.reading;
   options.files = {arguments.scene};
-  const Scene scene = options.read(console, {.segments = true});
+  const Scene scene = options.read(console, {.hash = true, .segments = true});
   std::string page;
   with_threads(options.threads, [&] {
     view::write_page(maps, view::Questions::probes, [&](std::string_view part) { page += part; });
   });
   std::vector<Camera> cameras;
-  for (const ViewedMap& viewed : maps) cameras.push_back(*viewed.camera);
+  std::vector<std::string> notes;
+  for (const ViewedMap& viewed : maps) {
+    cameras.push_back(*viewed.camera);
+    notes.push_back(note_of_another_scene(viewed, scene));
+    if (!notes.back().empty()) console.warn(notes.back());
+  }
   maps.clear();
   const auto answer = [&](std::uint32_t map, std::uint32_t x, std::uint32_t y) -> std::string {
     if (map >= cameras.size() || x >= cameras[map].width || y >= cameras[map].height) return {};
     const Camera& camera = cameras[map];
-    return with_threads(options.threads, [&] {
+    const std::string answer = with_threads(options.threads, [&] {
       return as_text({scene, camera, x, y, probe(scene, camera, x, y)});
     });
+    return notes[map].empty() ? answer : "note: " + notes[map] + "\n\n" + answer;
   };
   ProbeServer server(std::move(page), answer);
   print(server.address() + "\n");
@@ -195,12 +243,13 @@ int run_view(const ViewArguments& arguments, const Console& console) {
                          ? "--serve needs --scene, the scene that the maps show"
                          : "--scene needs --serve: a server answers questions about the scene");
   }
-  std::vector<ViewedMap> maps = read_maps(arguments);
+  std::vector<ViewedMap> maps = read_maps(arguments, console);
   if (!arguments.serve) return write_and_open(arguments, maps, console);
   for (const ViewedMap& viewed : maps) {
     if (!viewed.camera) {
       throw UsageError("--serve: " + viewed.name +
-                       " carries no camera, so that no pixel of it can be probed");
+                       " carries no camera, so that no pixel of it can be probed; give it with "
+                       "--camera");
     }
     if (names_table(*viewed.camera)) {
       throw UsageError("--serve: " + viewed.name +
@@ -219,7 +268,8 @@ void add_view(Command& program) {
       "  fathom view spot.exr\n"
       "  fathom view spot.exr -o spot.html\n"
       "  fathom view exact.exr other.exr\n"
-      "  fathom view spot.exr --scene spot.obj --serve --open");
+      "  fathom view spot.exr --scene spot.obj --serve --open\n"
+      "  fathom view vtk.npy --camera camera.json --scene spot.obj --serve --open");
   command
       .arguments("MAP", arguments->maps,
                  "Maps to look at (" + names_of_readable_maps() +
@@ -230,6 +280,10 @@ void add_view(Command& program) {
                         "Write the page here, an HTML file that needs no other file, and open no "
                         "browser (default: a temporary file, which a browser opens)");
   command.flag("--open", arguments->open, "Open the page in the browser even with -o or --serve");
+  command.option("--camera", "FILE", arguments->camera,
+                 "Camera file (JSON), or a map, which contains its camera, instead of the cameras "
+                 "in the maps: a single camera for all maps, a camera for each map, in order, or "
+                 "cameras that are named like the maps");
   command.option("--scene", "FILE", arguments->scene,
                  "Scene that the maps show, a mesh or a scene file; needs --serve");
   command

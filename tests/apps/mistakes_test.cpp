@@ -57,6 +57,18 @@ TEST_F(Mistakes, AMapAsTheCameraGivesItsCamera) {
             "map.npy: the map carries no camera, expected a camera file\n");
 }
 
+TEST_F(Mistakes, ConvertStoresTheCameraThatItIsGiven) {
+  expect_done({"render", "square.obj", "--camera", "camera.json", "-o", "map.npy"});
+  const Outcome truth =
+      fathom({"probe", "square.obj", "--camera", "camera.json", "--pixel", "3,3"});
+  for (const std::string name : {"map.exr", "map.npz", "map.png"}) {
+    expect_done({"convert", "map.npy", "--camera", "camera.json", "-o", name});
+    const Outcome probe = fathom({"probe", "square.obj", "--camera", name, "--pixel", "3,3"});
+    EXPECT_EQ(probe.status, 0) << probe.err;
+    EXPECT_EQ(probe.out, truth.out);
+  }
+}
+
 TEST_F(Mistakes, AMapAsTheSceneIsRefusedWithTheWayToItsCamera) {
   expect_done({"render", "square.obj", "--camera", "camera.json", "-o", "map.exr"});
   EXPECT_EQ(

@@ -129,6 +129,37 @@ class Server(PageCase):
             self.assertEqual(outcome.returncode, 2)
             self.assertIn(said, outcome.stderr)
 
+    def served(self, *arguments):
+        """The answer about pixel (160, 120) of the first map, and what the server wrote to standard error."""
+        process = subprocess.Popen([PROGRAM, *map(str, arguments), "--serve"], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        try:
+            address = ADDRESS.fullmatch(process.stdout.readline())
+            connection = http.client.HTTPConnection("127.0.0.1", int(address[1]), timeout=30)
+            connection.request("GET", address[2] + "probe?map=0&x=160&y=120")
+            answer = connection.getresponse().read().decode()
+            connection.close()
+        finally:
+            process.send_signal(signal.SIGINT)
+            _, said = process.communicate(timeout=30)
+        return answer, said
+
+    def test_a_map_without_camera_is_probed_by_a_camera_file(self):
+        bare, camera = self.folder / "bare.npy", self.folder / "camera.json"
+        fathom("convert", self.map, "-o", bare)
+        refused = subprocess.run([PROGRAM, bare, "--scene", SPOT, "--serve"], capture_output=True, text=True)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("carries no camera, so that no pixel of it can be probed; give it with --camera", refused.stderr)
+        answer, said = self.served(bare, "--camera", camera, "--scene", SPOT)
+        self.assertEqual(answer, fathom("probe", SPOT, "--camera", camera, "--pixel", "160,120"))
+        self.assertEqual(said, "")
+
+    def test_another_scene_is_reported(self):
+        answer, said = self.served(self.map, "--scene", DATA / "meshes/cube.obj")
+        note = f"map.exr was rendered from {SPOT}, which this scene does not contain: another scene?"
+        self.assertIn(note, answer.splitlines()[0])
+        self.assertIn(note, said)
+
 
 if __name__ == "__main__":
     PROGRAM = sys.argv.pop(1)
