@@ -176,16 +176,20 @@ std::string in_columns(const std::vector<std::vector<std::string>>& rows) {
 }
 
 std::string field_of_view(const Camera& camera) {
-  if (camera.projection.lens) return std::string(name_of(camera.projection.lens->model));
+  if (camera.projection.lens) return "";
   if (!is_perspective(camera.projection)) return std::string(name_of(camera.projection.model));
   return fmt::format("{:.2f} x {:.2f}", degrees_of(camera.width, camera.projection.fx),
                      degrees_of(camera.height, camera.projection.fy));
 }
 
+std::string lens_name(const Camera& camera) {
+  return camera.projection.lens ? std::string(name_of(camera.projection.lens->model)) : "";
+}
+
 /// A line for each camera, below a line of headings.
 std::string table_of(const std::vector<Camera>& cameras) {
   std::vector<std::vector<std::string>> rows{
-      {"number", "name", "size", "field of view", "eye", "looks along", "near, far"}};
+      {"number", "name", "size", "field of view", "lens", "eye", "looks along", "near, far"}};
   const auto vector = [](const std::array<double, 3>& v) {
     return fmt::format("({:.6g}, {:.6g}, {:.6g})", v[0], v[1], v[2]);
   };
@@ -193,7 +197,7 @@ std::string table_of(const std::vector<Camera>& cameras) {
     const LineOfSight sight = line_of_sight(camera);
     rows.push_back({std::to_string(rows.size() - 1), text::printable(camera.name),
                     fmt::format("{}x{}", camera.width, camera.height), field_of_view(camera),
-                    vector(sight.eye), vector(sight.forward),
+                    lens_name(camera), vector(sight.eye), vector(sight.forward),
                     fmt::format("{}, {}", camera.near, camera.far)});
   }
   return in_columns(rows);

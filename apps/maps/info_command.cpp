@@ -31,6 +31,7 @@ std::string info_of_meshes(const InfoArguments& arguments, const files::InputFil
   ReadOptions options = arguments.scene.read_options();
   options.hash = true;
   options.segments = true;
+  options.clouds = kind == FileKind::mesh;  // the answer says that it is a point cloud
   Warnings warnings;
   Scene scene = read_scene(input.bytes(), arguments.file, options, warnings);
   input.expect_unchanged();

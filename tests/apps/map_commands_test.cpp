@@ -148,7 +148,9 @@ TEST_F(MapCommands, InfoOfAPointCloud) {
   folder_.write("cloud.ply",
                 "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float "
                 "y\nproperty float z\nend_header\n0 1 2\n-3 4 0.5\n");
-  EXPECT_THAT(fathom({"info", "cloud.ply"}).out,
+  const Outcome text = fathom({"info", "cloud.ply"});
+  EXPECT_EQ(text.err, "");
+  EXPECT_THAT(text.out,
               HasSubstr("cloud.ply: a point cloud\n  vertices   2\n  faces      0\n  triangles  0\n"
                         "  bounds     (-3, 1, 0.5) to (0, 4, 2)\n"));
   const Json cloud = Json::parse(fathom({"info", "cloud.ply", "--json"}).out);
