@@ -101,8 +101,10 @@ void StorageOptions::add_to(Command& command) {
                  "opengl (x right, y up, z backward)");
   command.option("--dtype", "NAME", into(dtype, parse_dtype),
                  "Number type of an NPY or NPZ: float32 (default) or float64");
-  command.option("--channel-name", "NAME=AS", into(channel_names, parse_channel_names),
-                 "Rename channels in an EXR or NPZ, e.g. Z=Y for OpenCV, or Z=Y,distance=D");
+  command.option(
+      "--channel-name", "NAME=AS", into(channel_names, parse_channel_names),
+      "Rename channels in an EXR or NPZ, e.g. Z=Y,distance=D. OpenCV shows zeros for Z: give it "
+      "'--channels Z --channel-name Z=Y --background 0'");
 }
 
 void StorageOptions::add_beyond_to(Command& command) {
