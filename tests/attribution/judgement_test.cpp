@@ -173,6 +173,13 @@ TEST(Judgement, AnotherSceneIsCalledSo) {
   const Judgement other = judged(truth, wall, "gl-unorm24");
   EXPECT_EQ(kinds(other), std::vector<std::string>{"other-scene"});
   EXPECT_THAT(other.attribution.findings[0].text, testing::Not(HasSubstr("  ")));
+  EXPECT_THAT(other.attribution.findings[0].text, testing::Not(HasSubstr("values from 0 to 1")));
+  for (std::size_t i = 0; i < wall.depths.size(); ++i) wall.values[i] = wall.depths[i] *= 0.5;
+  const Judgement undecoded = judged(truth, wall, "gl-unorm24");
+  ASSERT_EQ(kinds(undecoded), std::vector<std::string>{"other-scene"});
+  EXPECT_THAT(undecoded.attribution.findings[0].text,
+              testing::EndsWith("; values from 0 to 1: rows of a depth buffer from the bottom, not "
+                                "decoded?"));
 }
 
 TEST(Judgement, AnotherSceneOfAnotherSizeHasTheSizes) {

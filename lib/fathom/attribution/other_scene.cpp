@@ -172,6 +172,18 @@ bool has_named_fault(const Attribution& found) {
                      [](const Finding& f) { return f.kind == "isolated-pixels"; });
 }
 
+/// Whether the map holds values from 0 to 1, as a depth buffer does, of a scene whose depths are
+/// greater.
+bool looks_undecoded(const Judgement& judged) {
+  bool is_within_one = true, is_scene_beyond = true;
+  for (std::size_t i = 0; i < judged.other.depths.size(); ++i) {
+    const double other = judged.other.depths[i];
+    is_within_one = is_within_one && (std::isinf(other) || (other >= 0 && other <= 1));
+    is_scene_beyond = is_scene_beyond && judged.truth->depths[i] > 1;
+  }
+  return is_within_one && is_scene_beyond;
+}
+
 std::string what_does_not_fit(const Judgement& judged) {
   const Surfaces s = surfaces_of(judged);
   if (s.in_either == 0 || s.unexplained == 0) return "";
@@ -183,8 +195,12 @@ std::string what_does_not_fit(const Judgement& judged) {
   }
   if (has_named_fault(judged.attribution) || s.unexplained * 10 < s.in_either * 9) return "";
   if (s.agreeing * 10 >= s.in_either * 9) return "";
-  return "neither outlines nor depths fit: expected the SCENE and the camera that the map was "
-         "drawn from, and its channel of depths";
+  std::string text =
+      "neither outlines nor depths fit: expected the SCENE and the camera that the map was drawn "
+      "from, and its channel of depths";
+  if (looks_undecoded(judged))
+    text += "; values from 0 to 1: rows of a depth buffer from the bottom, not decoded?";
+  return text;
 }
 
 }  // namespace
