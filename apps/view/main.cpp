@@ -219,10 +219,10 @@ int serve(const ViewArguments& arguments, std::vector<ViewedMap> maps, const Con
   const auto answer = [&](std::uint32_t map, std::uint32_t x, std::uint32_t y) -> std::string {
     if (map >= cameras.size() || x >= cameras[map].width || y >= cameras[map].height) return {};
     const Camera& camera = cameras[map];
-    const std::string answer = with_threads(options.threads, [&] {
+    const std::string text = with_threads(options.threads, [&] {
       return as_text({scene, camera, x, y, probe(scene, camera, x, y)});
     });
-    return notes[map].empty() ? answer : "note: " + notes[map] + "\n\n" + answer;
+    return notes[map].empty() ? text : "note: " + notes[map] + "\n\n" + text;
   };
   ProbeServer server(std::move(page), answer);
   print(server.address() + "\n");
