@@ -12,7 +12,6 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "apps/options/camera_options.h"
@@ -31,10 +30,12 @@
 #include "apps/view/probe_server.h"
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
+#include "fathom/files/source.h"
 #include "fathom/image/cryptomatte.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/map_formats.h"
 #include "fathom/reference/probe.h"
+#include "fathom/text/json_value.h"
 #include "fathom/text/printable.h"
 #include "fathom/threads/threads.h"
 
@@ -180,19 +181,30 @@ int write_and_open(const ViewArguments& arguments, const std::vector<ViewedMap>&
   return done;
 }
 
+/// The files that the text of a map lists; none where another program wrote another list.
+std::vector<Source> listed_sources(const std::string& list, const std::string& map) {
+  std::vector<Source> sources;
+  try {
+    const text::JsonDocument document(list, map);
+    for (const text::JsonValue& source : document.root().elements())
+      sources.push_back({source.at("file").string(), source.at("sha256").string(), ""});
+  } catch (const InputError&) {
+    return {};
+  }
+  return sources;
+}
+
 /// A note if the map was rendered from a file that is not among the files of the scene: its probes
 /// explain other triangles. Empty otherwise, and for a map that does not name its files.
 std::string note_of_another_scene(const ViewedMap& viewed, const Scene& scene) {
   const auto text = viewed.map.texts.find(sources_text);
   if (text == viewed.map.texts.end()) return {};
-  const auto sources = nlohmann::json::parse(text->second, nullptr, false);
-  if (!sources.is_array()) return {};
   std::vector<std::string> others;
-  for (const auto& source : sources) {
-    if (!source.is_object()) continue;
-    const std::string hash = source.value("sha256", ""), file = source.value("file", "");
-    if (std::ranges::find(scene.sources, hash, &Source::sha256) == scene.sources.end())
-      others.push_back(file);
+  for (const Source& source : listed_sources(text->second, viewed.name)) {
+    const bool is_known =
+        source.sha256.empty() ||
+        std::ranges::find(scene.sources, source.sha256, &Source::sha256) != scene.sources.end();
+    if (!is_known) others.push_back(source.path);
   }
   if (others.empty()) return {};
   return fmt::format("{} was rendered from {}, which this scene does not contain: another scene?",
