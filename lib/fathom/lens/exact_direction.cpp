@@ -31,9 +31,9 @@ std::array<DyadicInterval, 3> RationalDirection::enclosure(long bits) const {
 
 namespace {
 
-/// The bits of the first attempt at a sign, of a box that binary64 did not find, and of what the
-/// sums of a formula may lose.
-constexpr long first_bits = 128, box_bits = 56, spare_bits = 64;
+/// Of preimages under a stage: the bits of a box that binary64 did not find, and those that sums of
+/// polynomials may lose.
+constexpr long box_bits = 56, spare_bits = 64;
 
 BigInterval number(const Dyadic& x, long bits) {
   return {x, bits};
@@ -243,9 +243,6 @@ Sign PolynomialDirection::sign_of(const QuadraticForm& form) const {
 
 namespace {
 
-/// The bits of the arithmetic of a fisheye's box, and of what the sums of its formulas may lose.
-constexpr long bits_of_box = 72, bits_to_lose = 16;
-
 std::array<DyadicInterval, 3> enclosure_of(const AngleDirection::PlaneDirection& m, long bits) {
   return std::visit([bits](const auto& d) { return d.enclosure(bits); }, m);
 }
@@ -340,11 +337,6 @@ Sign AngleDirection::sign_of(const QuadraticForm& form) const {
   return is_zero(m_, form) ? Sign::zero : sign_of_nonzero(m_, form, 2 * first_bits);
 }
 
-std::optional<DirectionWords> AngleDirection::words() const {
-  constexpr long bits = 90;
-  return words_within(enclosure(bits));
-}
-
 std::array<DyadicInterval, 3> AngleDirection::enclosure(long bits) const {
   const auto [x, y, z] =
       Lifted(enclosure_of(m_, bits + bits_to_lose), bits + bits_to_lose).direction();
@@ -360,6 +352,7 @@ ExactDirection::ExactDirection(AngleDirection direction) : direction_(std::move(
 ExactDirection::ExactDirection(OneRootDirection direction) : direction_(std::move(direction)) {}
 
 ExactDirection::ExactDirection(NestedRootDirection direction) : direction_(std::move(direction)) {}
+
 ExactDirection::ExactDirection(TurnDirection direction) : direction_(std::move(direction)) {}
 
 const std::array<Interval, 3>& ExactDirection::box() const {
@@ -384,7 +377,15 @@ std::array<DyadicInterval, 3> ExactDirection::enclosure(long bits) const {
 
 std::optional<DirectionWords> ExactDirection::words() const {
   const StandardArithmetic standard;
-  return std::visit([](const auto& d) { return d.words(); }, direction_);
+  constexpr long bits = 90;
+  return std::visit(
+      [](const auto& d) -> std::optional<DirectionWords> {
+        if constexpr (requires { d.words(); })
+          return d.words();
+        else
+          return words_within(d.enclosure(bits));
+      },
+      direction_);
 }
 
 const ExactVector3* ExactDirection::rational() const {

@@ -7,8 +7,14 @@
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/exact_polynomial.h"
 
-/// Values of linear and quadratic forms in any arithmetic. Only for .cpp files of this module.
+/// Values of linear and quadratic forms in any arithmetic, and its first precisions. Only for .cpp
+/// files of this module.
 namespace fathom::lens {
+
+/// The bits of the first attempt at a sign.
+inline constexpr long first_bits = 128;
+/// The bits of the arithmetic of a box, and those that the sums of a direction's formula may lose.
+inline constexpr long bits_of_box = 72, bits_to_lose = 16;
 
 inline const std::array<Dyadic, 3>& coefficients_of(const ExactVector3& form) {
   return form;

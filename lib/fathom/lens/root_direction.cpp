@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "fathom/lens/form_values.h"
 #include "fathom/numeric/big_interval.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
@@ -112,9 +113,6 @@ std::optional<double> RootProfile::radius_at(double angle, double farthest) cons
 
 namespace {
 
-/// The bits of the arithmetic of a box, and of what the sums of the formula may lose.
-constexpr long bits_of_root_box = 72, bits_of_sums = 16;
-
 template <class Vector>
 std::array<DyadicInterval, 3> enclose_in_bits(const Vector& d, long bits) {
   const auto [x, y, z] =
@@ -143,7 +141,7 @@ NestedRootVector<Dyadic> scaled(NestedRootVector<Dyadic> d, long power) {
 /// Of the greatest component.
 template <class Vector>
 Vector scaled_to_about_one(Vector d) {
-  const auto [x, y, z] = enclose_in_bits(d, bits_of_root_box);
+  const auto [x, y, z] = enclose_in_bits(d, bits_of_box);
   return scaled(std::move(d), -std::max({size_of(x), size_of(y), size_of(z)}).top());
 }
 
@@ -217,7 +215,7 @@ Sign sign_at(const QuadraticForm& form, const NestedRootVector<Dyadic>& d) {
 
 template <class Vector>
 RootDirection<Vector>::RootDirection(Vector d) : d_(scaled_to_about_one(std::move(d))) {
-  const auto [x, y, z] = enclosure(bits_of_root_box);
+  const auto [x, y, z] = enclosure(bits_of_box);
   box_ = {enclose(x), enclose(y), enclose(z)};
 }
 
@@ -233,7 +231,7 @@ Sign RootDirection<Vector>::sign_of(const QuadraticForm& form) const {
 
 template <class Vector>
 std::array<DyadicInterval, 3> RootDirection<Vector>::enclosure(long bits) const {
-  for (long precision = bits + bits_of_sums;; precision *= 2) {
+  for (long precision = bits + bits_to_lose;; precision *= 2) {
     auto d = enclose_in_bits(d_, precision);
     const Dyadic aside = std::max(size_of(d[0]), size_of(d[1])).scaled(-bits);
     const auto is_within = [&d](std::size_t k, const Dyadic& width) {
@@ -242,12 +240,6 @@ std::array<DyadicInterval, 3> RootDirection<Vector>::enclosure(long bits) const 
     if (is_within(0, aside) && is_within(1, aside) && is_within(2, Dyadic(1.0).scaled(-bits)))
       return d;
   }
-}
-
-template <class Vector>
-std::optional<DirectionWords> RootDirection<Vector>::words() const {
-  constexpr long bits = 90;
-  return words_within(enclosure(bits));
 }
 
 template class RootDirection<RootVector<Dyadic>>;

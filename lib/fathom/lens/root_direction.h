@@ -6,7 +6,6 @@
 #include <variant>
 
 #include "fathom/camera/lens.h"
-#include "fathom/lens/direction_words.h"
 #include "fathom/lens/sample_plane.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/dyadic.h"
@@ -164,8 +163,6 @@ class RootDirection {
   /// Encloses the components of d, with a precision of about `bits` relative to 1, of x and y
   /// relative to the greater of them.
   [[nodiscard]] std::array<DyadicInterval, 3> enclosure(long bits) const;
-  /// d in double-words, from an enclosure.
-  [[nodiscard]] std::optional<DirectionWords> words() const;
   /// Binary64 intervals that contain d.
   [[nodiscard]] const std::array<Interval, 3>& box() const { return box_; }
 

@@ -8,8 +8,6 @@
 namespace fathom::lens {
 namespace {
 
-constexpr long first_bits = 128, bits_of_box = 72, bits_to_lose = 16;
-
 /// cos(2π·part/turn) from the nearest quarter of a turn: a cosine or a sine of at most 45°, whose
 /// relative precision does not suffer where it is small.
 BigInterval cosine(const Dyadic& part, const Dyadic& turn, long bits) {
@@ -67,11 +65,6 @@ std::array<DyadicInterval, 3> TurnDirection::enclosure(long bits) const {
         .ends();
   };
   return {enclosed(components_[0]), enclosed(components_[1]), enclosed(components_[2])};
-}
-
-std::optional<DirectionWords> TurnDirection::words() const {
-  constexpr long bits = 90;
-  return words_within(enclosure(bits));
 }
 
 Waves TurnDirection::waves_of(std::size_t component) const {

@@ -2,9 +2,7 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 
-#include "fathom/lens/direction_words.h"
 #include "fathom/lens/sample_plane.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/dyadic.h"
@@ -31,8 +29,6 @@ class TurnDirection {
   /// Encloses the components of d, each with a relative precision of about `bits`; a component
   /// that is 0 is a point.
   [[nodiscard]] std::array<DyadicInterval, 3> enclosure(long bits) const;
-  /// d in double-words, from an enclosure.
-  [[nodiscard]] std::optional<DirectionWords> words() const;
   /// Binary64 intervals that contain d.
   [[nodiscard]] const std::array<Interval, 3>& box() const { return box_; }
 

@@ -207,7 +207,6 @@ std::optional<WithoutRay> of_table(const DirectionTable& table) {
 /// Of a panorama: the columns of one row that have a ray within max_radius, as a number of pixels.
 class PanoramaRow {
  public:
-  /// `height` of the row: sin φ of an equirectangular panorama, tan φ of a cylinder.
   PanoramaRow(const Projection& projection, std::uint32_t width)
       : turn_(projection.fx), width_(width), centre_(principal_point(projection).x) {}
 

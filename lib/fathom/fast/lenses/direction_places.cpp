@@ -134,14 +134,19 @@ std::vector<DirectionModel::Sample> DirectionModel::fisheye_tile(std::uint32_t t
   });
 }
 
+std::optional<ApproximateDirection> DirectionModel::kept(const ApproximateDirection& direction,
+                                                         std::uint32_t column,
+                                                         std::uint32_t row) const {
+  const std::optional<bool> keeps = limit_.keeps(direction);
+  if (!keeps) return exactly_at(column, row);
+  return *keeps ? std::optional(direction) : std::nullopt;
+}
+
 std::optional<ApproximateDirection> DirectionModel::in_table(std::uint32_t column,
                                                              std::uint32_t row) const {
   const auto d = table_->at(column, row);
   if (!d) return std::nullopt;
-  const ApproximateDirection direction{*d, 0};
-  const std::optional<bool> keeps = limit_.keeps(direction);
-  if (!keeps) return exactly_at(column, row);
-  return *keeps ? std::optional(direction) : std::nullopt;
+  return kept({*d, 0}, column, row);
 }
 
 // With x_d and y_d that err by e, x² + y² errs by 2e(│x│ + │y│) + 2e², and by 2u of it in
@@ -160,10 +165,7 @@ std::optional<ApproximateDirection> DirectionModel::divided(std::uint32_t column
       (std::abs(k_) * of_squared + bend_rounding * (1 + std::abs(bend)) + underflow) * up;
   if (bend - of_z > 1) return std::nullopt;
   if (!(bend + of_z < 1)) return exactly_at(column, row);
-  const ApproximateDirection direction{{x, y, 1 + bend}, std::max(e, of_z)};
-  const std::optional<bool> keeps = limit_.keeps(direction);
-  if (!keeps) return exactly_at(column, row);
-  return *keeps ? std::optional(direction) : std::nullopt;
+  return kept({{x, y, 1 + bend}, std::max(e, of_z)}, column, row);
 }
 
 namespace {
@@ -228,9 +230,7 @@ std::optional<ApproximateDirection> DirectionModel::by_root(std::uint32_t column
     size = std::max(size, std::abs(value));
   }
   if (!(direction.error < size)) return exactly_at(column, row);
-  const std::optional<bool> keeps = limit_.keeps(direction);
-  if (!keeps) return exactly_at(column, row);
-  return *keeps ? std::optional(direction) : std::nullopt;
+  return kept(direction, column, row);
 }
 
 // An angle that errs by e moves sines and cosines by at most e. With errors of E and F of the
@@ -250,9 +250,7 @@ std::optional<ApproximateDirection> DirectionModel::turned(std::uint32_t column,
     const double of_y = (std::numbers::pi * e + turn_rounding) * up;
     direction = {{level * sine, down, level * cosine}, (of_x + of_y + of_x * of_y + u) * up};
   }
-  const std::optional<bool> keeps = limit_.keeps(direction);
-  if (!keeps) return exactly_at(column, row);
-  return *keeps ? std::optional(direction) : std::nullopt;
+  return kept(direction, column, row);
 }
 
 namespace {

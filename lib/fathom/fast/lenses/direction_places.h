@@ -63,6 +63,11 @@ class DirectionModel {
                                                             std::uint32_t row) const;
   [[nodiscard]] std::optional<ApproximateDirection> turned(std::uint32_t column,
                                                            std::uint32_t row) const;
+  /// The direction if it lies within max_radius; from the exact direction if its error leaves that
+  /// open.
+  [[nodiscard]] std::optional<ApproximateDirection> kept(const ApproximateDirection& direction,
+                                                         std::uint32_t column,
+                                                         std::uint32_t row) const;
   [[nodiscard]] std::vector<Sample> fisheye_tile(std::uint32_t tile) const;
   template <class DirectionAt>
   [[nodiscard]] std::vector<Sample> collected(std::uint32_t tile, const DirectionAt& at) const;
