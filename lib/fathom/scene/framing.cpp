@@ -146,10 +146,6 @@ Camera place(const Box& box, const Matrix3& R, const LensChoice& lens, double di
   return camera;
 }
 
-}  // namespace
-
-namespace {
-
 /// Framing computes for the pinhole: a panorama has no image of the scene's corners.
 LensChoice without_panorama(LensChoice lens) {
   if (lens.distortion && is_panorama(lens.distortion->model)) lens.distortion.reset();
@@ -191,8 +187,9 @@ std::vector<Camera> orbit(const View& first, std::uint32_t count, const WorldBou
       if (progress) progress(0.25 + 0.75 * static_cast<double>(path.size()) / count);
     }
     if (path.size() != count) continue;
-    if (lens.distortion)
-      for (Camera& camera : path) camera.projection = with_lens(lens).projection;
+    if (!lens.distortion) return path;
+    const Projection bent = with_lens(lens).projection;
+    for (Camera& camera : path) camera.projection = bent;
     return path;
   }
   throw InputError("no camera with finite numbers sees the whole scene");
