@@ -60,22 +60,20 @@ std::optional<StereoRig> rig_of(const ConvertArguments& arguments) {
 /// fewer, maps find theirs by name.
 std::vector<Camera> cameras_in_file(const ConvertArguments& arguments, const Console& console) {
   if (arguments.camera.empty()) return {};
-  std::vector<Camera> cameras = read_camera_file(arguments.camera, console);
-  if (cameras.size() == arguments.maps.size()) return cameras;
-  std::vector<Camera> of_maps;
-  for (const std::string& map : arguments.maps) of_maps.push_back(camera_called_as(map, cameras));
-  return of_maps;
+  return cameras_of_maps(arguments.maps, read_camera_file(arguments.camera, console));
+}
+
+/// The camera that a map carries.
+Camera own_camera(const DepthMap& map, const std::string& name) {
+  const std::optional<Camera> camera = camera_of(map, name);
+  if (!camera) throw InputError(name + ": carries no camera; expected --camera FILE");
+  return *camera;
 }
 
 /// The camera of the file, of the size of the map, or else the map's own.
 Camera camera_for(const DepthMap& map, const ConvertArguments& arguments,
                   const std::vector<Camera>& in_file, std::size_t number) {
-  const std::string& name = arguments.maps[number];
-  if (in_file.empty()) {
-    const std::optional<Camera> camera = camera_of(map, name);
-    if (!camera) throw InputError(name + ": carries no camera; expected --camera FILE");
-    return *camera;
-  }
+  if (in_file.empty()) return own_camera(map, arguments.maps[number]);
   const Camera& camera = in_file[number];
   require_size_of(map, camera, arguments.camera);
   return camera;
@@ -140,7 +138,7 @@ DepthMap converted(DepthMap map, const ConvertArguments& arguments) {
   const DepthQuantity from = arguments.from.value_or(DepthQuantity::planar_depth);
   // PFM, PNG and NPY do not name their channel: the user names the quantity.
   if (map.channels.size() == 1 && map.texts.empty()) map.channels[0].name = name_of(from);
-  return convert_quantity(map, from, *arguments.to, camera_for(map, arguments, {}, 0),
+  return convert_quantity(map, from, *arguments.to, own_camera(map, arguments.maps.front()),
                           rig_of(arguments), arguments.storage.background);
 }
 
@@ -212,7 +210,7 @@ WriteOptions write_options(const DepthMap& map, const ConvertArguments& argument
                            MapFormat format) {
   WriteOptions options = arguments.storage.write_options(0);
   if (format != MapFormat::tiff) return options;
-  options.camera = camera_for(map, arguments, {}, 0);
+  options.camera = own_camera(map, arguments.maps.front());
   require_place_in_world(*options.camera, arguments.output);
   return options;
 }

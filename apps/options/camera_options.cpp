@@ -308,6 +308,15 @@ Camera camera_called_as(const std::string& map, const std::vector<Camera>& camer
       found.empty() ? "none is" : std::to_string(found.size()) + " are", text::printable(map)));
 }
 
+std::vector<Camera> cameras_of_maps(const std::vector<std::string>& maps,
+                                    const std::vector<Camera>& cameras) {
+  if (cameras.size() == maps.size()) return cameras;
+  std::vector<Camera> found;
+  found.reserve(maps.size());
+  for (const std::string& map : maps) found.push_back(camera_called_as(map, cameras));
+  return found;
+}
+
 void require_size_of(const DepthMap& map, const Camera& camera, const std::string& file) {
   if (camera.width == map.width && camera.height == map.height) return;
   throw InputError(fmt::format("{}: a camera of {}x{} pixels, but the map has {}x{}", file,

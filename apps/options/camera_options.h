@@ -92,6 +92,12 @@ std::vector<Camera> read_cameras_with_lenses(const std::string& file, const Read
 /// Fails    UsageError unless there is exactly one.
 Camera camera_called_as(const std::string& map, const std::vector<Camera>& cameras);
 
+/// One of the cameras for each map: in order if there are as many, or else the camera that is
+/// called as the map.
+/// Fails    UsageError of camera_called_as().
+std::vector<Camera> cameras_of_maps(const std::vector<std::string>& maps,
+                                    const std::vector<Camera>& cameras);
+
 /// Refuses a camera of another size than the map. `file` is the camera's file for messages.
 /// Fails    InputError.
 void require_size_of(const DepthMap& map, const Camera& camera, const std::string& file);

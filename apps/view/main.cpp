@@ -132,15 +132,15 @@ std::vector<ViewedMap> read_viewed(const std::string& file) {
 void take_cameras(std::vector<ViewedMap>& maps, const ViewArguments& arguments,
                   const Console& console) {
   if (arguments.camera.empty()) return;
-  const std::vector<Camera> cameras =
+  std::vector<Camera> cameras =
       read_cameras_with_lenses(arguments.camera, arguments.reading.limits, console);
+  if (cameras.size() == 1) cameras.resize(maps.size(), Camera(cameras.front()));
+  std::vector<std::string> names;
+  for (const ViewedMap& viewed : maps) names.push_back(viewed.name);
+  cameras = cameras_of_maps(names, cameras);
   for (std::size_t k = 0; k < maps.size(); ++k) {
-    const bool is_for_all = cameras.size() == 1;
-    Camera camera = is_for_all || cameras.size() == maps.size()
-                        ? cameras[is_for_all ? 0 : k]
-                        : camera_called_as(maps[k].name, cameras);
-    require_size_of(maps[k].map, camera, arguments.camera);
-    maps[k].camera = std::move(camera);
+    require_size_of(maps[k].map, cameras[k], arguments.camera);
+    maps[k].camera = std::move(cameras[k]);
   }
 }
 
