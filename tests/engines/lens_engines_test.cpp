@@ -66,19 +66,11 @@ std::string name_of_case(const ::testing::TestParamInfo<std::tuple<LensModel, Ki
   return std::string(name_of(model)) + '_' + kinds[static_cast<std::size_t>(kind)];
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Fast, LensAdversaries,
-    ::testing::Combine(
-        ::testing::Values(
-            LensModel::simple_radial, LensModel::radial, LensModel::opencv, LensModel::full_opencv,
-            LensModel::opencv_14, LensModel::brown, LensModel::simple_division, LensModel::division,
-            LensModel::fisheye_stereographic, LensModel::simple_fisheye, LensModel::fisheye,
-            LensModel::simple_radial_fisheye, LensModel::radial_fisheye, LensModel::opencv_fisheye,
-            LensModel::thin_prism_fisheye, LensModel::fisheye_orthographic,
-            LensModel::fisheye_equisolid, LensModel::ucm, LensModel::eucm, LensModel::double_sphere,
-            LensModel::omni, LensModel::equirectangular, LensModel::cylindrical),
-        ::testing::Values(Kind::few_bits, Kind::neighbours, Kind::huge, Kind::tiny)),
-    name_of_case);
+INSTANTIATE_TEST_SUITE_P(Fast, LensAdversaries,
+                         ::testing::Combine(::testing::ValuesIn(testing::bending_models()),
+                                            ::testing::Values(Kind::few_bits, Kind::neighbours,
+                                                              Kind::huge, Kind::tiny)),
+                         name_of_case);
 
 /// A lens that is used far beyond where it folds, in most of them.
 struct NamedLens {

@@ -68,37 +68,13 @@ TEST_P(LensMaps, EveryChannelOfEveryPixelAgreesWithRationalRays) {
   }
 }
 
-constexpr std::array models{LensModel::simple_radial,
-                            LensModel::radial,
-                            LensModel::opencv,
-                            LensModel::full_opencv,
-                            LensModel::opencv_14,
-                            LensModel::brown,
-                            LensModel::division,
-                            LensModel::simple_division,
-                            LensModel::fisheye_stereographic,
-                            LensModel::simple_fisheye,
-                            LensModel::fisheye,
-                            LensModel::simple_radial_fisheye,
-                            LensModel::radial_fisheye,
-                            LensModel::opencv_fisheye,
-                            LensModel::thin_prism_fisheye,
-                            LensModel::fisheye_orthographic,
-                            LensModel::fisheye_equisolid,
-                            LensModel::ucm,
-                            LensModel::eucm,
-                            LensModel::double_sphere,
-                            LensModel::omni,
-                            LensModel::equirectangular,
-                            LensModel::cylindrical};
-
 std::string name_of_case(const ::testing::TestParamInfo<std::tuple<LensModel, Kind>>& info) {
   const auto [model, kind] = info.param;
   return std::string(name_of(model)) + (kind == Kind::few_bits ? "_few_bits" : "_neighbours");
 }
 
 INSTANTIATE_TEST_SUITE_P(RandomScenes, LensMaps,
-                         ::testing::Combine(::testing::ValuesIn(models),
+                         ::testing::Combine(::testing::ValuesIn(testing::bending_models()),
                                             ::testing::Values(Kind::few_bits, Kind::neighbours)),
                          name_of_case);
 

@@ -4,11 +4,24 @@
 #include <cmath>
 #include <optional>
 #include <random>
+#include <vector>
 
 #include "tests/inputs/random_scenes.h"
 #include "tests/oracle/lens_rays.h"
 
 namespace fathom::testing {
+
+/// The models of the table that may bend rays: all but the pinholes and TABLE.
+inline std::vector<LensModel> bending_models() {
+  std::vector<LensModel> models;
+  for (const LensModelEntry& entry : lens_models()) {
+    const LensModel model = entry.model;
+    if (model != LensModel::simple_pinhole && model != LensModel::pinhole &&
+        model != LensModel::table)
+      models.push_back(model);
+  }
+  return models;
+}
 
 struct LensCase {
   Case view;
