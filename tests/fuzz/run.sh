@@ -38,6 +38,7 @@ fuzz() {
   echo "$status" >"$results/$name.status"
 }
 
+# Whether a fuzzer failed stands in its NAME.status, which is read below; wait also fails if the last one has just ended.
 for name in "${names[@]}"; do
   while (($(jobs -pr | wc -l) >= $(nproc))); do wait -n || true; done
   echo "== fuzz_$name"
