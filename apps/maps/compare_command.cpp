@@ -192,8 +192,8 @@ std::string as_text(const Comparison& comparison) {
   std::string text;
   // Files list channels by name, A before Z.
   std::vector<ChannelComparison> channels = maps.channels;
-  std::ranges::stable_partition(channels,
-                                [](const ChannelComparison& c) { return c.truth_channel != "A"; });
+  std::stable_partition(channels.begin(), channels.end(),
+                        [](const ChannelComparison& c) { return c.truth_channel != "A"; });
   for (const ChannelComparison& channel : channels) text += to_text(channel);
   if (!maps.only_in_truth.empty()) {
     text +=
