@@ -88,6 +88,7 @@ std::string name_of(RayEngine engine) {
 
 std::vector<std::string> ray_engine_names() {
   std::vector<std::string> names;
+  names.reserve(engine_names.size());
   for (const auto& [engine, name] : engine_names) names.emplace_back(name);
   return names;
 }
