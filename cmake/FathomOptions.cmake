@@ -12,6 +12,7 @@ include(GNUInstallDirs)
 # checked calls of the C library, tables of addresses that are read-only before main() starts, checked
 # indices of the standard library. Sanitizers see more and have functions of their own in its place.
 option(FATHOM_HARDENING "Compile and link with the compiler's protections" ON)
+set(FATHOM_UNCHECKED "_(numeric|geometry|mesh|mesh_files|triangle|fast|area|unchecked_headers)$")
 function(fathom_harden target)
   if(NOT FATHOM_HARDENING OR FATHOM_SANITIZERS)
     return()
@@ -22,7 +23,7 @@ function(fathom_harden target)
   endif()
   # Where all time is spent, only functions with arrays have canaries, and indices go unchecked: with them,
   # reading takes 3 % longer, and a render with areas 2 %.
-  if(target MATCHES "_(numeric|geometry|mesh|mesh_files|triangle|fast|area)$")
+  if(target MATCHES "${FATHOM_UNCHECKED}")
     target_compile_options(${target} PRIVATE -fstack-protector)
   else()
     target_compile_options(${target} PRIVATE -fstack-protector-strong)
@@ -32,6 +33,38 @@ function(fathom_harden target)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE>
                                            $<$<NOT:$<CONFIG:Debug>>:-D_FORTIFY_SOURCE=2>)
   target_link_options(${target} PRIVATE -Wl,-z,relro,-z,now)
+endfunction()
+
+# The headers of the standard library that nearly all sources include, compiled once for each set of options: for the
+# libraries of this folder and its subfolders, and for those whose indices go unchecked.
+#   fathom_precompiled_headers(PREFIX)
+function(fathom_precompiled_headers prefix)
+  foreach(kind headers unchecked_headers)
+    set(target ${prefix}_${kind})
+    file(CONFIGURE OUTPUT ${target}.cpp CONTENT "// Carries precompiled headers.\n")
+    add_library(${target} OBJECT "${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp")
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    target_precompile_headers(${target} PRIVATE
+      <algorithm> <array> <bit> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory> <optional> <span>
+      <string> <string_view> <utility> <variant> <vector>)
+    fathom_target_options(${target})
+  endforeach()
+  set(FATHOM_PRECOMPILED ${prefix} PARENT_SCOPE)
+endfunction()
+
+# Lets a library use them. Without unity builds, which tools that are not GCC ask for, each source reads its own headers.
+function(fathom_precompile target)
+  get_target_property(type ${target} TYPE)
+  get_target_property(own ${target} PRECOMPILE_HEADERS)
+  get_target_property(reused ${target} PRECOMPILE_HEADERS_REUSE_FROM)
+  if(NOT FATHOM_UNITY OR NOT FATHOM_PRECOMPILED OR own OR reused OR NOT type MATCHES "STATIC|OBJECT")
+    return()
+  endif()
+  if(target MATCHES "${FATHOM_UNCHECKED}")
+    target_precompile_headers(${target} REUSE_FROM ${FATHOM_PRECOMPILED}_unchecked_headers)
+  else()
+    target_precompile_headers(${target} REUSE_FROM ${FATHOM_PRECOMPILED}_headers)
+  endif()
 endfunction()
 
 function(fathom_target_options target)
@@ -45,11 +78,13 @@ function(fathom_target_options target)
     target_compile_options(${target} PRIVATE -Wno-restrict)
   endif()
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_options(${target} PRIVATE -fno-tree-slp-vectorize)
+    # -fpch-preprocess: or else ccache passes over what uses precompiled headers.
+    target_compile_options(${target} PRIVATE -fno-tree-slp-vectorize -fpch-preprocess)
   endif()
   # Unity builds stay for the user's first build: a few large compilations read the headers of the standard library,
   # Eigen and CGAL once instead of up to eight times. Their price: names in anonymous namespaces are unique in a target.
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${FATHOM_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  fathom_precompile(${target})
   if(FATHOM_UNITY AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     # It would complain of names of the other sources; GCC sees what is shadowed within one.
     target_compile_options(${target} PRIVATE -Wno-shadow)
