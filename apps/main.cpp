@@ -14,6 +14,20 @@ namespace {
 
 std::vector<Companion> companions() {
   return {
+      {"visible", "fathom-surfaces",
+       "Measure how much of each triangle and object is visible, exactly"},
+      {"areas", "fathom-surfaces",
+       "Measure the areas that a sun, a lamp or a camera sees, exactly, without pixels"},
+      {"sun", "fathom-surfaces", "Print directions towards the sun, for areas"},
+      {"draw", "fathom-surfaces",
+       "Draw the visible edges as SVG or PDF, with exact hidden lines"},
+      {"evaluate", "fathom-surfaces",
+       "Measure a reconstructed mesh or point cloud against the true one: Depth L1, accuracy, "
+       "completeness"},
+      {"coplanar", "fathom-surfaces",
+       "Find visible surfaces that coincide or nearly coincide, where z-buffers fight"},
+      {"cast", "fathom-surfaces", "Find the triangles that rays meet, exactly"},
+      {"sees", "fathom-surfaces", "Decide which points see each other, exactly"},
       {"clip", "fathom-textbook", "Clip polygons and segments given as JSON lines"},
       {"scan", "fathom-textbook", "Rasterize lines, polygons and triangles given as JSON lines"},
       {"pipeline", "fathom-textbook",
@@ -43,9 +57,8 @@ std::vector<AddCommand> commands(const std::vector<std::string>& arguments) {
   const auto add_render_command = [arguments](Command& program) {
     add_render(program, render_exactly, by_textbook(arguments));
   };
-  return {add_render_command, add_probe,    add_info,    add_preview, add_compare, add_convert,
-          add_camera,         add_dataset,  add_visible, add_areas,   add_sun,     add_draw,
-          add_evaluate,       add_coplanar, add_cast,    add_sees,    add_depth};
+  return {add_render_command, add_probe,  add_info,    add_preview, add_compare,
+          add_convert,        add_camera, add_dataset, add_depth};
 }
 
 }  // namespace

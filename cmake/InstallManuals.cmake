@@ -16,8 +16,10 @@ if(older)
   file(REMOVE ${older})
 endif()
 execute_process(COMMAND "${PROGRAM}" help --man --out "${pages}" COMMAND_ERROR_IS_FATAL ANY)
-# It has several commands, each with a page of its own.
-file(WRITE "${pages}/fathom-textbook.1" ".so man1/fathom.1\n")
+# They have several commands, each with a page of its own.
+foreach(program surfaces textbook)
+  file(WRITE "${pages}/fathom-${program}.1" ".so man1/fathom.1\n")
+endforeach()
 find_program(GZIP_PROGRAM gzip)
 if(GZIP_PROGRAM)
   file(GLOB made "${pages}/fathom.1" "${pages}/fathom-*.1")
