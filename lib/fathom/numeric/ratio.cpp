@@ -48,7 +48,7 @@ std::string to_fraction(const Ratio& x) {
   const Fraction f = in_lowest_terms(x);
   std::string text = x.sign() == Sign::negative ? "-" : "";
   text += to_string(f.numerator);
-  if (mpz_cmp_ui(f.denominator.get(), 1) != 0) text += "/" + to_string(f.denominator);
+  if (mpz_cmp_ui(f.denominator.get(), 1) != 0) text.append("/").append(to_string(f.denominator));
   return text;
 }
 
@@ -84,7 +84,7 @@ std::string to_decimal(const Ratio& x, int digits) {
     text = to_string(code);
     if (text.size() <= static_cast<std::size_t>(digits)) break;
   }
-  if (digits > 1) text.insert(1, ".");
+  if (digits > 1) text.insert(1, 1, '.');
   return (x.sign() == Sign::negative ? "-" : "") + text + "e" + std::to_string(exponent);
 }
 
