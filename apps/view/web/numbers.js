@@ -54,6 +54,8 @@ export function counted(count, word) {
   return count.toLocaleString("en-GB") + " " + word + (count === 1 ? "" : "s");
 }
 
+/// As percentage() of lib/fathom/text/percentage.h.
 export function percentage(part, whole) {
-  return (100 * part / whole).toFixed(part && part < whole / 1000 ? 3 : 1) + " %";
+  const smaller = 100 * Math.min(part, whole - part) / whole;
+  return (100 * part / whole).toFixed(smaller === 0 ? 0 : smaller < 0.1 ? -Math.floor(Math.log10(smaller)) : 1) + " %";
 }

@@ -17,6 +17,7 @@
 #include "fathom/image/pictures/legend.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/text/percentage.h"
 
 namespace fathom::image {
 namespace {
@@ -43,11 +44,9 @@ std::uint32_t reach_of_squares(const RgbImage& picture, std::size_t wrong) {
   return is_seen ? 0 : std::max(2U, side / reduced_from);
 }
 
-std::string share_text(const char* what, std::size_t part, std::size_t whole) {
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "%s: %zu (%.3g %%)", what, part,
-                100 * static_cast<double>(part) / static_cast<double>(whole));
-  return text.data();
+/// "wrong: 7 (0.3 %)"
+std::string share_text(const std::string& what, std::size_t part, std::size_t whole) {
+  return what + ": " + std::to_string(part) + " (" + text::percentage(part, whole) + ")";
 }
 
 /// Draws the channel Zfight: the pixels where the wrong surface wins stand out from neutral
@@ -118,13 +117,6 @@ std::string title_of(const DepthMap& map, const ImageChannel& channel) {
   return text;
 }
 
-std::string percentage(std::uint64_t part, std::uint64_t whole) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), " (%.1f %%)",
-                100 * static_cast<double>(part) / static_cast<double>(whole));
-  return text.data();
-}
-
 /// Legend entries for the pixels that are not plain values, if there are any.
 class Specials {
  public:
@@ -137,7 +129,8 @@ class Specials {
     for (const char* what : {"no surface", "none", "+∞", "−∞", "not a number"})
       if (const auto found = counts_.find(what); found != counts_.end())
         sheet.entries.push_back(
-            {found->second.second, what + percentage(found->second.first, pixels)});
+            {found->second.second,
+             std::string(what) + " (" + text::percentage(found->second.first, pixels) + ")"});
   }
 
  private:
