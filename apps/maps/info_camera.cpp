@@ -1,15 +1,19 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <numeric>
+#include <optional>
 
 #include "apps/maps/info.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/lens/preimages.h"
 #include "fathom/lens/without_ray.h"
+#include "fathom/text/percentage.h"
 #include "fathom/text/parse_json.h"
 #include "fathom/text/printable.h"
 
@@ -37,9 +41,83 @@ double degrees_of(double extent, double focal) {
   return 2 * std::atan(extent / (2 * std::abs(focal))) * 180 / std::numbers::pi;
 }
 
-/// Whether width, height and focal lengths give it.
-bool has_field_of_view(const Projection& projection) {
-  return is_perspective(projection) && !bends_rays(projection);
+const DirectionTable* directions_of(const Projection& projection) {
+  return projection.lens ? projection.lens->directions.get() : nullptr;
+}
+
+/// The rays of a lens along a line of its image.
+class LineOfRays {
+ public:
+  LineOfRays(const lens::Preimages& preimages, const ImagePoint& first, const ImagePoint& last)
+      : preimages_(preimages), first_(first), last_(last) {}
+
+  /// The angle through which the ray turns along the line, in radians, as far as there are rays.
+  [[nodiscard]] double angle() const {
+    constexpr int parts = 64;
+    double sum = 0;
+    for (int i = 0; i < parts; ++i)
+      sum += angle_of_part(static_cast<double>(i) / parts, (i + 1.0) / parts);
+    return sum;
+  }
+
+ private:
+  using Ray = std::array<double, 3>;
+
+  [[nodiscard]] std::optional<Ray> ray_at(double place) const {
+    const auto direction =
+        preimages_.of({std::lerp(first_.u, last_.u, place), std::lerp(first_.v, last_.v, place)});
+    if (!direction) return std::nullopt;
+    Ray ray{};
+    std::ranges::transform(direction->box(), ray.begin(),
+                           [](const Interval& i) { return std::midpoint(i.lower, i.upper); });
+    return std::ranges::all_of(ray, [](double x) { return std::isfinite(x); }) ? std::optional(ray)
+                                                                               : std::nullopt;
+  }
+
+  static double angle_between(const Ray& a, const Ray& b) {
+    const double sine =
+        std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+    return std::atan2(sine, a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+  }
+
+  /// Where the lens ends within the part, its end is found in steps.
+  [[nodiscard]] double angle_of_part(double begin, double end) const {
+    std::optional<Ray> first = ray_at(begin), last = ray_at(end);
+    if (!first && !last) return 0;
+    if (!first) {
+      std::swap(begin, end);
+      std::swap(first, last);
+    }
+    if (last) return angle_between(*first, *last);
+    last = first;
+    for (int step = 0; step < 40; ++step) {
+      const double middle = std::midpoint(begin, end);
+      const std::optional<Ray> ray = ray_at(middle);
+      (ray ? begin : end) = middle;
+      if (ray) last = ray;
+    }
+    return angle_between(*first, *last);
+  }
+
+  const lens::Preimages& preimages_;
+  ImagePoint first_, last_;
+};
+
+/// The horizontal and the vertical field of view in degrees; of a lens, along the middle row and
+/// column. Nullopt of parallel rays and of a table, which has no rays between its pixels.
+std::optional<std::array<double, 2>> field_of_view(const Camera& camera) {
+  const Projection& projection = camera.projection;
+  if (!is_perspective(projection) || directions_of(projection)) return std::nullopt;
+  const double width = camera.width, height = camera.height;
+  if (!bends_rays(projection))
+    return std::array{degrees_of(width, projection.fx), degrees_of(height, projection.fy)};
+  const lens::Preimages preimages(projection, *projection.lens);
+  const auto degrees_along = [&](const ImagePoint& first, const ImagePoint& last) {
+    const double degrees = LineOfRays(preimages, first, last).angle() * 180 / std::numbers::pi;
+    return std::round(1e6 * degrees) / 1e6;  // further digits depend on the processor
+  };
+  return std::array{degrees_along({0, height / 2}, {width, height / 2}),
+                    degrees_along({width / 2, 0}, {width / 2, height})};
 }
 
 /// Q of the specification, section 2.
@@ -51,10 +129,6 @@ double disc_of(const Projection& projection) {
 double share_without_ray(const Camera& camera) {
   const auto found = lens::find_samples_without_ray(camera.projection, camera.width, camera.height);
   return found ? found->share : 0;
-}
-
-const DirectionTable* directions_of(const Projection& projection) {
-  return projection.lens ? projection.lens->directions.get() : nullptr;
 }
 
 /// The pixels of a table that have no ray. Counting them takes a look at every pixel.
@@ -71,10 +145,7 @@ Json describe(const Camera& camera) {
   const LineOfSight sight = line_of_sight(camera);
   answer["eye"] = sight.eye;
   answer["forward"] = sight.forward;
-  if (has_field_of_view(camera.projection)) {
-    answer["fov_degrees"] = {degrees_of(camera.width, camera.projection.fx),
-                             degrees_of(camera.height, camera.projection.fy)};
-  }
+  if (const auto degrees = field_of_view(camera)) answer["fov_degrees"] = *degrees;
   if (const DirectionTable* const table = directions_of(camera.projection)) {
     answer["share_without_ray"] = PixelsWithoutRay(*table).share();
   } else if (camera.projection.lens) {
@@ -96,8 +167,8 @@ std::string describe_lens(const Camera& camera) {
     lines += fmt::format("\n    folds         beyond x^2 + y^2 = {} on the plane z = 1", disc);
   const double share = share_without_ray(camera);
   lines += share == 0 ? "\n    has rays      everywhere"
-                      : fmt::format("\n    has rays      except at about {:.2f} % of the image",
-                                    100 * share);
+                      : fmt::format("\n    has rays      except at about {} of the image",
+                                    text::percentage(share));
   if (std::isfinite(lens.max_radius)) lines += fmt::format(", max_radius {}", lens.max_radius);
   return lines + "\n";
 }
@@ -108,9 +179,9 @@ std::string describe_table(const Lens& lens) {
   const PixelsWithoutRay without_ray(table);
   std::string lines = fmt::format(
       "    lens          {}, {}x{} directions from {}\n    sha256        {}\n"
-      "    has rays      except at {} of {} pixels ({:.2f} %)",
+      "    has rays      except at {} of {} pixels ({})",
       name_of(lens.model), table.width(), table.height(), text::printable(table.source().path),
-      table.sha256(), without_ray.count, without_ray.all, 100 * without_ray.share());
+      table.sha256(), without_ray.count, without_ray.all, text::percentage(without_ray.share()));
   if (std::isfinite(lens.max_radius)) lines += fmt::format(", max_radius {}", lens.max_radius);
   return lines + "\n";
 }
@@ -143,10 +214,9 @@ std::string describe_as_text(const Camera& camera) {
   if (!camera.name.empty())
     lines += fmt::format("    name          {}\n", text::printable(camera.name));
   lines += describe_projection(camera);
-  if (has_field_of_view(camera.projection)) {
-    lines += fmt::format("    field of view {:.4f} x {:.4f} degrees\n",
-                         degrees_of(camera.width, camera.projection.fx),
-                         degrees_of(camera.height, camera.projection.fy));
+  if (const auto degrees = field_of_view(camera)) {
+    lines +=
+        fmt::format("    field of view {:.4f} x {:.4f} degrees\n", (*degrees)[0], (*degrees)[1]);
   }
   const auto vector = [](const std::array<double, 3>& v) {
     return fmt::format("({}, {}, {})", v[0], v[1], v[2]);
@@ -175,11 +245,11 @@ std::string in_columns(const std::vector<std::vector<std::string>>& rows) {
   return text;
 }
 
-std::string field_of_view(const Camera& camera) {
-  if (camera.projection.lens) return "";
+/// In degrees, or "orthographic".
+std::string field_of_view_text(const Camera& camera) {
   if (!is_perspective(camera.projection)) return std::string(name_of(camera.projection.model));
-  return fmt::format("{:.2f} x {:.2f}", degrees_of(camera.width, camera.projection.fx),
-                     degrees_of(camera.height, camera.projection.fy));
+  const auto degrees = field_of_view(camera);
+  return degrees ? fmt::format("{:.2f} x {:.2f}", (*degrees)[0], (*degrees)[1]) : "";
 }
 
 std::string lens_name(const Camera& camera) {
@@ -196,7 +266,7 @@ std::string table_of(const std::vector<Camera>& cameras) {
   for (const Camera& camera : cameras) {
     const LineOfSight sight = line_of_sight(camera);
     rows.push_back({std::to_string(rows.size() - 1), text::printable(camera.name),
-                    fmt::format("{}x{}", camera.width, camera.height), field_of_view(camera),
+                    fmt::format("{}x{}", camera.width, camera.height), field_of_view_text(camera),
                     lens_name(camera), vector(sight.eye), vector(sight.forward),
                     fmt::format("{}, {}", camera.near, camera.far)});
   }
