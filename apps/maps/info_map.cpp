@@ -11,6 +11,8 @@
 #include "apps/maps/info.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/cryptomatte.h"
 #include "fathom/image/surface.h"
 #include "fathom/text/parse_json.h"
@@ -111,6 +113,17 @@ Json as_json(const std::string& value) {
   return value;
 }
 
+/// A text of the map; a camera with the digits of camera files, which are fewer.
+std::string shown_text(const DepthMap& map, const std::string& name, const std::string& value) {
+  if (name != camera_text) return value;
+  try {
+    const std::optional<Camera> camera = camera_of(map, name);
+    return camera ? to_json(*camera) : value;
+  } catch (const InputError&) {
+    return value;
+  }
+}
+
 /// A text of several lines, indented so that no line looks like a line of this program.
 std::string indented(const std::string& value) {
   std::string text;
@@ -195,7 +208,8 @@ std::string rest_as_text(const DepthMap& map) {
   text += name_line("objects", map.object_names);
   for (const auto& [channel, names] : map.tables) text += name_line(channel + "s", names);
   for (const auto& [name, value] : map.texts) {
-    text += fmt::format("  {}: {}\n", text::printable(name), indented(value));
+    text +=
+        fmt::format("  {}: {}\n", text::printable(name), indented(shown_text(map, name, value)));
   }
   return text;
 }

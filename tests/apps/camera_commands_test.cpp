@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "run_program.h"
 #include "sample_files.h"
@@ -311,6 +312,40 @@ TEST_F(CameraCommands, MapsHaveTheNamesOfTheirImages) {
             "  number  name        size   field of view  eye         looks along  near, far\n"
             "  0       b.jpg       16x12  77.32 x 61.93  (0, 0, -4)  (0, 0, 1)    0, inf\n"
             "  1       left/a.jpg  16x12  77.32 x 61.93  (0, 0, -3)  (0, 0, 1)    0, inf\n");
+}
+
+// By hand: 0.9 = 1 − 0.1·1³ is the image of 45°; a fisheye has 1 radian for each f pixels, up to
+// 180° from its axis.
+TEST_F(CameraCommands, LensesHaveAFieldOfView) {
+  const std::string rest = R"("pixel_centre": 0.5,
+      "world_to_camera": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 4]]})";
+  const std::string fisheye =
+      R"({"width": 300, "height": 200, "model": "SIMPLE_FISHEYE", "cx": 150, "cy": 100, )";
+  folder_.write("lenses.json", R"([{"width": 180, "height": 180, "model": "SIMPLE_RADIAL", "f": 100,
+      "cx": 90, "cy": 90, "k": -0.1, )" +
+                                   rest + ",\n" +
+                                   R"({"width": 360, "height": 180, "model": "EQUIRECTANGULAR",
+      "w": 360, "h": 180, "cx": 180, "cy": 90, )" +
+                                   rest + ",\n" + fisheye + R"("f": 100, )" + rest + ",\n" +
+                                   fisheye + R"("f": 40, )" + rest + "]");
+  const Outcome info = run_fathom({"info", "lenses.json"}, {.folder = folder_.path()});
+  EXPECT_EQ(
+      info.out,
+      "lenses.json: a path of 4 cameras\n"
+      "  number  size     field of view    lens             eye         looks along  near, far\n"
+      "  0       180x180  90.00 x 90.00    SIMPLE_RADIAL    (0, 0, -4)  (0, 0, 1)    0, inf\n"
+      "  1       360x180  360.00 x 180.00  EQUIRECTANGULAR  (0, 0, -4)  (0, 0, 1)    0, inf\n"
+      "  2       300x200  171.89 x 114.59  SIMPLE_FISHEYE   (0, 0, -4)  (0, 0, 1)    0, inf\n"
+      "  3       300x200  360.00 x 286.48  SIMPLE_FISHEYE   (0, 0, -4)  (0, 0, 1)    0, inf\n");
+}
+
+TEST_F(CameraCommands, InfoShowsTheCameraOfAMapAsACameraFile) {
+  folder_.write("square.obj", square_obj);
+  fathom({"camera", "look-at", "--eye", "1,2,-3", "--target", "0,0,0", "-o", "camera.json"});
+  fathom({"render", "square.obj", "--camera", "camera.json", "-o", "map.exr"});
+  const Outcome info = run_fathom({"info", "map.exr"}, {.folder = folder_.path()});
+  std::istringstream file(folder_.read("camera.json"));
+  for (std::string line; std::getline(file, line);) EXPECT_THAT(info.out, HasSubstr(line + "\n"));
 }
 
 TEST_F(CameraCommands, NamesAreShownWithoutWhatMovesTheCursor) {
