@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fathom/evaluation/depth_agreement.h"
@@ -24,5 +25,8 @@ Evaluation evaluate(const Scene& reconstruction, const Scene& truth,
                     const std::vector<Camera>& cameras,
                     const SurfaceComparisonOptions& options = {},
                     const std::function<void(double)>& progress = {});
+
+/// The table that `fathom evaluate` prints; `options` are those of the evaluation.
+std::string to_text(const Evaluation& evaluation, const SurfaceComparisonOptions& options);
 
 }  // namespace fathom

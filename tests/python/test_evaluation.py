@@ -1,5 +1,7 @@
 """evaluate: plates whose distances are plain, and the figures of its maps by NumPy."""
 
+import os
+import pathlib
 import warnings
 
 import numpy as np
@@ -42,6 +44,15 @@ def test_points_are_kept_on_demand(camera):
     assert found.positions.shape == (found.seen, 3) and found.distances.shape == (found.seen,)
     assert (found.positions[:, 2] == 2.25).all() and (found.distances == 0.25).all()
     assert np.abs(found.positions[:, :2]).max() <= 1 and len(np.unique(found.positions, axis=0)) == found.seen
+
+
+def test_it_is_shown_as_the_table_of_the_command(spot, run_program):
+    data = pathlib.Path(os.environ["FATHOM_SOURCE"]) / "data"
+    mesh, file = data / "meshes/spot.obj", data / "cameras/orthographic.json"
+    table = run_program("evaluate", mesh, "--truth", mesh, "--camera", file, "--within", "0.5,1", "--points", 100,
+                        "--max-distance", 2)
+    found = fathom.evaluate(spot, spot, fathom.Camera.read(file), within=[0.5, 1], points=100, max_distance=2)
+    assert found.table == table and repr(found) == "Evaluation:\n" + table.rstrip("\n")
 
 
 def test_depths_agree_as_numpy_says(spot):

@@ -64,7 +64,8 @@ py::tuple evaluate_scenes(const SharedScene& made, const SharedScene& real,
   });
   return py::make_tuple(tuple_of(found.depth), tuple_of(found.surfaces.accuracy, keep_points),
                         tuple_of(found.surfaces.completeness, keep_points),
-                        py::tuple(py::cast(found.surfaces.f_scores)), found.surfaces.overall);
+                        py::tuple(py::cast(found.surfaces.f_scores)), found.surfaces.overall,
+                        to_text(found, options));
 }
 
 }  // namespace

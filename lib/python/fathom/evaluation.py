@@ -83,6 +83,11 @@ class Evaluation(NamedTuple):
     f_scores: tuple[float, ...]
     #: The mean of both means, as in DTU's tables; None if no point is left on one side.
     overall: float | None
+    #: The table that `fathom evaluate` prints.
+    table: str
+
+    def __repr__(self) -> str:
+        return f"Evaluation:\n{self.table.rstrip()}"
 
 
 def evaluate(reconstruction: Scene | npt.ArrayLike, truth: Scene | npt.ArrayLike,
@@ -116,13 +121,13 @@ def evaluate(reconstruction: Scene | npt.ArrayLike, truth: Scene | npt.ArrayLike
     >>> fathom.evaluate([(0, 0, 2.5), (0, 0, 6)], truth, max_distance=1).accuracy.mean
     0.5
     """
-    depth, accuracy, completeness, f_scores, overall = _core.evaluate(
+    depth, accuracy, completeness, f_scores, overall, table = _core.evaluate(
         _side("reconstruction", reconstruction), _side("truth", truth), _handles(cameras), _thresholds(within),
         as_count("points", points, 1, 2**32 - 1), _positive("density", density),
         _positive("truth_density", truth_density), _positive("max_distance", max_distance), bool(keep_points),
         one_of("cull", cull, culls), as_threads(threads))
     return Evaluation(None if depth is None else Depth(*depth), Distances(*accuracy), Distances(*completeness),
-                      f_scores, overall)
+                      f_scores, overall, table)
 
 
 def _side(name: str, side: object) -> _core.Scene:
