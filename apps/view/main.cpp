@@ -136,6 +136,7 @@ void take_cameras(std::vector<ViewedMap>& maps, const ViewArguments& arguments,
       read_cameras_with_lenses(arguments.camera, arguments.reading.limits, console);
   if (cameras.size() == 1) cameras.resize(maps.size(), Camera(cameras.front()));
   std::vector<std::string> names;
+  names.reserve(maps.size());
   for (const ViewedMap& viewed : maps) names.push_back(viewed.name);
   cameras = cameras_of_maps(names, cameras);
   for (std::size_t k = 0; k < maps.size(); ++k) {

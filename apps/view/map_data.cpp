@@ -146,20 +146,42 @@ std::optional<std::size_t> identifiers_beside(const DepthMap& map, const ImageCh
   return static_cast<std::size_t>(found - map.channels.data());
 }
 
-/// The channels X and Y of the unit vectors whose Z a channel holds, as numbers.
-std::optional<std::array<std::size_t, 2>> parts_beside(const DepthMap& map,
-                                                       const ImageChannel& channel) {
-  if (!is_single_direction(channel) || !channel.name.ends_with(".Z")) return std::nullopt;
-  const std::string stem = channel.name.substr(0, channel.name.size() - 1);
-  std::array<std::size_t, 2> numbers{};
-  for (std::size_t part = 0; part < numbers.size(); ++part) {
-    const ImageChannel* const found = map.find(stem + "XY"[part]);
+/// The first parts X, Y, Z of vectors, as numbers of channels of binary32 numbers.
+template <std::size_t count>
+std::optional<std::array<std::size_t, count>> parts_of(const DepthMap& map,
+                                                       const std::string& vectors) {
+  std::array<std::size_t, count> numbers{};
+  for (std::size_t part = 0; part < count; ++part) {
+    const ImageChannel* const found = map.find(vectors + '.' + "XYZ"[part]);
     if (found == nullptr || !std::holds_alternative<Samples<float>>(found->values)) {
       return std::nullopt;
     }
     numbers[part] = static_cast<std::size_t>(found - map.channels.data());
   }
   return numbers;
+}
+
+/// The channels X and Y of the unit vectors whose Z a channel holds, as numbers.
+std::optional<std::array<std::size_t, 2>> parts_beside(const DepthMap& map,
+                                                       const ImageChannel& channel) {
+  if (!is_single_direction(channel) || !channel.name.ends_with(".Z")) return std::nullopt;
+  return parts_of<2>(map, channel.name.substr(0, channel.name.size() - 2));
+}
+
+/// The camera of a map, if its rays are straight: the page computes with no others.
+const Camera* straight_camera_of(const ViewedMap& viewed) {
+  return viewed.camera && !bends_rays(viewed.camera->projection) ? &*viewed.camera : nullptr;
+}
+
+/// The channels of the normals in the world whose planes predict the depths of a channel, as
+/// numbers.
+std::optional<std::array<std::size_t, 3>> normals_beside(const ViewedMap& viewed,
+                                                         const ImageChannel& channel) {
+  if (channel.name != "Z" || !std::holds_alternative<Samples<float>>(channel.values) ||
+      straight_camera_of(viewed) == nullptr) {
+    return std::nullopt;
+  }
+  return parts_of<3>(viewed.map, "N");
 }
 
 /// The bits of values, as words.
@@ -231,7 +253,8 @@ class Masks {
   std::vector<Mask> masks_;
 };
 
-Json describe_channel(const DepthMap& map, const ImageChannel& channel, Masks& masks) {
+Json describe_channel(const ViewedMap& viewed, const ImageChannel& channel, Masks& masks) {
+  const DepthMap& map = viewed.map;
   Mask mask = surface_mask(map, channel);
   Json told{{"name", channel.name},
             {"meaning", meaning_of(channel.name)},
@@ -240,6 +263,7 @@ Json describe_channel(const DepthMap& map, const ImageChannel& channel, Masks& m
             {"range", range_of(channel, mask)}};
   told["mask"] = masks.number_of(std::move(mask));
   if (const auto parts = parts_beside(map, channel)) told["unit"] = *parts;
+  if (const auto normals = normals_beside(viewed, channel)) told["normals"] = *normals;
   if (const auto identifiers = identifiers_beside(map, channel)) told["by"] = *identifiers;
   if (shows_segments(channel.name)) told["none"] = no_segment;
   if (const auto* names = image::names_of_channel(map, channel.name)) told["names"] = *names;
@@ -247,7 +271,7 @@ Json describe_channel(const DepthMap& map, const ImageChannel& channel, Masks& m
 }
 
 /// The numbers from which the page computes a pixel's place in the world, like point_at() and
-/// camera_to_world().
+/// camera_to_world(), and predicts depths.
 Json describe_camera(const Camera& camera) {
   const Projection& projection = camera.projection;
   return {{"orthographic", is_orthographic(projection)},
@@ -260,16 +284,17 @@ Json describe_camera(const Camera& camera) {
           {"worldFromCamera", camera_to_world(camera.world_to_camera)}};
 }
 
+std::span<const float> singles_of(const DepthMap& map, std::size_t channel) {
+  return std::get<Samples<float>>(map.channels[channel].values);
+}
+
 /// The text of a tile of directions.
 std::string packed_direction(const DepthMap& map, const ImageChannel& channel,
                              const TilePlace& tile) {
   DirectionHints hints;
   if (const auto numbers = parts_beside(map, channel)) {
-    const auto values = [&](std::size_t number) {
-      return std::span<const float>(std::get<Samples<float>>(map.channels[number].values));
-    };
-    hints.x = values((*numbers)[0]);
-    hints.y = values((*numbers)[1]);
+    hints.x = singles_of(map, (*numbers)[0]);
+    hints.y = singles_of(map, (*numbers)[1]);
   }
   Segments segments;
   if (const auto number = identifiers_beside(map, channel)) {
@@ -281,10 +306,27 @@ std::string packed_direction(const DepthMap& map, const ImageChannel& channel,
                           tile);
 }
 
-void write_channel(const DepthMap& map, const ImageChannel& channel, const std::string& id,
+/// The planes that predict the depths of a channel.
+std::optional<PlaneHints> planes_beside(const ViewedMap& viewed, const ImageChannel& channel) {
+  const auto numbers = normals_beside(viewed, channel);
+  if (!numbers) return std::nullopt;
+  const Camera& camera = *straight_camera_of(viewed);
+  PlaneHints hints{{}, camera.projection, camera_to_world(camera.world_to_camera)};
+  std::ranges::transform(*numbers, hints.normals.begin(),
+                         [&](std::size_t number) { return singles_of(viewed.map, number); });
+  return hints;
+}
+
+void write_channel(const ViewedMap& viewed, const ImageChannel& channel, const std::string& id,
                    const Sink& sink, Progress& progress) {
+  const DepthMap& map = viewed.map;
+  const std::optional<PlaneHints> planes = planes_beside(viewed, channel);
   const auto packed_tile = [&](const TilePlace& tile) {
     if (is_single_direction(channel)) return packed_direction(map, channel, tile);
+    if (planes) {
+      return packed_depth(words_of(std::get<Samples<float>>(channel.values)), *planes, map.width,
+                          tile);
+    }
     return std::visit([&](const auto& values) { return packed(words_of(values), map.width, tile); },
                       channel.values);
   };
@@ -309,16 +351,15 @@ Json write_planes(const ViewedMap& viewed, const std::string& prefix, const Sink
             {"height", map.height},
             {"levels", size.levels()},
             {"channels", Json::array()}};
-  // The page computes world points itself, on straight rays.
-  if (viewed.camera && !bends_rays(viewed.camera->projection)) {
-    told["camera"] = describe_camera(*viewed.camera);
+  if (const Camera* const camera = straight_camera_of(viewed)) {
+    told["camera"] = describe_camera(*camera);
   }
   if (map.png_scale) told["scale"] = *map.png_scale;
   Masks masks;
   for (std::size_t k = 0; k < map.channels.size(); ++k) {
     const ImageChannel& channel = map.channels[k];
-    told["channels"].push_back(describe_channel(map, channel, masks));
-    write_channel(map, channel, prefix + "-c" + std::to_string(k), sink, progress);
+    told["channels"].push_back(describe_channel(viewed, channel, masks));
+    write_channel(viewed, channel, prefix + "-c" + std::to_string(k), sink, progress);
   }
   for (std::size_t k = 0; k < masks.all().size(); ++k) {
     const std::span<const std::uint8_t> mask(masks.all()[k]);

@@ -86,7 +86,7 @@ Word zigzag(Word difference) {
   return static_cast<Word>(static_cast<Word>(difference << 1) ^ negative);
 }
 
-enum class Prediction : std::uint8_t { left, gradient, unit };
+enum class Prediction : std::uint8_t { left, gradient, unit, planes };
 
 /// value − prediction of all values of a tile.
 template <class Word>
@@ -246,6 +246,20 @@ Segments segments_of(std::span<const std::uint32_t> identifiers, std::uint32_t w
     segments.places.push_back(found->second);
   }
   return segments;
+}
+
+std::string packed_depth(std::span<const std::uint32_t> plane, const PlaneHints& hints,
+                         std::uint32_t width, const TilePlace& tile) {
+  const std::vector<std::uint32_t> words = words_of(plane, width, tile);
+  Residuals<std::uint32_t> best = by_neighbours(words, tile);
+  const std::vector<ExpectedDepth> expected = expected_depths(words, hints, width, tile);
+  std::vector<std::uint32_t> others(words.size());
+  std::size_t next = 0, end = words.size();
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    others[expected[k].is_on_known_plane ? next++ : --end] = zigzag(words[k] - expected[k].word);
+  }
+  best.improve(Prediction::planes, std::move(others));
+  return packed_residuals(best);
 }
 
 std::string packed_direction(std::span<const std::uint32_t> plane, const DirectionHints& hints,

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/view/plane_prediction.h"
+
 /// Values of maps as text in a page, without loss. web/planes.js unpacks them.
 namespace fathom::view {
 
@@ -18,10 +20,12 @@ struct TilePlace {
 /// The values of a tile: letters that hold seven bits each, the lowest bits first and xor 0x55, of
 /// the zlib format of
 ///   a byte     what a value is predicted from: 0, its left neighbour; 1, left + upper − upper
-///              left; 2, the other two parts of the unit vector. Plus 4: the tile is a row with
-///              one value for each of its Segments
+///              left; 2, the other two parts of the unit vector; 3, the planes that the pixels
+///              show (plane_prediction.h). Plus 4: the tile is a row with one value for each of
+///              its Segments
 ///   the bytes  of value − prediction (modulo 2^bits, zigzag: 0, −1, 1, −2, … become 0, 1, 2, 3,
-///              …), first the lowest byte of all values, row by row, then the next byte
+///              …), first the lowest byte of all values, row by row, then the next byte. Of 3,
+///              the pixels on known planes come first, then the other pixels in reverse order
 /// The letters NUL, LF, CR and < are U+0080 higher, because HTML changes or interprets them.
 /// The first row knows no upper neighbour and the first column no left one: they are predicted from
 /// the neighbour that is there, the first value from 0. `plane` holds the words of an image that is
@@ -58,6 +62,10 @@ struct DirectionHints {
 /// binary64 and rounded to binary32, with the sign of the left neighbour.
 std::string packed_direction(std::span<const std::uint32_t> plane, const DirectionHints& hints,
                              std::uint32_t width, const TilePlace& tile);
+
+/// The same of depths whose planes are known, as the bits of binary32 numbers.
+std::string packed_depth(std::span<const std::uint32_t> plane, const PlaneHints& hints,
+                         std::uint32_t width, const TilePlace& tile);
 
 /// Words one after another, as a tile of one row.
 inline std::string packed(std::span<const std::uint32_t> words) {

@@ -4,6 +4,7 @@
     tests/browser/view_page_test.py FATHOM-VIEW
 """
 import base64
+import json
 import os
 import pathlib
 import subprocess
@@ -11,6 +12,7 @@ import sys
 import tempfile
 import unittest
 import urllib.parse
+import zlib
 
 import numpy
 import OpenImageIO
@@ -65,6 +67,25 @@ def deep_samples(file, x, y):
     pixel = y * image.spec().width + x
     return [[numpy.float32(deep.deep_value(pixel, names.index(name), k)) for name in ("Z", "ZBack", "area", "A")] +
             [deep.deep_value_uint(pixel, names.index("id"), k)] for k in range(deep.samples(pixel))]
+
+
+def with_odd_numbers(values):
+    """The array with a few words of any bits, and with each kind of number that is no depth."""
+    words = values.copy().view("u4").reshape(-1)
+    random = numpy.random.default_rng(53)
+    places = random.permutation(words.size)[:words.size // 500]
+    words[places] = random.integers(0, 2 ** 32, places.size, dtype="u4")
+    # Zeros, the least and the greatest subnormal number, the greatest number, infinities, NaNs.
+    kinds = [0, 1 << 31, 1, 0x807fffff, 0x7fffff, 0x7f7fffff, 0xff7fffff, 0x7f800000, 0xff800000, 0x7f800001, 0xffffffff]
+    for k, kind in enumerate(kinds):
+        words[places[k::50]] = kind
+    return words.view("f4").reshape(values.shape)
+
+
+def prediction_of(text):
+    """What the values of a tile are predicted from (apps/view/packing.h)."""
+    bits = sum(((ord(letter) ^ 0x55) & 127) << 7 * k for k, letter in enumerate(text[:4096]))
+    return zlib.decompressobj().decompress(bits.to_bytes(4096, "little"), 1)[0]
 
 
 class ViewPage(PageCase):
@@ -157,6 +178,33 @@ class ViewPage(PageCase):
         self.expect_bits(0, "id", arrays["id"])
         for k, part in enumerate("XYZ"):
             self.expect_bits(0, f"N.{part}", arrays["N"][:, :, k])
+
+    def expect_bits_by_planes(self, file, arrays, levels):
+        """Every bit is there, and the planes of the normals predict the depths of most tiles."""
+        self.open(page=self.viewed(file))
+        for level in range(levels):
+            self.expect_bits(0, "Z", arrays["Z"], level)
+            for k, part in enumerate("XYZ"):
+                self.expect_bits(0, f"N.{part}", arrays["N"][:, :, k], level)
+            texts = self.driver.execute_script(
+                "const number = fathom.maps[0].stored.findIndex((c) => c.name === 'Z');"
+                "return [...document.querySelectorAll(`[id^='m0-c${number}-${arguments[0]}-']`)].map((e) => e.textContent)", level)
+            by_planes = sum(prediction_of(text) == 3 for text in texts)
+            self.assertGreater(by_planes, len(texts) / 2)
+
+    def test_every_bit_of_depths_by_planes_is_there(self):
+        fathom("camera", "look-at", "--eye", "0,0,-1", "--target", "0.3,-0.2,-4", "--fov", "60", "--size", "2400x1800",
+               "-o", self.folder / "straight.json")
+        camera = json.loads((self.folder / "straight.json").read_text())
+        (self.folder / "skewed.json").write_text(json.dumps({**camera, "skew": 30, "fy": 1.1 * camera["fx"]}))
+        for name, levels, view in (("skewed", 2, ("--camera", self.folder / "skewed.json")),
+                                   ("parallel", 1, ("--view", "15,20", "--orthographic", "3", "--size", "700x530"))):
+            fathom("render", DATA / "scenes/room.json", *view, "--channels", "Z,id,N", "-o", self.folder / f"{name}.npz")
+            arrays = dict(numpy.load(self.folder / f"{name}.npz"))
+            self.expect_bits_by_planes(f"{name}.npz", arrays, levels)
+            odd = {**arrays, "Z": with_odd_numbers(arrays["Z"]), "N": with_odd_numbers(arrays["N"])}
+            numpy.savez(self.folder / f"odd-{name}.npz", **odd)
+            self.expect_bits_by_planes(f"odd-{name}.npz", odd, levels)
 
     def test_large_maps_have_coarser_levels(self):
         y, x = numpy.mgrid[0:2501, 0:3003]
@@ -424,9 +472,12 @@ class ViewPage(PageCase):
         self.assertEqual(self.reading()["CryptoObject"], f"{number}  {['spot', 'teapot'][number]}")
 
     def test_a_full_hd_map_is_small_and_needs_no_other_file(self):
-        fathom("render", DATA / "meshes/spot.obj", "--size", "1920x1080", "--channels", "Z,A", "-o", self.folder / "hd.exr")
+        fathom("camera", "look-at", "--eye", "0,0,-1", "--target", "0.2,-0.1,-4", "--fov", "60", "--size", "1920x1080",
+               "-o", self.folder / "inside.json")
+        fathom("render", DATA / "scenes/room.json", "--camera", self.folder / "inside.json", "--channels", "Z,A,id,N",
+               "-o", self.folder / "hd.exr")
         self.open(page=self.viewed("hd.exr"))
-        self.assertLess((self.folder / "hd.html").stat().st_size, 4e6)
+        self.assertLess((self.folder / "hd.html").stat().st_size, 5e5)
         self.assertEqual(self.driver.execute_script("return performance.getEntriesByType('resource').length"), 0)
 
     def test_it_fits_narrow_windows(self):

@@ -44,24 +44,31 @@ export class Source {
 class Channel extends Source {
   constructor(map, told, prefix, number, siblings) {
     super(map, `${prefix}-c${number}`);
-    Object.assign(this, told, { prefix, siblings, scale: told.type === "u16" ? map.scale : undefined });
+    Object.assign(this, told, { prefix, siblings, camera: map.camera, scale: told.type === "u16" ? map.scale : undefined });
     this.isSingle = this.type === "f32";
     this.isIdentifier = this.kind === "identifier";
     if (this.scale && this.range) this.range = this.range.map((code) => code / this.scale);
   }
   async made(level, number) {
     const size = this.sizeOf(level, number), end = `-${level}-${number}`;
-    // The Z of unit vectors is packed by their X and Y.
-    const parts = await Promise.all((this.unit ?? []).map((part) => this.siblings[part].tile(level, number)));
-    const segments = await this.siblings[this.by]?.segments(level, number);
     const [stored, mask] = await Promise.all([
-      unpacked(this.key + end, this.type, size.columns, parts.map(({ values }) => values), segments),
+      unpacked(this.key + end, this.type, size.columns, this.hints(level, number)),
       this.mask < 0 ? null : remembered(`${this.prefix}-k${this.mask}${end}`, async () => {
         const values = await unpacked(`${this.prefix}-k${this.mask}${end}`, "u8", size.columns);
         return { values, bytes: values.byteLength };
       })]);
     const values = this.scale ? Float64Array.from(stored, (code) => code / this.scale) : stored;
     return { ...size, values, mask: mask?.values, bytes: values.byteLength };
+  }
+  /// What may predict a tile of the channel: other channels of the map.
+  hints(level, number) {
+    const valuesOf = (channels) => Promise.all(channels.map(async (channel) => (await this.siblings[channel].tile(level, number)).values));
+    const { across } = this.grid(level), step = 2 ** level;
+    return {
+      parts: () => valuesOf(this.unit),
+      segments: () => this.siblings[this.by].segments(level, number),
+      planes: async () => ({ normals: await valuesOf(this.normals), camera: this.camera, step,
+        left: number % across * page.tile * step, top: Math.floor(number / across) * page.tile * step }) };
   }
   /// The segments of a tile of identifiers, which predict other channels.
   segments(level, number) {

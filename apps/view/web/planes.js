@@ -7,8 +7,10 @@ async function inflated(text) {
     count += 7;
     if (count >= 8) { bytes[at++] = bits; bits >>>= 8; count -= 8; }
   }
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
+  // Written directly: the stream of a Blob takes twice as long.
+  const { readable, writable } = new DecompressionStream("deflate"), writer = writable.getWriter();
+  const [inflated] = await Promise.all([new Response(readable).arrayBuffer(), writer.write(bytes), writer.close()]);
+  return new Uint8Array(inflated);
 }
 
 const arrays = { 1: Uint8Array, 2: Uint16Array, 4: Uint32Array };
@@ -27,6 +29,58 @@ function unpackedThird(bytes, columns, [x, y]) {
     }
     const zigzag = bytes[1 + k] | bytes[1 + count + k] << 8 | bytes[1 + 2 * count + k] << 16 | bytes[1 + 3 * count + k] << 24;
     words[k] = (zigzag >>> 1 ^ -(zigzag & 1)) + expected;
+  }
+  return words;
+}
+
+const largestSingle = (2 - 2 ** -23) * 2 ** 127, isDepth = (z) => z > 0 && z <= largestSingle;
+
+/// Depths of known planes, as words of 32 bits (apps/view/plane_prediction.h). The tile begins at the pixel (left, top) and
+/// has every `step`-th one. Of this row and of the upper one, between columns of NaN, are kept: the normals in the frame of
+/// the camera, the rays, the depths, and the heights of the planes.
+function unpackedDepths(bytes, columns, { normals: [xs, ys, zs], camera, left, top, step }) {
+  const count = (bytes.length - 1) / 4, depths = new Float32Array(count), words = new Uint32Array(depths.buffer);
+  const { orthographic, fx, fy, cx, cy, skew, pixelCentre, worldFromCamera: [p, q, r] } = camera;
+  const [nx, ny, nz, us, known, heights] = Array.from({ length: 6 }, () => new Float64Array(2 * columns + 4).fill(NaN));
+  const slope = (a, b, c, u, v) => orthographic ? c : a * u + b * v + c, offset = (a, b, u, v) => orthographic ? a * u + b * v : 0;
+  let next = 1, end = 1 + count; // places in `bytes`: of pixels on known planes, and of the other pixels
+  for (let first = 0, here = 1, above = columns + 3, v = 0, upperV = 0; first < count; first += columns) {
+    v = (top + first / columns * step - cy + pixelCentre) / fy;
+    for (let column = 0; column < columns; ++column) {
+      const k = first + column, at = here + column, upper = above + column, x = xs[k], y = ys[k], z = zs[k];
+      const isAsLeft = column > 0 && x === xs[k - 1] && y === ys[k - 1] && z === zs[k - 1];
+      const a = nx[at] = isAsLeft ? nx[at - 1] : p[0] * x + q[0] * y + r[0] * z;
+      const b = ny[at] = isAsLeft ? ny[at - 1] : p[1] * x + q[1] * y + r[1] * z;
+      const c = nz[at] = isAsLeft ? nz[at - 1] : p[2] * x + q[2] * y + r[2] * z;
+      const u = us[at] = (left + column * step - cx + pixelCentre - skew * v) / fx;
+      const ownSlope = slope(a, b, c, u, v), ownOffset = offset(a, b, u, v);
+      let sum = 0, added = 0, found = 0, place = 0;
+      if (nx[at - 1] === a && ny[at - 1] === b && nz[at - 1] === c) { sum += heights[at - 1]; ++added; }
+      if (nx[upper] === a && ny[upper] === b && nz[upper] === c) { sum += heights[upper]; ++added; }
+      if (nx[upper - 1] === a && ny[upper - 1] === b && nz[upper - 1] === c) { sum += heights[upper - 1]; ++added; }
+      if (nx[upper + 1] === a && ny[upper + 1] === b && nz[upper + 1] === c) { sum += heights[upper + 1]; ++added; }
+      if (added) {
+        place = next++;
+        found = (sum / added - ownOffset) / ownSlope;
+      } else {
+        place = --end;
+        for (let from = at - 1, fromV = v, side = 0; side < 2; from = upper, fromV = upperV, ++side) {
+          const height = slope(a, b, c, us[from], fromV) * known[from] + offset(a, b, us[from], fromV);
+          const theirs = (heights[from] - offset(nx[from], ny[from], u, v)) / slope(nx[from], ny[from], nz[from], u, v);
+          const mean = ((height - ownOffset) / ownSlope + theirs) / 2;
+          if (isDepth(mean)) { sum += mean; ++added; }
+        }
+        found = sum / added;
+      }
+      if (isDepth(found)) depths[k] = found;
+      else if (column) words[k] = words[k - 1];
+      else if (first) words[k] = words[k - columns];
+      const zigzag = bytes[place] | bytes[place + count] << 8 | bytes[place + 2 * count] << 16 | bytes[place + 3 * count] << 24;
+      words[k] += zigzag >>> 1 ^ -(zigzag & 1);
+      const depth = known[at] = depths[k];
+      heights[at] = ownSlope * depth + ownOffset;
+    }
+    [here, above, upperV] = [above, here, v];
   }
   return words;
 }
@@ -81,6 +135,7 @@ export function segmentsOf(identifiers) {
   let found = 0;
   for (let k = 0; k < count; ++k) {
     const identifier = identifiers[k];
+    if (k && identifier === identifiers[k - 1]) { places[k] = places[k - 1]; continue; }
     let slot = Math.imul(identifier, 2654435769) >>> 32 - bits;
     while (table[slot] && identifiers[firsts[table[slot] - 1]] !== identifier) slot = slot + 1 & table.length - 1;
     if (!table[slot]) { firsts[found] = k; table[slot] = ++found; }
@@ -96,13 +151,16 @@ function at(values, places) {
   return found;
 }
 
-/// `parts` are the X and Y of the unit vectors whose Z is unpacked, `segments` those of the tile; both may be missing.
-export async function unpacked(id, type, columns, parts, segments) {
+/// `hints` has what a tile may be predicted from, as functions: `parts`, the X and Y of the unit vectors whose Z is unpacked;
+/// `segments` of the tile; `planes` that its depths show.
+export async function unpacked(id, type, columns, hints) {
   const bytes = await inflated(document.getElementById(id).textContent), { bytes: size, values } = types[type];
-  const isBySegment = bytes[0] >= 4, width = isBySegment ? segments.firsts.length : columns;
+  const prediction = bytes[0] & 3, isBySegment = bytes[0] >= 4, segments = isBySegment ? await hints.segments() : null;
+  const width = isBySegment ? segments.firsts.length : columns;
   const some = (all) => isBySegment ? at(all, segments.firsts) : all;
-  const words = (bytes[0] & 3) === 2 ? unpackedThird(bytes, width, parts.map(some))
-    : size === 8 ? unpackedPairs(bytes, width) : unpackedWords(bytes, size, width);
+  const words = prediction === 3 ? unpackedDepths(bytes, width, await hints.planes())
+    : prediction === 2 ? unpackedThird(bytes, width, (await hints.parts()).map(some))
+      : size === 8 ? unpackedPairs(bytes, width) : unpackedWords(bytes, size, width);
   return values(isBySegment ? at(words, segments.places) : words);
 }
 
