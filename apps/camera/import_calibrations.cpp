@@ -143,7 +143,7 @@ std::string json_of_yaml(std::string_view yaml, const std::string& file) {
   return writer.take();
 }
 
-// fathom camera import opencv | ros
+// fathom camera import opencv | ros | kalibr
 
 using Cameras = std::vector<ImportedCamera>;
 
@@ -152,7 +152,7 @@ void declare_calibration(Command& command, ImportArguments& a) {
   add_pixel_centre(command, a, " (default 0)");
   command.option("--poses", "FILE", a.poses,
                  "World-to-camera matrices (x right, y down, z forward) as .txt, .npy or .npz: a "
-                 "camera for each "
+                 "camera for each, or a rig, whose first camera stands there "
                  "(default: the identity; a calibration has no pose)");
   command.flag("--camera-to-world", a.camera_to_world,
                "The matrices of --poses are camera to world");
@@ -192,17 +192,27 @@ Cameras read_ros(const ImportArguments& a, Warnings&) {
   return read_calibration(a, cameras_of_ros);
 }
 
+Cameras read_kalibr(const ImportArguments& a, Warnings&) {
+  return read_calibration(a, cameras_of_kalibr);
+}
+
 }  // namespace
 
 std::vector<ImportSource> calibration_sources() {
-  return {{"opencv", "Import a calibration of OpenCV: FileStorage as YAML or JSON",
-           "The file of cv::FileStorage with camera_matrix and distortion_coefficients",
-           "  fathom camera import opencv calibration.yml -o camera.json\n"
-           "  fathom camera import opencv calibration.yml --poses poses.txt -o cameras.json",
-           declare_calibration, read_opencv},
-          {"ros", "Import a calibration of ROS: camera_info as YAML",
-           "The file of camera_calibration, or a message",
-           "  fathom camera import ros ost.yaml -o camera.json", declare_calibration, read_ros}};
+  return {
+      {"opencv", "Import a calibration of OpenCV: FileStorage as YAML or JSON",
+       "The file of cv::FileStorage with camera_matrix and distortion_coefficients",
+       "  fathom camera import opencv calibration.yml -o camera.json\n"
+       "  fathom camera import opencv calibration.yml --poses poses.txt -o cameras.json",
+       declare_calibration, read_opencv},
+      {"ros", "Import a calibration of ROS: camera_info as YAML",
+       "The file of camera_calibration, or a message",
+       "  fathom camera import ros ost.yaml -o camera.json", declare_calibration, read_ros},
+      {"kalibr", "Import the cameras of a calibration of Kalibr: camchain.yaml", "The camera chain",
+       "  fathom camera import kalibr camchain.yaml -o cameras.json\n"
+       "  fathom camera import kalibr camchain.yaml --image cam1 -o camera.json\n"
+       "\nThe frame of cam0 is the world, or stands at each of --poses.",
+       declare_calibration, read_kalibr}};
 }
 
 }  // namespace fathom::app

@@ -153,4 +153,13 @@ std::vector<ImportedCamera> cameras_of_ros(std::string_view json, const std::str
                                            const GivenLens& given,
                                            const CalibrationPoses& poses = {});
 
+/// Kalibr's camera chain: cam0, cam1, … with camera_model (pinhole, omni, eucm, ds), intrinsics,
+/// distortion_model (none, radtan, equidistant, fov), distortion_coeffs, resolution and T_cn_cnm1,
+/// the pose of each camera from the frame of the previous one. The frame of cam0 is the world, and
+/// the cameras have the names of their keys; `poses` are of cam0, and camera N of a pose is called
+/// "camN/POSE". Each entry of the product of poses is the exact one, rounded once.
+std::vector<ImportedCamera> cameras_of_kalibr(std::string_view json, const std::string& file,
+                                              const GivenLens& given,
+                                              const CalibrationPoses& poses = {});
+
 }  // namespace fathom

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <limits>
 #include <span>
 
 #include "fathom/camera/camera_import_internal.h"
 #include "fathom/camera/data_set_cameras.h"
+#include "fathom/camera/imports/calibrated_lens.h"
 #include "fathom/camera/imports/lines_and_poses.h"
 #include "fathom/camera/lens.h"
 #include "fathom/failures/unknown_name.h"
@@ -170,21 +170,6 @@ void read_ros_lens(const JsonValue& root, ImportedCamera& one) {
                " has " + joined(counts, " or "));
   }
   set_lens(*list, known->model, numbers, one);
-}
-
-/// The camera at the world's origin, or at each of the poses.
-std::vector<ImportedCamera> at_poses(const ImportedCamera& camera, const std::string& file,
-                                     const CalibrationPoses& given) {
-  if (given.poses.empty()) return {camera};
-  std::vector<ImportedCamera> cameras;
-  for (const NamedPose& pose : given.poses)
-    cameras.push_back(placed(camera, pose, given.direction, CameraAxes::opencv, file));
-  require_different_names(cameras, file);
-  return cameras;
-}
-
-std::string stem_of(const std::string& file) {
-  return std::filesystem::path(file).stem().string();
 }
 
 }  // namespace

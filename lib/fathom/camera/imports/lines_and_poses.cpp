@@ -106,12 +106,16 @@ void turn_row(Pose& camera_from_world, std::size_t i) {
 
 }  // namespace
 
-Pose camera_from_world(const Pose& pose, PoseDirection direction, CameraAxes axes,
-                       const std::string& where) {
+void require_finite(const Pose& pose, const std::string& where) {
   for (const auto& row : pose)
     for (const double entry : row)
       if (!std::isfinite(entry))
         throw InputError(where + ": the pose has a number that is not finite");
+}
+
+Pose camera_from_world(const Pose& pose, PoseDirection direction, CameraAxes axes,
+                       const std::string& where) {
+  require_finite(pose, where);
   Pose turned = pose;
   if (direction == PoseDirection::world_to_camera) {
     if (axes == CameraAxes::opengl)

@@ -62,6 +62,9 @@ IntrinsicMatrix intrinsic_matrix(double fx, double fy, double cx, double cy);
 /// values. An unknown size is 0.
 Camera lens_of(const GivenLens& given, const GivenLens& data_set, const std::string& where);
 
+/// Fails where an entry of a pose is not finite.
+void require_finite(const Pose& pose, const std::string& where);
+
 /// World to camera, in our axes, of a pose [A | b]: exact, or each entry of the inverse rounded
 /// once. Fails where an entry is not finite, and where a pose that has to be inverted is singular.
 Pose camera_from_world(const Pose& pose, PoseDirection direction, CameraAxes axes,

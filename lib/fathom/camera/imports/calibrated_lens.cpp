@@ -1,0 +1,44 @@
+#include "fathom/camera/imports/calibrated_lens.h"
+
+#include <algorithm>
+
+#include "fathom/camera/imports/lines_and_poses.h"
+#include "fathom/camera/lens.h"
+#include "fathom/failures/errors.h"
+
+namespace fathom::camera {
+
+void set_lens(ImportedCamera& one, std::string_view model, std::span<const LensNumber> numbers,
+              const std::string& where) {
+  const auto known = lens_model_named(model);
+  if (!known) {
+    one.absence = where + ": the lens model " + std::string(model) + " is not available";
+    return;
+  }
+  Lens lens{*known};
+  const auto parameters = entry_of(*known).distortion;
+  for (const auto& [parameter, value] : numbers) {
+    const auto place = std::ranges::find(parameters, parameter);
+    if (place != parameters.end()) {
+      lens.distortion.at(static_cast<std::size_t>(place - parameters.begin())) = value;
+    } else if (value != 0) {
+      one.absence = where + ": the lens model " + std::string(model) + " has no parameter " +
+                    std::string(parameter);
+      return;
+    }
+  }
+  if (const auto fault = find_fault(lens)) throw InputError(where + ": " + *fault);
+  if (!is_pinhole(lens)) one.camera.projection.lens = lens;
+}
+
+std::vector<ImportedCamera> at_poses(const ImportedCamera& camera, const std::string& file,
+                                     const CalibrationPoses& given) {
+  if (given.poses.empty()) return {camera};
+  std::vector<ImportedCamera> cameras;
+  for (const NamedPose& pose : given.poses)
+    cameras.push_back(placed(camera, pose, given.direction, CameraAxes::opencv, file));
+  require_different_names(cameras, file);
+  return cameras;
+}
+
+}  // namespace fathom::camera
