@@ -36,16 +36,19 @@ std::string transforms_with_depths(const std::string& file, const std::vector<Ca
   Json json;
   try {
     json = text::parse_json<Json>(files::InputFile(file).text());
-    Json frames = Json::array();
     std::size_t number = 0;
-    for (Json& frame : json.at("frames")) {
-      const std::string name = frame.value("file_path", std::to_string(number++));
-      const auto found = depth_of.find(name);
-      if (found == depth_of.end()) continue;
-      frame["depth_file_path"] = found->second;
-      frames.push_back(std::move(frame));
+    for (const char* list : {"frames", "test_frames"}) {
+      if (!json.contains(list)) continue;
+      Json frames = Json::array();
+      for (Json& frame : json.at(list)) {
+        const std::string name = frame.value("file_path", std::to_string(number++));
+        const auto found = depth_of.find(name);
+        if (found == depth_of.end()) continue;
+        frame["depth_file_path"] = found->second;
+        frames.push_back(std::move(frame));
+      }
+      json[list] = std::move(frames);
     }
-    json["frames"] = std::move(frames);
     json["depth_unit_scale_factor"] = 0.001;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(file + ": has changed while it was in use: " + error.what());

@@ -152,8 +152,12 @@ TEST(ImportNerf, WarnsOfGeometryTellsDistortionAndNamesFaults) {
   EXPECT_EQ(lens(R"({"is_fisheye": true, )" + numbers), fisheye);
   EXPECT_EQ(lens(R"({"is_fisheye": true, )" + frames), Lens{LensModel::opencv_fisheye});
   EXPECT_EQ(lens(R"({"is_fisheye": false, )" + frames), std::nullopt);
-  EXPECT_THAT(fault(R"({"camera_model": "EQUIRECTANGULAR", )" + frames),
-              HasSubstr("EQUIRECTANGULAR is not supported"));
+  EXPECT_THAT(fault(R"({"camera_model": "VR180_L", )" + frames),
+              HasSubstr("VR180_L is not supported; undistort the images, or expected EQUIRECT"));
+  EXPECT_THAT(fault(R"({"camera_model": "FISHEYE624", )" + frames),
+              HasSubstr("the numbers of FISHEYE624 are missing: expected distortion_params"));
+  EXPECT_THAT(fault(R"({"camera_model": "FISHEYE624", "distortion_params": [1], )" + frames),
+              HasSubstr("distortion_params: expected"));
   EXPECT_THAT(fault("{}"), HasSubstr("\"frames\" is missing"));
   EXPECT_THAT(fault(R"({"frames": []})"), HasSubstr("no frame"));
   EXPECT_THAT(fault(std::string(R"({"w": 6, "h": 4, "frames": [{)") + nerf_pose + "}]}"),

@@ -60,9 +60,9 @@ std::vector<ImportedCamera> import_colmap(const std::filesystem::path& folder);
 /// Whether a folder has the files of a COLMAP model.
 bool is_colmap_model(const std::filesystem::path& folder);
 
-/// NeRF's transforms.json (also Nerfstudio's and instant-ngp's), in the order of its frames.
-/// Camera to world, OpenGL axes, the image's corner at 0. Intrinsics for all frames or each: fl_x,
-/// fl_y, cx, cy, w, h, or camera_angle_x with an image size.
+/// NeRF's transforms.json (also Nerfstudio's, instant-ngp's and ScanNet++'s), in the order of its
+/// frames; test_frames follow. Camera to world, OpenGL axes, the image's corner at 0. Intrinsics for
+/// all frames or each: fl_x, fl_y, cx, cy, w, h, or camera_angle_x with an image size.
 /// `width` and `height` are used where the file has no w and h (the original NeRF data); 0: none.
 /// Warns of keys that other programs use to change the geometry on loading (scale, offset, …).
 std::vector<ImportedCamera> import_nerf(const std::filesystem::path& file, std::uint32_t width,

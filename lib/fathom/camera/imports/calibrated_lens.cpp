@@ -1,6 +1,7 @@
 #include "fathom/camera/imports/calibrated_lens.h"
 
 #include <algorithm>
+#include <array>
 
 #include "fathom/camera/imports/lines_and_poses.h"
 #include "fathom/camera/lens.h"
@@ -29,6 +30,15 @@ void set_lens(ImportedCamera& one, std::string_view model, std::span<const LensN
   }
   if (const auto fault = find_fault(lens)) throw InputError(where + ": " + *fault);
   if (!is_pinhole(lens)) one.camera.projection.lens = lens;
+}
+
+void set_fisheye624(ImportedCamera& one, std::span<const double> numbers,
+                    const std::string& where) {
+  constexpr std::array<std::string_view, fisheye624_numbers> parameters{
+      "k0", "k1", "k2", "k3", "k4", "k5", "p0", "p1", "s0", "s1", "s2", "s3"};
+  std::array<LensNumber, fisheye624_numbers> named;
+  for (std::size_t i = 0; i < named.size(); ++i) named[i] = {parameters[i], numbers[i]};
+  set_lens(one, "RAD_TAN_THIN_PRISM_FISHEYE", named, where);
 }
 
 std::vector<ImportedCamera> at_poses(const ImportedCamera& camera, const std::string& file,

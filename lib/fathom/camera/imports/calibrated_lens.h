@@ -26,6 +26,13 @@ struct LensNumber {
 void set_lens(ImportedCamera& one, std::string_view model, std::span<const LensNumber> numbers,
               const std::string& where);
 
+/// The numbers of Project Aria's lens after its focal lengths and principal point.
+inline constexpr std::size_t fisheye624_numbers = 12;
+
+/// set_lens() for Project Aria's lens (Fisheye624, FisheyeRadTanThinPrism): k0 to k5, p0, p1, s0 to
+/// s3.
+void set_fisheye624(ImportedCamera& one, std::span<const double> numbers, const std::string& where);
+
 /// The calibrated camera at the world's origin, or at each of the poses.
 /// Fails    InputError if two poses have the same name.
 std::vector<ImportedCamera> at_poses(const ImportedCamera& camera, const std::string& file,

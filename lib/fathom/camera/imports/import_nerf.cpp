@@ -5,12 +5,15 @@
 #include <numbers>
 
 #include "fathom/camera/camera_import_internal.h"
+#include "fathom/camera/imports/calibrated_lens.h"
 #include "fathom/camera/imports/lines_and_poses.h"
 #include "fathom/camera/rounded_angles.h"
 #include "fathom/failures/errors.h"
+#include "fathom/failures/unknown_name.h"
 #include "fathom/files/input_file.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/json_value.h"
+#include "fathom/text/printable.h"
 
 namespace fathom {
 using namespace camera;
@@ -34,24 +37,31 @@ struct Frame {
   }
 };
 
-/// Nerfstudio's models that are pinhole cameras if k1, k2, … are 0.
-constexpr std::array<std::string_view, 5> pinhole_models{"OPENCV", "PINHOLE", "RADIAL",
-                                                         "SIMPLE_PINHOLE", "SIMPLE_RADIAL"};
+/// The camera_model of Nerfstudio; empty where the file has none.
+std::string model_of(const Frame& frame) {
+  const auto model = frame.find("camera_model");
+  return model ? model->string() : "";
+}
+
+/// The models of Nerfstudio that have a lens model here.
+constexpr std::array<std::string_view, 8> known_models{"EQUIRECTANGULAR", "FISHEYE624",   "OPENCV",
+                                                       "OPENCV_FISHEYE",  "PINHOLE",      "RADIAL",
+                                                       "SIMPLE_PINHOLE",  "SIMPLE_RADIAL"};
 
 /// Nerfstudio names its fisheye; instant-ngp has a key for it.
 bool is_fisheye(const Frame& frame) {
-  const auto model = frame.find("camera_model"), flag = frame.find("is_fisheye");
-  return (model && model->string() == "OPENCV_FISHEYE") || (flag && flag->boolean());
+  const auto flag = frame.find("is_fisheye");
+  return model_of(frame) == "OPENCV_FISHEYE" || (flag && flag->boolean());
 }
 
 /// Refuses a lens of another model.
 void expect_known_lens(const Frame& frame) {
   if (const auto model = frame.find("camera_model"))
     if (const std::string& name = model->string();
-        name != "OPENCV_FISHEYE" && std::ranges::find(pinhole_models, name) == pinhole_models.end())
-      model->fail("the camera model " + name +
-                  " is not supported; undistort the images, or expected OPENCV, OPENCV_FISHEYE, "
-                  "PINHOLE, RADIAL, SIMPLE_PINHOLE or SIMPLE_RADIAL");
+        std::ranges::find(known_models, name) == known_models.end())
+      model->fail("the camera model " + printable(name) +
+                  " is not supported; undistort the images, or expected " +
+                  joined({known_models.begin(), known_models.end()}, " or "));
   // instant-ngp names its other lenses by keys of their own.
   for (const char* key : {"ftheta_p0", "latlong", "equirectangular"})
     if (const auto other = frame.find(key)) other->fail("the lens is no pinhole camera");
@@ -59,8 +69,7 @@ void expect_known_lens(const Frame& frame) {
 
 /// OpenCV's lens or fisheye, or Brown's lens where k3 or k4, which are of r⁶ and r⁸ above the
 /// fraction bar, are not 0. Nothing where all numbers of a lens that is no fisheye are 0.
-std::optional<Lens> lens_of(const Frame& frame) {
-  expect_known_lens(frame);
+std::optional<Lens> lens_of_opencv(const Frame& frame) {
   const auto number = [&](const char* key) { return frame.number(key).value_or(0); };
   const double k1 = number("k1"), k2 = number("k2"), k3 = number("k3"), k4 = number("k4"),
                p1 = number("p1"), p2 = number("p2");
@@ -72,6 +81,31 @@ std::optional<Lens> lens_of(const Frame& frame) {
     lens = Lens{LensModel::opencv, {k1, k2, p1, p2}};
   }
   return lens;
+}
+
+/// Nerfstudio's angles are π·(u − cx)/fl_x and π·(v − cy)/fl_y: a turn is 2·fl_x pixels wide.
+void make_panorama(Projection& projection) {
+  projection.lens = Lens{LensModel::equirectangular};
+  projection.fx *= 2;
+}
+
+/// Project Aria's lens, from a list of its 12 numbers.
+void read_fisheye624(const Frame& frame, ImportedCamera& one) {
+  const auto list = frame.find("distortion_params");
+  if (!list) frame.own.fail("the numbers of FISHEYE624 are missing: expected distortion_params");
+  set_fisheye624(one, list->numbers(fisheye624_numbers), list->where());
+}
+
+/// After the intrinsics.
+void read_lens(const Frame& frame, ImportedCamera& one) {
+  const std::string model = model_of(frame);
+  if (model == "EQUIRECTANGULAR") {
+    make_panorama(one.camera.projection);
+  } else if (model == "FISHEYE624") {
+    read_fisheye624(frame, one);
+  } else {
+    one.camera.projection.lens = lens_of_opencv(frame);
+  }
 }
 
 /// Which number of the lens has no meaning in Nerfstudio's models, or nothing.
@@ -150,6 +184,16 @@ void warn_of_geometry(const JsonValue& root, const std::string& file, Warnings& 
                          "\" is not applied: cameras are taken over as transform_matrix has them");
 }
 
+/// The frames, and those that ScanNet++ sets apart for tests.
+std::vector<JsonValue> frames_of(const JsonValue& root) {
+  std::vector<JsonValue> frames = root.at("frames").elements();
+  if (const auto more = root.find("test_frames")) {
+    const std::vector<JsonValue> apart = more->elements();
+    frames.insert(frames.end(), apart.begin(), apart.end());
+  }
+  return frames;
+}
+
 }  // namespace
 
 std::vector<ImportedCamera> camera::parse_nerf(std::string_view text, const std::string& name,
@@ -159,16 +203,17 @@ std::vector<ImportedCamera> camera::parse_nerf(std::string_view text, const std:
   const JsonValue root = document.root();
   warn_of_geometry(root, name, warnings);
   std::vector<ImportedCamera> cameras;
-  for (const JsonValue& own : root.at("frames").elements()) {
+  for (const JsonValue& own : frames_of(root)) {
     const auto file_path = own.find("file_path");
     const std::string image = file_path ? file_path->string() : std::to_string(cameras.size());
     cameras.push_back(imported_camera(image, own.where(), [&](ImportedCamera& one) {
       const Frame frame{own, root};
-      one.camera.projection.lens = lens_of(frame);
+      expect_known_lens(frame);
       one.distortion = unknown_distortion(frame);
       one.camera.width = image_size(frame, "w", width);
       one.camera.height = image_size(frame, "h", height);
       read_intrinsics(frame, one.camera);
+      read_lens(frame, one);
       one.camera.world_to_camera = world_to_camera(own.at("transform_matrix"));
     }));
   }
