@@ -143,7 +143,7 @@ std::string json_of_yaml(std::string_view yaml, const std::string& file) {
   return writer.take();
 }
 
-// fathom camera import opencv | ros | kalibr
+// fathom camera import opencv | ros | kalibr | aria | kitti360
 
 using Cameras = std::vector<ImportedCamera>;
 
@@ -176,12 +176,16 @@ void refuse_xml(std::string_view text, const std::string& file) {
     throw InputError(file + ": is XML, expected YAML or JSON; write it with FileStorage as .yml");
 }
 
+std::string read_yaml(const std::string& name) {
+  note_input(name);
+  const files::InputFile file(name);
+  refuse_xml(file.text(), name);
+  return json_of_yaml(file.text(), name);
+}
+
 template <class Parse>
 Cameras read_calibration(const ImportArguments& a, const Parse& parse) {
-  note_input(a.input);
-  const files::InputFile file(a.input);
-  refuse_xml(file.text(), a.input);
-  return parse(json_of_yaml(file.text(), a.input), a.input, given_lens(a), poses_of(a));
+  return parse(read_yaml(a.input), a.input, given_lens(a), poses_of(a));
 }
 
 Cameras read_opencv(const ImportArguments& a, Warnings&) {
@@ -190,6 +194,26 @@ Cameras read_opencv(const ImportArguments& a, Warnings&) {
 
 Cameras read_ros(const ImportArguments& a, Warnings&) {
   return read_calibration(a, cameras_of_ros);
+}
+
+void declare_kitti360(Command& command, ImportArguments& a) {
+  add_size_option(command, a);
+  add_pixel_centre(command, a, " (default 0)");
+  command.option("--poses", "FILE", a.poses,
+                 "Poses of the vehicle, one line per frame: poses.txt; needs --rig");
+  command.option("--rig", "FILE", a.rig,
+                 "Poses of the cameras on the vehicle: calib_cam_to_pose.txt");
+}
+
+Cameras read_kitti360(const ImportArguments& a, Warnings&) {
+  if (a.poses.empty() != a.rig.empty()) throw UsageError("--poses and --rig go together");
+  std::optional<Kitti360Poses> poses;
+  if (!a.poses.empty()) poses = Kitti360Poses{a.poses, a.rig};
+  return cameras_of_kitti360(read_yaml(a.input), a.input, given_lens(a), poses);
+}
+
+Cameras read_aria(const ImportArguments& a, Warnings&) {
+  return read_calibration(a, cameras_of_aria);
 }
 
 Cameras read_kalibr(const ImportArguments& a, Warnings&) {

@@ -1,4 +1,4 @@
-// fathom camera import colmap | nerf | bop | sfmdata | gltf | opengl
+// fathom camera import colmap | nerf | bop | sfmdata | gltf | blender | opengl
 
 #include <fmt/core.h>
 
@@ -43,6 +43,10 @@ Cameras read_gltf(const ImportArguments& a, Warnings&) {
   return import_gltf(a.input, width, height);
 }
 
+Cameras read_blender(const ImportArguments& a, Warnings&) {
+  return import_blender(a.input);
+}
+
 Cameras read_opengl(const ImportArguments& a, Warnings&) {
   return import_opengl(a.input);
 }
@@ -84,6 +88,12 @@ std::vector<ImportSource> program_sources() {
           {"gltf", "Import the cameras of a glTF scene", "model.gltf or model.glb",
            "  fathom camera import gltf model.glb --size 1920x1080 -o cameras.json",
            add_size_option, read_gltf},
+          {"blender", "Import cameras of Blender: JSON of export_cameras.py",
+           "The JSON file that export_cameras.py writes",
+           "  blender -b scene.blend --python export_cameras.py -- cameras.json\n"
+           "  fathom camera import blender cameras.json --image Camera -o camera.json\n"
+           "\nThe script is in blender/ of the documentation.",
+           no_options, read_blender},
           {"opengl", "Import a camera of OpenGL: projection, modelview and viewport as JSON",
            "A JSON file with projection, modelview and viewport",
            "  fathom camera import opengl matrices.json -o camera.json", no_options, read_opengl}};

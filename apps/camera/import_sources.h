@@ -23,8 +23,8 @@ struct ImportArguments {
   std::optional<double> pixel_centre;
   std::optional<PoseDirection> direction;
   std::optional<CameraAxes> axes;
-  /// Files beside INPUT: a list of images, poses.
-  std::string images, poses;
+  /// Files beside INPUT: a list of images, poses, the poses of cameras on a vehicle.
+  std::string images, poses, rig;
   bool camera_to_world = false;
   std::optional<std::uint32_t> number;
   ScanNetStream stream = ScanNetStream::depth;

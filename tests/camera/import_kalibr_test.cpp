@@ -1,7 +1,6 @@
-// Kalibr's cameras project as its own code does (ethz-asl/kalibr, aslam_cameras/implementation:
-// OmniProjection.hpp, ExtendedUnifiedProjection.hpp, DoubleSphereProjection.hpp,
-// RadialTangentialDistortion.hpp, EquidistantDistortion.hpp, FovDistortion.hpp), with its order of
-// numbers (kalibr_common/ConfigReader.py).
+// Kalibr's cameras project as its own classes do (`ethz-asl/kalibr`: aslam_cameras):
+// OmniProjection, ExtendedUnifiedProjection, DoubleSphereProjection, RadialTangentialDistortion,
+// EquidistantDistortion and FovDistortion, with the order of numbers of its ConfigReader.py.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,6 +14,7 @@
 #include "tests/camera/imported_rays.h"
 #include "tests/camera/judged.h"
 #include "tests/camera/seen_points.h"
+#include "tests/scratch_folder.h"
 
 namespace fathom {
 namespace {
@@ -225,9 +225,8 @@ TEST(ImportKalibr, ProductsAreRoundedOnce) {
 TEST(ImportKalibr, FaultsAreNamed) {
   const auto fault = [](const std::string& cam0) { return first_of(cam0).fault; };
   const std::string K = "5, 6, 3.25, 2.5";
-  EXPECT_EQ(
-      fault(cam("fisheye", K, "none", "")),
-      "camchain.yaml: cam0.camera_model: found fisheye, expected pinhole, omni, eucm or ds");
+  EXPECT_EQ(fault(cam("fisheye", K, "none", "")),
+            "camchain.yaml: cam0.camera_model: found fisheye, expected pinhole, omni, eucm or ds");
   EXPECT_THAT(
       fault(cam("pinhole", K, "equi", "")),
       HasSubstr("cam0.distortion_model: found equi, expected none, radtan, equidistant or fov"));

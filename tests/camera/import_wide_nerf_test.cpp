@@ -11,6 +11,7 @@
 #include "fathom/failures/errors.h"
 #include "tests/camera/imported_rays.h"
 #include "tests/camera/judged.h"
+#include "tests/scratch_folder.h"
 
 namespace fathom {
 namespace {

@@ -26,6 +26,8 @@ std::pair<std::string, std::optional<std::string>> two_files(const std::string& 
   return {text.substr(0, at), text.substr(at + line.size())};
 }
 
+constexpr const char* rig_of_fuzzer = "image_02: 1 0 0 0.5 0 0 1 0.75 0 -1 0 1.25\n";
+
 std::vector<ImportedCamera> parse_data_set(char format, const std::string& text) {
   const auto [first, second] = two_files(text);
   const NamedText file{first, "first"};
@@ -53,6 +55,9 @@ std::vector<ImportedCamera> parse_data_set(char format, const std::string& text)
       return parse_scannetpp(file, {});
     case 'r':
       return parse_replica(file, other, {.width = 8, .height = 6});
+    case 'q':
+      return parse_kitti360(file, {}, other,
+                            other ? std::optional(NamedText{rig_of_fuzzer, "rig"}) : std::nullopt);
     default:
       return parse_kitti(file, other, 2, {.width = 8, .height = 6});
   }
@@ -79,6 +84,12 @@ std::vector<ImportedCamera> parse(char format, const std::string& text) {
       return cameras_of_opencv(text, "input", {});
     case 'w':
       return cameras_of_ros(text, "input", {});
+    case 'l':
+      return cameras_of_kalibr(text, "input", {});
+    case 'i':
+      return cameras_of_aria(text, "input", {});
+    case 'e':
+      return parse_blender(text, "input");
     case 'a':
       return parse_sfm_data({text, "input"});
     case 'm':
@@ -88,6 +99,7 @@ std::vector<ImportedCamera> parse(char format, const std::string& text) {
     case 'p':
     case 'r':
     case 'k':
+    case 'q':
       return parse_data_set(format, text);
     default: {
       // COLMAP: two files, the first as long as the next byte says, times four.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "fathom/numeric/transcendental.h"
@@ -51,6 +52,20 @@ TEST(Trigonometry, RefusesOtherAngles) {
     EXPECT_THROW(cotangent_of_half_degrees(angle), std::domain_error);
     EXPECT_THROW(cotangent_of_half_radians(angle == 180 ? 3.2 : angle), std::domain_error);
   }
+}
+
+// The digits are those of OEIS A000796.
+TEST(Trigonometry, PiIsEnclosed) {
+  const Enclosure around = pi().enclose(160);
+  EXPECT_EQ(to_decimal(around.low, 40), to_decimal(around.high, 40));
+  EXPECT_EQ(to_decimal(around.low, 40).substr(0, 41), "3.141592653589793238462643383279502884197");
+  EXPECT_TRUE(around.low < around.high);
+  EXPECT_EQ(round_to_binary64(pi()), std::numbers::pi);
+  EXPECT_EQ(round_to_binary64(reciprocal_of_pi()), std::numbers::inv_pi);
+  const Enclosure inverse = reciprocal_of_pi().enclose(160);
+  EXPECT_TRUE(inverse.low < quotient(Dyadic(1.0), around.low));
+  EXPECT_TRUE(quotient(Dyadic(1.0), around.high) < inverse.high);
+  EXPECT_FALSE(pi().rational().has_value());
 }
 
 }  // namespace

@@ -61,8 +61,8 @@ std::vector<ImportedCamera> import_colmap(const std::filesystem::path& folder);
 bool is_colmap_model(const std::filesystem::path& folder);
 
 /// NeRF's transforms.json (also Nerfstudio's, instant-ngp's and ScanNet++'s), in the order of its
-/// frames; test_frames follow. Camera to world, OpenGL axes, the image's corner at 0. Intrinsics for
-/// all frames or each: fl_x, fl_y, cx, cy, w, h, or camera_angle_x with an image size.
+/// frames; test_frames follow. Camera to world, OpenGL axes, the image's corner at 0. Intrinsics
+/// for all frames or each: fl_x, fl_y, cx, cy, w, h, or camera_angle_x with an image size.
 /// `width` and `height` are used where the file has no w and h (the original NeRF data); 0: none.
 /// Warns of keys that other programs use to change the geometry on loading (scale, offset, …).
 std::vector<ImportedCamera> import_nerf(const std::filesystem::path& file, std::uint32_t width,
@@ -83,6 +83,11 @@ std::vector<ImportedCamera> import_bop(const std::filesystem::path& input, std::
 /// the inverse is rounded once. Lengths are as in the file (metres).
 std::vector<ImportedCamera> import_gltf(const std::filesystem::path& file, std::uint32_t width,
                                         std::uint32_t height);
+
+/// Cameras of Blender, as docs/blender/export_cameras.py writes them: the properties of each camera
+/// and of the render, with angles in degrees. Perspective, orthographic and Cycles' panoramas
+/// except the cubemap's face; the scale of an object is ignored, as in Cycles.
+std::vector<ImportedCamera> import_blender(const std::filesystem::path& file);
 
 /// OpenGL matrices: a JSON object, or a list of them, with
 ///   "projection"            4×4, a list of rows, or a flat list of 16 in OpenGL's column order

@@ -55,6 +55,7 @@ std::vector<ImportedCamera> parse_bop(std::string_view text, const std::string& 
 /// The same of a document that has been parsed.
 std::vector<ImportedCamera> parse_bop(const text::JsonValue& root, std::uint32_t width,
                                       std::uint32_t height);
+std::vector<ImportedCamera> parse_blender(std::string_view text, const std::string& name);
 std::vector<ImportedCamera> parse_opengl(std::string_view text, const std::string& name);
 std::vector<ImportedCamera> parse_gltf_cameras(std::string_view bytes, const std::string& name,
                                                std::uint32_t width, std::uint32_t height);
@@ -101,5 +102,9 @@ std::vector<ImportedCamera> parse_kitti(const NamedText& calibration,
                                         std::optional<std::uint32_t> number,
                                         const GivenLens& given);
 std::vector<ImportedCamera> parse_sfm_data(const NamedText& file);
+/// `poses` and `rig` go together.
+std::vector<ImportedCamera> parse_kitti360(const NamedText& json, const GivenLens& given,
+                                           const std::optional<NamedText>& poses,
+                                           const std::optional<NamedText>& rig);
 
 }  // namespace fathom::camera

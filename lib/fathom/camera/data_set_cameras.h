@@ -162,4 +162,28 @@ std::vector<ImportedCamera> cameras_of_kalibr(std::string_view json, const std::
                                               const GivenLens& given,
                                               const CalibrationPoses& poses = {});
 
+/// Project Aria's calibration: CameraCalibrations, each with Label, Projection
+/// (FisheyeRadTanThinPrism or KannalaBrandtK3), T_Device_Camera and ConfigData or, for all,
+/// ImageSizes. The device is the world, in metres; `poses` are of the device. The lens ends at
+/// MaxSolidAngle. Without ConfigData and ImageSizes the image's size must be given.
+std::vector<ImportedCamera> cameras_of_aria(std::string_view json, const std::string& file,
+                                            const GivenLens& given,
+                                            const CalibrationPoses& poses = {});
+
+/// The poses of a drive of KITTI-360.
+struct Kitti360Poses {
+  /// poses.txt: a frame's number and 12 numbers on each line, vehicle to world.
+  std::filesystem::path vehicle;
+  /// calib_cam_to_pose.txt: "image_02: " and 12 numbers on a line, camera to vehicle.
+  std::filesystem::path rig;
+};
+
+/// A fisheye of KITTI-360 (image_02.yaml, image_03.yaml): the model MEI of camodocal, with
+/// mirror_parameters, distortion_parameters and projection_parameters. With poses there is a camera
+/// for each frame, called "0000000250", …, in metres; each entry of the inverse of the product of
+/// the two poses is the exact one, rounded once. The default pixel centre is 0.
+std::vector<ImportedCamera> cameras_of_kitti360(std::string_view json, const std::string& file,
+                                                const GivenLens& given,
+                                                const std::optional<Kitti360Poses>& poses = {});
+
 }  // namespace fathom

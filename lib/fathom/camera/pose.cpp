@@ -68,13 +68,49 @@ Matrix3 rotation_of(const std::array<double, 4>& quaternion) {
   return R;
 }
 
-Pose view_from(const ExactVector3& eye, const std::array<double, 4>& quaternion) {
+ExactPose exact_view_from(const ExactVector3& eye, const std::array<double, 4>& quaternion) {
   const auto [rows, n] = scaled_rotation_of(quaternion);
-  Pose view;
+  ExactPose view;
   for (int i = 0; i < 3; ++i) {
     const ExactVector3 column{rows[0][i], rows[1][i], rows[2][i]};
-    for (int k = 0; k < 3; ++k) view[i][k] = round_to_binary64(Ratio(column[k], n));
-    view[i][3] = round_to_binary64(Ratio(-dot(column, eye), n));
+    view[i] = {Ratio(column[0], n), Ratio(column[1], n), Ratio(column[2], n),
+               Ratio(-dot(column, eye), n)};
+  }
+  return view;
+}
+
+Pose view_from(const ExactVector3& eye, const std::array<double, 4>& quaternion) {
+  return rounded_pose(exact_view_from(eye, quaternion));
+}
+
+namespace {
+
+/// x/over·√of = ±√(of·x²/over²), rounded once.
+double times_root(const Dyadic& x, const Dyadic& over, const Dyadic& of) {
+  const double magnitude = round_sqrt_to_binary64(Ratio(of * x * x, over * over));
+  return x.sign() * over.sign() == Sign::negative ? -magnitude : magnitude;
+}
+
+ExactVector3 opposite(const ExactVector3& v) {
+  return {-v[0], -v[1], -v[2]};
+}
+
+}  // namespace
+
+// The camera's axes (right, down, forward) are the columns c of a matrix C, scaled to length 1. The
+// inverse of [c₀/|c₀| … | eye] has the rows |cᵢ|·(C⁻¹)ᵢ and −|cᵢ|·(C⁻¹)ᵢ·eye; the rows of the
+// adjugate of C are the cross products of its columns.
+std::optional<Pose> view_along(const std::array<ExactVector3, 3>& axes, const ExactVector3& eye) {
+  const std::array<ExactVector3, 3> c{axes[0], opposite(axes[1]), opposite(axes[2])};
+  const Dyadic det = determinant(c[0], c[1], c[2]);
+  if (det.is_zero()) return std::nullopt;
+  const std::array<ExactVector3, 3> adjugate = cofactors(c);
+  Pose view;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Dyadic squared_length = dot(c[i], c[i]);
+    for (std::size_t k = 0; k < 3; ++k)
+      view[i][k] = times_root(adjugate[i][k], det, squared_length);
+    view[i][3] = times_root(-dot(adjugate[i], eye), det, squared_length);
   }
   return view;
 }
@@ -101,10 +137,35 @@ Adjugate adjugate(const Pose& pose) {
   return {{cross(a1, a2), cross(a2, a0), cross(a0, a1)}, determinant(a0, a1, a2), column(3)};
 }
 
-std::optional<std::array<std::array<Ratio, 4>, 3>> exact_inverse(const Pose& pose) {
+ExactPose exact_pose(const Pose& pose) {
+  ExactPose exact;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 4; ++k) exact[i][k] = Ratio(Dyadic(pose[i][k]));
+  return exact;
+}
+
+Pose rounded_pose(const ExactPose& pose) {
+  Pose rounded;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 4; ++k) rounded[i][k] = round_to_binary64(pose[i][k]);
+  return rounded;
+}
+
+ExactPose composed(const ExactPose& second, const ExactPose& first) {
+  ExactPose product;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 4; ++k) {
+      Ratio sum = k == 3 ? second[i][3] : Ratio();
+      for (std::size_t j = 0; j < 3; ++j) sum = sum + second[i][j] * first[j][k];
+      product[i][k] = sum;
+    }
+  return product;
+}
+
+std::optional<ExactPose> exact_inverse(const Pose& pose) {
   const auto [rows, det, b] = adjugate(pose);
   if (det.is_zero()) return std::nullopt;
-  std::array<std::array<Ratio, 4>, 3> inverse;
+  ExactPose inverse;
   for (std::size_t i = 0; i < 3; ++i)
     inverse[i] = {Ratio(rows[i][0], det), Ratio(rows[i][1], det), Ratio(rows[i][2], det),
                   Ratio(-dot(rows[i], b), det)};
@@ -113,11 +174,7 @@ std::optional<std::array<std::array<Ratio, 4>, 3>> exact_inverse(const Pose& pos
 
 std::optional<Pose> inverse(const Pose& pose) {
   const auto exact = exact_inverse(pose);
-  if (!exact) return std::nullopt;
-  Pose rounded;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t k = 0; k < 4; ++k) rounded[i][k] = round_to_binary64((*exact)[i][k]);
-  return rounded;
+  return exact ? std::optional(rounded_pose(*exact)) : std::nullopt;
 }
 
 }  // namespace fathom::camera

@@ -39,6 +39,9 @@ namespace fathom::camera {
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
+/// A pose whose entries are exact.
+using ExactPose = std::array<std::array<Ratio, 4>, 3>;
+
 /// `v` scaled to length 1, each entry the exact one rounded to nearest. v must not be zero.
 std::array<double, 3> unit_vector(const ExactVector3& v);
 
@@ -49,6 +52,13 @@ Matrix3 rotation_of(const std::array<double, 4>& quaternion);
 /// World to camera, [R⁻¹ | −R⁻¹·eye], of a camera at `eye` whose axes in the world are the columns
 /// of that rotation R: each entry the exact one rounded once.
 Pose view_from(const ExactVector3& eye, const std::array<double, 4>& quaternion);
+/// The same, exactly.
+ExactPose exact_view_from(const ExactVector3& eye, const std::array<double, 4>& quaternion);
+
+/// World to camera of a camera at `eye` whose axes in the world, right, up and backward as OpenGL
+/// has them, are along these vectors of any length: each entry the exact one rounded once. Nothing
+/// if the vectors are linearly dependent.
+std::optional<Pose> view_along(const std::array<ExactVector3, 3>& axes, const ExactVector3& eye);
 
 /// R·X, exactly.
 ExactVector3 rotate(const Matrix3& R, const ExactVector3& X);
@@ -65,8 +75,13 @@ struct Adjugate {
 };
 Adjugate adjugate(const Pose& pose);
 
+ExactPose exact_pose(const Pose& pose);
+/// Each entry rounded once.
+Pose rounded_pose(const ExactPose& pose);
+/// The pose `second` after the pose `first`, exactly.
+ExactPose composed(const ExactPose& second, const ExactPose& first);
 /// [A⁻¹ | −A⁻¹·b] of a pose [A | b], exactly; nothing if A is singular.
-std::optional<std::array<std::array<Ratio, 4>, 3>> exact_inverse(const Pose& pose);
+std::optional<ExactPose> exact_inverse(const Pose& pose);
 /// The same, each entry rounded once.
 std::optional<Pose> inverse(const Pose& pose);
 

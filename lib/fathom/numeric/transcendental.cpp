@@ -90,6 +90,26 @@ Real cotangent_of_half_radians(double angle) {
           []() -> std::optional<Ratio> { return std::nullopt; }};
 }
 
+Real pi() {
+  return {[](long bits) {
+            const auto rounded = [&](mpfr_rnd_t direction) {
+              BigFloat value(bits);
+              mpfr_const_pi(value, direction);
+              return to_dyadic(value);
+            };
+            return Enclosure{rounded(MPFR_RNDD), rounded(MPFR_RNDU)};
+          },
+          []() -> std::optional<Ratio> { return std::nullopt; }};
+}
+
+Real reciprocal_of_pi() {
+  return {[](long bits) {
+            const Enclosure around = pi().enclose(bits);
+            return Enclosure{quotient(Dyadic(1.0), around.high), quotient(Dyadic(1.0), around.low)};
+          },
+          []() -> std::optional<Ratio> { return std::nullopt; }};
+}
+
 // With a and b cosines of rational angles in degrees α and β (a sine is a cosine), 4·a·b is the sum
 // of 2·cos(α + β) and 2·cos(α − β), which are algebraic integers. So it is one, too, and where it
 // is rational it is an integer: the product is a multiple of ¼, a binary64 number with which no two

@@ -3,7 +3,7 @@
 #include "fathom/numeric/dyadic.h"
 #include "fathom/numeric/real.h"
 
-/// Sines, cosines, cotangents and logarithms, as numbers that round correctly (real.h).
+/// Sines, cosines, cotangents, π and logarithms, as numbers that round correctly (real.h).
 namespace fathom {
 
 // Of binary64 angles. The sine and the cosine of a rational number of degrees are rational only if
@@ -18,6 +18,10 @@ Real cosine_of_degrees(double degrees);
 Real cotangent_of_half_degrees(double angle);
 /// The same for an angle between 0 and π radians.
 Real cotangent_of_half_radians(double angle);
+
+/// π and 1/π. Both are irrational (Lambert).
+Real pi();
+Real reciprocal_of_pi();
 
 /// The product of two such sines or cosines, rounded to binary64 once.
 double round_product_to_binary64(const Real& a, const Real& b);

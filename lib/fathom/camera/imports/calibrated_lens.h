@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -8,10 +9,19 @@
 
 #include "fathom/camera/camera_import.h"
 #include "fathom/camera/data_set_cameras.h"
+#include "fathom/camera/pose.h"
+
+namespace fathom::text {
+class JsonValue;
+}
 
 /// From the numbers of a calibration to a lens, and from a calibration to cameras at poses: shared
 /// by the importers of calibrations. Only for .cpp files of this module.
 namespace fathom::camera {
+
+/// The width or height of an image.
+/// Fails    InputError if it is not an integer from 1 to 2³² − 1.
+std::uint32_t pixels_of(const text::JsonValue& size);
 
 /// A number of distortion, by the name of its parameter in the table of lens models (lens.h).
 struct LensNumber {
@@ -36,6 +46,20 @@ void set_fisheye624(ImportedCamera& one, std::span<const double> numbers, const 
 /// The calibrated camera at the world's origin, or at each of the poses.
 /// Fails    InputError if two poses have the same name.
 std::vector<ImportedCamera> at_poses(const ImportedCamera& camera, const std::string& file,
+                                     const CalibrationPoses& given);
+
+/// A camera of a rig: the camera without its pose, and its pose from the frame of the rig, which a
+/// camera with a fault may lack.
+struct RigCamera {
+  ImportedCamera camera;
+  std::optional<ExactPose> from_rig;
+};
+
+/// The cameras of a rig that stands at the world's origin, or at each of the poses, where camera A
+/// of the pose B is called "A/B". Each entry of the product of two poses is the exact one, rounded
+/// once. A fault of a pose is the fault of its cameras.
+/// Fails    InputError if two cameras have the same name.
+std::vector<ImportedCamera> at_poses(const std::vector<RigCamera>& rig, const std::string& file,
                                      const CalibrationPoses& given);
 
 /// The name of a camera that its calibration does not name.

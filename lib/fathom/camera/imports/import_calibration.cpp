@@ -66,7 +66,7 @@ std::uint32_t size_of(const JsonValue& root, Keys keys, std::uint32_t given) {
   const auto size = find_first(root, keys);
   if (!size)
     root.fail("has no image size: expected " + listed(keys) + ", or a size that is given (--size)");
-  return static_cast<std::uint32_t>(size->integer(1, std::numeric_limits<std::uint32_t>::max()));
+  return pixels_of(*size);
 }
 
 IntrinsicMatrix intrinsics_of(const JsonValue& matrix) {

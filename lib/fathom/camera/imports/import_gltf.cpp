@@ -62,36 +62,15 @@ class Nodes {
   std::vector<std::optional<std::size_t>> parents_;
 };
 
-/// x/over·√of = ±√(of·x²/over²), rounded once.
-double times_root(const Dyadic& x, const Dyadic& over, const Dyadic& of) {
-  const double magnitude = round_sqrt_to_binary64(Ratio(of * x * x, over * over));
-  return x.sign() * over.sign() == Sign::negative ? -magnitude : magnitude;
-}
-
-/// The view of a node. As glTF requires, the scale is ignored: the camera's axes (right, down,
-/// forward) are the columns c of the transform, scaled to length 1. The inverse of [c₀/|c₀| … |
-/// eye] has the rows |cᵢ|·(C⁻¹)ᵢ and −|cᵢ|·(C⁻¹)ᵢ·eye; the rows of the adjugate of C are the cross
-/// products of its columns.
+/// The view of a node. As glTF requires, the scale is ignored.
 Pose view_of(const WorldFromMesh& world_from_node, const JsonValue& node) {
   const auto column = [&](std::size_t k) {
     const auto& rows = world_from_node.rows;
     return ExactVector3{rows[0][k], rows[1][k], rows[2][k]};
   };
-  const auto turned = [](const ExactVector3& v) { return ExactVector3{-v[0], -v[1], -v[2]}; };
-  const std::array<ExactVector3, 3> axes{column(0), turned(column(1)), turned(column(2))};
-  const ExactVector3 eye = column(3);
-  const Dyadic det = determinant(axes[0], axes[1], axes[2]);
-  if (det.is_zero()) node.fail("its transform is singular");
-  const std::array<ExactVector3, 3> adjugate{cross(axes[1], axes[2]), cross(axes[2], axes[0]),
-                                             cross(axes[0], axes[1])};
-  Pose view;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Dyadic squared_length = dot(axes[i], axes[i]);
-    for (std::size_t k = 0; k < 3; ++k)
-      view[i][k] = times_root(adjugate[i][k], det, squared_length);
-    view[i][3] = times_root(-dot(adjugate[i], eye), det, squared_length);
-  }
-  return view;
+  const auto view = view_along({column(0), column(1), column(2)}, column(3));
+  if (!view) node.fail("its transform is singular");
+  return *view;
 }
 
 void read_perspective(const JsonValue& lens, Camera& camera) {

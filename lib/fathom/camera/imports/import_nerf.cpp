@@ -165,16 +165,8 @@ void read_intrinsics(const Frame& frame, Camera& camera) {
 
 /// World to camera, in our axes, of a camera-to-world matrix in OpenGL's.
 Pose world_to_camera(const JsonValue& matrix) {
-  const auto rows = matrix.elements();
-  if (rows.size() != 3 && rows.size() != 4)
-    matrix.fail("expected a 4×4 matrix, found " + std::to_string(rows.size()) + " rows");
-  std::vector<double> numbers;
-  for (const JsonValue& each : rows) {
-    const auto row = each.numbers(4);
-    numbers.insert(numbers.end(), row.begin(), row.end());
-  }
-  return camera_from_world(pose_of_numbers(numbers, matrix.where()), PoseDirection::camera_to_world,
-                           CameraAxes::opengl, matrix.where());
+  return camera_from_world(parse_matrix(matrix), PoseDirection::camera_to_world, CameraAxes::opengl,
+                           matrix.where());
 }
 
 void warn_of_geometry(const JsonValue& root, const std::string& file, Warnings& warnings) {

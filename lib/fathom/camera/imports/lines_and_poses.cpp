@@ -7,7 +7,9 @@
 #include <unordered_set>
 
 #include "fathom/failures/errors.h"
+#include "fathom/text/counted.h"
 #include "fathom/text/decimal.h"
+#include "fathom/text/json_value.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::camera {
@@ -104,13 +106,25 @@ void turn_row(Pose& camera_from_world, std::size_t i) {
   for (double& entry : camera_from_world[i]) entry = 0.0 - entry;
 }
 
-}  // namespace
-
 void require_finite(const Pose& pose, const std::string& where) {
   for (const auto& row : pose)
     for (const double entry : row)
       if (!std::isfinite(entry))
         throw InputError(where + ": the pose has a number that is not finite");
+}
+
+}  // namespace
+
+ExactPose exact_pose(const Pose& pose, const std::string& where) {
+  require_finite(pose, where);
+  return exact_pose(pose);
+}
+
+ExactPose exact_inverse(const Pose& pose, const std::string& where) {
+  require_finite(pose, where);
+  const auto inverted = exact_inverse(pose);
+  if (!inverted) throw InputError(where + ": the matrix is singular");
+  return *inverted;
 }
 
 Pose camera_from_world(const Pose& pose, PoseDirection direction, CameraAxes axes,
@@ -124,9 +138,7 @@ Pose camera_from_world(const Pose& pose, PoseDirection direction, CameraAxes axe
   }
   if (axes == CameraAxes::opengl)
     for (const std::size_t k : {1, 2}) turn_column(turned, k);
-  const auto inverted = inverse(turned);
-  if (!inverted) throw InputError(where + ": the matrix is singular");
-  return *inverted;
+  return rounded_pose(exact_inverse(turned, where));
 }
 
 ImportedCamera placed(const ImportedCamera& lens, const NamedPose& pose, PoseDirection direction,
@@ -162,6 +174,18 @@ Pose pose_of_numbers(const std::vector<double>& numbers, const std::string& wher
   Pose pose;
   for (std::size_t i = 0; i < 12; ++i) pose[i / 4][i % 4] = numbers[i];
   return pose;
+}
+
+Pose parse_matrix(const text::JsonValue& matrix) {
+  const auto rows = matrix.elements();
+  if (rows.size() != 3 && rows.size() != 4)
+    matrix.fail("expected a 4×4 matrix, found " + text::counted(rows.size(), "row"));
+  std::vector<double> numbers;
+  for (const text::JsonValue& each : rows) {
+    const auto row = each.numbers(4);
+    numbers.insert(numbers.end(), row.begin(), row.end());
+  }
+  return pose_of_numbers(numbers, matrix.where());
 }
 
 Pose parse_pose(std::string_view text, const std::string& name) {

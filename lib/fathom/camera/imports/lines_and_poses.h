@@ -62,8 +62,10 @@ IntrinsicMatrix intrinsic_matrix(double fx, double fy, double cx, double cy);
 /// values. An unknown size is 0.
 Camera lens_of(const GivenLens& given, const GivenLens& data_set, const std::string& where);
 
-/// Fails where an entry of a pose is not finite.
-void require_finite(const Pose& pose, const std::string& where);
+/// A pose and the inverse of a pose, exactly. Fail where an entry is not finite, and
+/// exact_inverse() where the matrix is singular.
+ExactPose exact_pose(const Pose& pose, const std::string& where);
+ExactPose exact_inverse(const Pose& pose, const std::string& where);
 
 /// World to camera, in our axes, of a pose [A | b]: exact, or each entry of the inverse rounded
 /// once. Fails where an entry is not finite, and where a pose that has to be inverted is singular.
@@ -80,6 +82,9 @@ void require_different_names(const std::vector<ImportedCamera>& cameras, const s
 /// A matrix of 3 or 4 rows by 4, in order; the last of four has to be 0 0 0 1. Entries that are not
 /// finite are let through.
 Pose pose_of_numbers(const std::vector<double>& numbers, const std::string& where);
+
+/// The same of a list of 3 or 4 rows of 4 numbers.
+Pose parse_matrix(const text::JsonValue& matrix);
 
 /// A text with one matrix of 3 or 4 lines of 4 numbers. `name` is the file's.
 Pose parse_pose(std::string_view text, const std::string& name);
