@@ -19,8 +19,8 @@ namespace {
 using namespace test;
 using ::testing::HasSubstr;
 
-const std::string config =
-    R"(, "ConfigData": {"ImageWidth": 8, "ImageHeight": 6, "MaxSolidAngle": 1.25, "ValidRadius": 3})";
+const std::string config = R"(, "ConfigData": {"ImageWidth": 8, "ImageHeight": 6,
+    "MaxSolidAngle": 1.25, "ValidRadius": 3})";
 const std::string at_device = R"({"Translation": [0, 0, 0], "UnitQuaternion": [1, [0, 0, 0]]})";
 
 std::string camera(const std::string& label, const std::string& name, const std::string& params,

@@ -29,7 +29,8 @@ using ::testing::HasSubstr;
 /// A camera as the script writes it, with some keys changed.
 json camera(const json& changes) {
   json entry = json::parse(R"({"name": "Camera", "type": "PERSP", "width": 12, "height": 8,
-    "pixel_aspect": [1, 1], "matrix_world": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]],
+    "pixel_aspect": [1, 1],
+    "matrix_world": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]],
     "sensor_fit": "AUTO", "sensor_width": 36, "sensor_height": 24, "shift_x": 0, "shift_y": 0,
     "clip_start": 0.125, "clip_end": 100, "lens": 50, "ortho_scale": 6,
     "panorama_type": "EQUIRECTANGULAR", "fisheye_lens": 10.5, "fisheye_fov": 180,
@@ -113,8 +114,8 @@ TEST(ImportBlender, PartsOfPanoramasAreShifted) {
   });
 }
 
-// central_cylindrical_to_direction(), with the range of Camera::update(): −u_min, −u_max, and v over
-// the radius.
+// central_cylindrical_to_direction(), with the range of Camera::update(): −u_min, −u_max, and v
+// over the radius.
 TEST(ImportBlender, CentralCylinders) {
   const Camera part =
       imported(panorama("CENTRAL_CYLINDRICAL", {{"central_cylindrical_range_u_min", -45},

@@ -1,6 +1,6 @@
-// KITTI-360's fisheyes project as camodocal, which calibrated them, does (CataCamera::spaceToPlane),
-// and stand where autonomousvision/kitti360Scripts has them (helpers/project.py: cam2world = pose ·
-// camToPose). That script leaves p1 and p2 out.
+// KITTI-360's fisheyes project as camodocal, which calibrated them, does
+// (CataCamera::spaceToPlane()), and stand where autonomousvision/kitti360Scripts has them
+// (helpers/project.py: cam2world = pose · camToPose). That script leaves p1 and p2 out.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
