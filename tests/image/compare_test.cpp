@@ -208,6 +208,33 @@ TEST(Compare, OtherProgramsBackgroundsAreDetectedAndNoted) {
   EXPECT_EQ(compared({1, inf, 0}, {1, inf, 0}).both, 2u);
 }
 
+// The far plane's depth, or a window depth of 1. The note names the option with which maps agree.
+TEST(Compare, ABackgroundThatIsNotInfiniteIsNoted) {
+  for (const float far : {100.0f, 1.0f, 0.1f}) {
+    const std::vector<float> truth{far / 4, inf, inf, far / 2}, other{far / 4, far, far, far / 2};
+    const auto c = compared(truth, other);
+    EXPECT_EQ(c.only_other, 2u);
+    ASSERT_EQ(c.notes.size(), 1u);
+    const auto turned = compared(other, truth);
+    ASSERT_EQ(turned.notes.size(), 1u);
+    EXPECT_THAT(turned.notes[0], HasSubstr("truth: the background is "));
+    EXPECT_TRUE(compared(truth, other, {.other_background = far}).within_tolerance());
+    EXPECT_THAT(compared(truth, other, {.other_background = far}).notes, IsEmpty());
+  }
+  EXPECT_THAT(compared({1, inf, inf}, {1, 100, 100}).notes,
+              ElementsAre("other: the background is 100, not infinite, at 2 pixels: give "
+                          "--other-background 100 (in Python other_background=100)"));
+}
+
+// Surfaces that only one map shows are no background: of several depths, one pixel, or of a depth
+// that both maps show.
+TEST(Compare, SurfacesOfOneMapAreNoBackground) {
+  EXPECT_THAT(compared({1, inf, inf, inf}, {1, 2, 3, 4}).notes, IsEmpty());
+  EXPECT_THAT(compared({1, inf}, {1, 100}).notes, IsEmpty());
+  EXPECT_THAT(compared({1, inf, inf, 100}, {1, 100, 100, 100}).notes, IsEmpty());
+  EXPECT_THAT(compared({1, inf, inf, 200}, {1, 100, 100, 200}).notes, IsEmpty());
+}
+
 TEST(Compare, BackgroundCanBeGiven) {
   CompareOptions options;
   options.other_background = 20;

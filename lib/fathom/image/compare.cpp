@@ -9,6 +9,8 @@
 #include "fathom/image/compare_internal.h"
 #include "fathom/image/error_metrics.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/text/counted.h"
+#include "fathom/text/decimal.h"
 
 namespace fathom {
 using namespace image;
@@ -148,6 +150,46 @@ void add_notes(ChannelComparison& result, const ChannelPair& pair) {
         "the channels are stored in different types: ulp differences count binary32 numbers");
 }
 
+/// One map of a pair: its values, and where it and the other map show surfaces.
+struct Side {
+  const char* name;
+  Reading reading;
+  const std::vector<std::uint8_t>&mask, &mask_of_other;
+};
+
+/// The value that seems to be the background of a map where the other map shows no surface: its
+/// greatest, such as the depth of the far plane, if nine tenths of these pixels have it and no
+/// pixel at which both show a surface.
+std::optional<std::string> note_of_background(const Side& side) {
+  double greatest = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < side.mask.size(); ++k)
+    if (side.mask[k] != 0) greatest = std::max(greatest, side.reading.value(k));
+  std::uint64_t only_here = 0, equal = 0;
+  for (std::size_t k = 0; k < side.mask.size(); ++k) {
+    if (side.mask[k] == 0) continue;
+    const bool is_greatest = side.reading.value(k) == greatest;
+    if (side.mask_of_other[k] == 0) {
+      ++only_here;
+      equal += is_greatest;
+    } else if (is_greatest) {
+      return std::nullopt;
+    }
+  }
+  if (!std::isfinite(greatest) || equal < 2 || equal * 10 < only_here * 9) return std::nullopt;
+  const std::string value = text::shortest_decimal(greatest), name = side.name;
+  return name + ": the background is " + value + ", not infinite, at " +
+         text::counted(equal, "pixel") + ": give --" + name + "-background " + value +
+         " (in Python " + name + "_background=" + value + ")";
+}
+
+void add_notes_of_backgrounds(ChannelComparison& result, const ChannelPair& pair) {
+  if (kind_of(pair.truth) != ChannelKind::depth) return;
+  const Reading a(pair.truth, pair.truth_scale), b(pair.other, pair.other_scale);
+  for (const Side& side : {Side{"truth", a, pair.truth_mask, pair.other_mask},
+                           Side{"other", b, pair.other_mask, pair.truth_mask}})
+    if (auto note = note_of_background(side)) result.notes.push_back(std::move(*note));
+}
+
 template <class Errors>
 auto errors_of(const ChannelPair& pair) {
   const Reading a(pair.truth, pair.truth_scale), b(pair.other, pair.other_scale);
@@ -211,6 +253,7 @@ ChannelComparison compare_channel(const ChannelPair& pair, const CompareOptions&
     relative.add(m.relative, k);
     ulp.add(m.ulp, k);
   }
+  add_notes_of_backgrounds(result, pair);
   add_metrics(result, pair, options.metrics);
   result.absolute = absolute.summary(pair.width);
   result.relative = relative.summary(pair.width);
