@@ -22,13 +22,45 @@ using namespace triangle;
 
 namespace {
 
-bool share_a_corner(const std::array<WorldPoint, 3>& a, const std::array<WorldPoint, 3>& b) {
-  for (const WorldPoint& p : a) {
-    for (const WorldPoint& q : b) {
+template <class Point>
+bool share_a_corner(const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
+  for (const Point& p : a) {
+    for (const Point& q : b) {
       if (p.x == q.x && p.y == q.y && p.z == q.z) return true;
     }
   }
   return false;
+}
+
+/// Whether two triangles share the position of a corner. Most of those near each other are
+/// neighbours in a mesh, so the corners of the meshes are compared first: equal ones of one object
+/// have one position, and where both objects are placed as they are, they are the positions.
+bool share_a_corner(const TriangleSource& triangles, std::uint32_t a, std::uint32_t b) {
+  const TriangleSource::Triangle first = triangles.triangle(a), second = triangles.triangle(b);
+  const auto is_as_placed = [&](const TriangleSource::Triangle& t) {
+    return triangles.objects()[t.origin.object].placed_as_is;
+  };
+  const bool are_positions = is_as_placed(first) && is_as_placed(second);
+  if (are_positions || first.origin.object == second.origin.object) {
+    if (share_a_corner(first.corners, second.corners)) return true;
+    if (are_positions) return false;
+  }
+  return share_a_corner(triangles.world_corners(a), triangles.world_corners(b));
+}
+
+/// Whether a triangle is certainly on the outer side of an edge of another one, so that they have no
+/// area in common: by enclosures of its corners, if all are in front of the camera.
+bool is_certainly_beyond_an_edge(const SurfaceRegion& triangle, const SurfaceRegion& of) {
+  const auto& corners = triangle.corners;
+  const auto is_in_front = [](const SurfaceCorner& corner) {
+    return corner.enclosure[2].lower > 0;
+  };
+  if (!std::ranges::all_of(corners, is_in_front)) return false;
+  return std::any_of(of.region.begin(), of.region.begin() + 3, [&](const LinearForm& edge) {
+    return std::ranges::all_of(corners, [&](const SurfaceCorner& corner) {
+      return edge.enclose_at(corner.enclosure).upper <= 0;
+    });
+  });
 }
 
 /// Whether a depth is certainly more than `within` behind another one.
@@ -162,22 +194,27 @@ class PairFinder {
 
   /// The pairs whose visible triangle is t.
   [[nodiscard]] std::vector<CoplanarPair> pairs_of(std::uint32_t t) const {
-    if (!surfaces_.surface(t) || !surfaces_.is_first(t)) return {};
-    VisibleTriangle triangle(surfaces_, t);
-    const auto corners = triangles_.world_corners(t);
+    const SurfaceRegion* const surface = surfaces_.surface(t);
+    if (surface == nullptr || !surfaces_.is_first(t)) return {};
+    std::optional<VisibleTriangle> triangle;  // most triangles need none
     std::vector<CoplanarPair> found;
     for (const std::uint32_t s : surfaces_.near(t)) {
       const SurfaceRegion& other = *surfaces_.surface(s);
-      if (are_certainly_apart(triangle.surface(), other)) continue;
-      const LinearForm other_in_front = in_front(other, triangle.surface());
+      if (are_certainly_apart(*surface, other)) continue;
+      if (share_a_corner(triangles_, t, s)) continue;
+      if (is_certainly_beyond_an_edge(other, *surface) ||
+          is_certainly_beyond_an_edge(*surface, other))
+        continue;
+      const LinearForm other_in_front = in_front(other, *surface);
       if (within_ == 0 && !other_in_front.is_zero()) continue;
       // Equally deep, but hidden by the other.
       if (other_in_front.is_zero() && s < t) continue;
-      if (share_a_corner(corners, triangles_.world_corners(s))) continue;
+      if (!triangle) triangle.emplace(surfaces_, t);
       const std::vector<ConvexPolygon> polygons =
-          triangle.visible_before(s, other_in_front, within_);
+          triangle->visible_before(s, other_in_front, within_);
       const Boundary boundary = boundary_of(polygons);
-      const Separation separation(triangle.cell(), triangle.surface(), other);
+      if (boundary.empty()) continue;
+      const Separation separation(triangle->cell(), *surface, other);
       if (!VisibleTriangle::is_close(separation, boundary, within_)) continue;
       CoplanarPair pair{t, s, separation.least(boundary), 0, {}};
       count_pixels(pair, polygons, separation);
