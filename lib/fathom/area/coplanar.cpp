@@ -48,8 +48,8 @@ bool share_a_corner(const TriangleSource& triangles, std::uint32_t a, std::uint3
   return share_a_corner(triangles.world_corners(a), triangles.world_corners(b));
 }
 
-/// Whether a triangle is certainly on the outer side of an edge of another one, so that they have no
-/// area in common: by enclosures of its corners, if all are in front of the camera.
+/// Whether a triangle is certainly on the outer side of an edge of another one, so that they have
+/// no area in common: by enclosures of its corners, if all are in front of the camera.
 bool is_certainly_beyond_an_edge(const SurfaceRegion& triangle, const SurfaceRegion& of) {
   const auto& corners = triangle.corners;
   const auto is_in_front = [](const SurfaceCorner& corner) {

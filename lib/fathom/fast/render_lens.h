@@ -46,7 +46,8 @@ struct ViewDrawing {
   [[nodiscard]] DrawContext context() { return frame.context(workers.local()); }
   [[nodiscard]] LensContext context_of(const DrawContext& context_of_window,
                                        LensWorker& worker) const {
-    return {context_of_window, worker.referee, places.preimages(), window.axes};
+    return {context_of_window, worker.referee, places.preimages(),
+            window.axes,       window.camera,  rays};
   }
   /// Has a tile of the image, which is empty or has been drawn into, drawn in this view. The places
   /// are valid as long as the room is not used again.

@@ -10,24 +10,7 @@
 namespace fathom::lens {
 namespace {
 
-/// A number as a double-word. The bound is that of the second word: the first one is subtracted
-/// exactly.
-Certified<WordPair> words(const Dyadic& x) {
-  const double high = enclose(x).lower;
-  if (!std::isfinite(high)) return {};
-  const Interval rest = enclose(x - high);
-  const WordPair value = two_sum(high, rest.lower);
-  if (rest.lower == rest.upper) return {value, 0};
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  return {value, std::nextafter(rest.upper - rest.lower, infinity)};
-}
-
 using PointWords = HomogeneousPoint<Certified<WordPair>>;
-
-template <bool fused>
-Certified<DoubleWord<fused>> in_words(const Certified<WordPair>& x) {
-  return {x.value, x.error};
-}
 
 /// Finds the root of F in double-words.
 template <bool fused>
@@ -97,15 +80,26 @@ FATHOM_WITH_FMA std::optional<DirectionWords> find_words_by_fma(const Polynomial
 
 }  // namespace
 
+// The bound is that of the second word: the first one is subtracted exactly.
+Certified<WordPair> words_of(const Dyadic& x) {
+  const double high = enclose(x).lower;
+  if (!std::isfinite(high)) return {};
+  const Interval rest = enclose(x - high);
+  const WordPair value = two_sum(high, rest.lower);
+  if (rest.lower == rest.upper) return {value, 0};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return {value, std::nextafter(rest.upper - rest.lower, infinity)};
+}
+
 DirectionWords words_of(const ExactVector3& direction) {
-  return {words(direction[0]), words(direction[1]), words(direction[2])};
+  return {words_of(direction[0]), words_of(direction[1]), words_of(direction[2])};
 }
 
 DirectionWords words_within(const std::array<DyadicInterval, 3>& direction) {
   DirectionWords result;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& [low, high] = direction[k];
-    result[k] = words(low);
+    result[k] = words_of(low);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     result[k].error = std::nextafter(result[k].error + enclose(high - low).upper, infinity);
   }
@@ -115,7 +109,7 @@ DirectionWords words_within(const std::array<DyadicInterval, 3>& direction) {
 std::optional<DirectionWords> words_of_preimage(const PolynomialStage& stage,
                                                 const DistortedPoint& y, const Interval& q) {
   static const bool fused = processor_has_fma();
-  const PointWords point = y.in(words);
+  const PointWords point = y.in([](const Dyadic& x) { return words_of(x); });
   return fused ? find_words_by_fma(stage, point, q) : find_words(stage, point, q);
 }
 

@@ -42,6 +42,8 @@ class Preimages {
   [[nodiscard]] std::optional<ExactDirection> of_pixel(std::uint32_t column,
                                                        std::uint32_t row) const;
 
+  [[nodiscard]] const Lens& lens() const { return lens_; }
+
   /// The stage S and its disc, of a model that has one; nullptr of other models. A sample sees by
   /// the m in the disc with S(m) = y, where y is the point that plane_map() makes of the sample.
   [[nodiscard]] const PolynomialStage* stage() const {

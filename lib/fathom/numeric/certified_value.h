@@ -115,6 +115,12 @@ inline Sign certain_sign(const Certified<double>& x) {
   return x.value > 0 ? Sign::positive : Sign::negative;
 }
 
+/// A number that a table holds, for arithmetic.
+template <bool fused>
+Certified<DoubleWord<fused>> in_words(const Certified<WordPair>& x) {
+  return {x.value, x.error};
+}
+
 /// The operators of double-words with bounds, for formulas over any arithmetic.
 template <bool fused>
 Certified<DoubleWord<fused>> operator-(const Certified<DoubleWord<fused>>& x) {
@@ -134,6 +140,19 @@ template <bool fused>
 Certified<DoubleWord<fused>> operator*(const Certified<DoubleWord<fused>>& x,
                                        const Certified<DoubleWord<fused>>& y) {
   return product(x, y);
+}
+template <bool fused>
+Certified<DoubleWord<fused>> operator/(const Certified<DoubleWord<fused>>& x,
+                                       const Certified<DoubleWord<fused>>& y) {
+  return quotient(x, y);
+}
+/// |√X − √x| = |X − x|/(√X + √x) ≤ error of x/√x. Not known if x may be 0 or less.
+template <bool fused>
+Certified<DoubleWord<fused>> sqrt(const Certified<DoubleWord<fused>>& x) {
+  if (!(x.value.hi > 0 && x.error <= x.value.hi * quotient_condition)) return {};
+  const DoubleWord<fused> root = square_root(x.value);
+  const double of_operand = (x.error + most_underflow) / root.hi;
+  return {root, (of_operand + root_error * root.hi) * slack};
 }
 
 }  // namespace fathom

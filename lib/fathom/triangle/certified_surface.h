@@ -69,6 +69,13 @@ struct Form {
   [[nodiscard]] Certified<Real> at(const ImagePoint& s) const {
     return {(c + b * s.v) + a * s.u, error};
   }
+  /// At a point of the image that is known up to bounds. A product of two numbers of the arithmetic
+  /// has an error of at most ε, as that with an exact coordinate has. Errors of a and b times those
+  /// of the point are of second order.
+  [[nodiscard]] Certified<Real> at(const Certified<Real>& u, const Certified<Real>& v) const {
+    const double of_point = std::abs(nearest(a)) * u.error + std::abs(nearest(b)) * v.error;
+    return {(c + b * v.value) + a * u.value, (error + of_point) * slack};
+  }
 };
 
 /// Corners of a triangle in its mesh.

@@ -8,6 +8,7 @@
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/certified_value.h"
 #include "fathom/numeric/dyadic.h"
+#include "fathom/triangle/settled_storage.h"
 
 namespace fathom::triangle {
 using lens::ExactDirection;
@@ -109,6 +110,23 @@ Certified<double> certified_in(const RayBox& box, const LinearForm& form) {
   return to_certified(form.enclose_at(box));
 }
 
+Certified<double> quotient_in(const RayBox& box, const LinearForm& numerator,
+                              const LinearForm& denominator) {
+  return quotient(certified_in(box, numerator), certified_in(box, denominator));
+}
+
+/// volume·|d| / weight(d)
+Certified<double> length_in(const RayBox& box, const Dyadic& volume, const LinearForm& weight) {
+  Certified<double> squared{0, 0};
+  for (const Interval& component : box) {
+    const Certified<double> x = to_certified(component);
+    squared = sum(squared, product(x, x));
+  }
+  const Certified<double> along =
+      quotient(to_certified(enclose(volume)), certified_in(box, weight));
+  return product(along, sqrt(squared));
+}
+
 }  // namespace
 
 std::array<LinearForm, 3> position_forms(const ProjectedTriangle& t) {
@@ -130,21 +148,13 @@ float binary32_at(const ExactDirection& d, const LinearForm& numerator,
 
 std::optional<float> binary32_in(const RayBox& box, const LinearForm& numerator,
                                  const LinearForm& denominator) {
-  const Certified<double> value =
-      quotient(certified_in(box, numerator), certified_in(box, denominator));
+  const Certified<double> value = quotient_in(box, numerator, denominator);
   return fathom::to_binary32(value.value, value.error);
 }
 
 std::optional<float> distance_in(const RayBox& box, const Dyadic& volume,
                                  const LinearForm& weight) {
-  Certified<double> squared{0, 0};
-  for (const Interval& component : box) {
-    const Certified<double> x = to_certified(component);
-    squared = sum(squared, product(x, x));
-  }
-  const Certified<double> along =
-      quotient(to_certified(enclose(volume)), certified_in(box, weight));
-  const Certified<double> value = product(along, sqrt(squared));
+  const Certified<double> value = length_in(box, volume, weight);
   return fathom::to_binary32(value.value, value.error);
 }
 
@@ -161,8 +171,8 @@ RaySurface::RaySurface(const ProjectedTriangle& t, const Wanted& wanted)
   if (wanted.depth) depth_ = t.depth_numerator;
 }
 
-bool RaySurface::write(std::size_t pixel, const RayBox& box,
-                       const rendering::ChannelValues& values) const {
+bool RaySurface::write(std::size_t pixel, const RayBox& box, const rendering::ChannelValues& values,
+                       const CodeFactor& codes) const {
   const auto settle = [&](float* channel, const LinearForm& form) {
     const auto settled = binary32_in(box, form, weight_);
     if (settled) channel[pixel] = *settled;
@@ -176,13 +186,10 @@ bool RaySurface::write(std::size_t pixel, const RayBox& box,
     for (std::size_t k = 0; k < 2; ++k)
       if (!settle(values.barycentric[k], barycentric_[k])) return false;
   }
-  if (wanted_.depth && !settle(values.depth.binary32, depth_)) return false;
-  if (wanted_.distance) {
-    const auto settled = distance_in(box, volume_, weight_);
-    if (!settled) return false;
-    values.distance.binary32[pixel] = *settled;
-  }
-  return true;
+  if (wanted_.depth && !store(values.depth, pixel, quotient_in(box, depth_, weight_), codes))
+    return false;
+  return !wanted_.distance ||
+         store(values.distance, pixel, length_in(box, volume_, weight_), codes);
 }
 
 }  // namespace fathom::triangle

@@ -9,6 +9,7 @@
 #include "fathom/numeric/real.h"
 #include "fathom/rendering/map_of_camera.h"
 #include "fathom/triangle/projected_triangle.h"
+#include "fathom/triangle/stored_quantity.h"
 
 /// Values of a surface along the ray of a sample, where a camera bends rays: quotients of forms of
 /// the ray's direction, as numbers that round correctly. A direction need not be rational:
@@ -45,8 +46,8 @@ std::optional<float> distance_in(const RayBox& box, const Dyadic& volume, const 
 Real quotient_at(const lens::ExactDirection& d, const QuadraticForm& numerator,
                  const QuadraticForm& denominator);
 
-/// A visible triangle of a camera that bends rays, prepared for many of its pixels: P, bary,
-/// distance and Z in binary32, as far as binary64 settles them.
+/// A visible triangle of a camera that bends rays, prepared for many of its pixels: P and bary,
+/// distance and Z in binary32 or as codes, as far as binary64 settles them.
 class RaySurface {
  public:
   /// The requested channels that it writes; Z if the caller sets `depth`.
@@ -54,7 +55,7 @@ class RaySurface {
     explicit Wanted(const rendering::ChannelValues& values)
         : position(values.position[0] != nullptr),
           barycentric(values.barycentric[0] != nullptr),
-          distance(values.distance.binary32 != nullptr) {}
+          distance(values.distance.binary32 != nullptr || values.distance.codes != nullptr) {}
     [[nodiscard]] bool any() const { return position || barycentric || distance || depth; }
 
     bool position, barycentric, distance, depth = false;
@@ -65,7 +66,7 @@ class RaySurface {
   /// Writes them at a pixel whose ray lies in the box. False where one of them is not settled: the
   /// pixel then has to be written from exact numbers.
   [[nodiscard]] bool write(std::size_t pixel, const RayBox& box,
-                           const rendering::ChannelValues& values) const;
+                           const rendering::ChannelValues& values, const CodeFactor& codes) const;
 
  private:
   Wanted wanted_;

@@ -20,16 +20,19 @@ namespace fathom::triangle {
 struct CodeFactor {
   double value;
   double error = 0;
+  /// As in DepthEncoding.
+  bool beyond_is_none = false;
 };
 
 /// Where binary64 does not hold the factor, its error is one rounding, or without bound beyond the
 /// normal numbers.
 inline CodeFactor code_factor_of(const DepthEncoding& encoding) {
-  if (encoding.divisor == 1) return {encoding.scale};
+  const bool beyond_is_none = encoding.beyond_is_none;
+  if (encoding.divisor == 1) return {encoding.scale, 0, beyond_is_none};
   const Ratio exact(encoding.scale, encoding.divisor);
   const auto nearest = round_to_normal(exact);
-  if (!nearest) return {1, std::numeric_limits<double>::infinity()};
-  return {*nearest, Ratio(*nearest) == exact ? 0 : unit_roundoff<double>};
+  if (!nearest) return {1, std::numeric_limits<double>::infinity(), beyond_is_none};
+  return {*nearest, Ratio(*nearest) == exact ? 0 : unit_roundoff<double>, beyond_is_none};
 }
 
 // How depths and ray distances are rounded: once, as the map stores them.

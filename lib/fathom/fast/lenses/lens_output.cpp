@@ -19,12 +19,6 @@ namespace {
 
 constexpr std::size_t not_written = std::numeric_limits<std::size_t>::max();
 
-/// Whether a channel is asked for that is computed along exact rays only.
-bool need_exact_rays(const rendering::ChannelValues& values) {
-  return values.low || values.shading_normal[0] || values.depth.binary64 || values.depth.codes ||
-         values.distance.binary64 || values.distance.codes;
-}
-
 bool has_triangle_channels(const rendering::ChannelValues& values) {
   return values.id || values.wants_origins() || values.normal[0] || values.camera_normal[0];
 }
@@ -34,7 +28,8 @@ bool has_triangle_channels(const rendering::ChannelValues& values) {
 LensOutput::LensOutput(ChannelWriter& writer, const MapLayout& layout)
     : writer_(writer),
       layout_(layout),
-      needs_exact_rays_(need_exact_rays(writer.values())),
+      needs_exact_rays_(writer.values().shading_normal[0] != nullptr),
+      needs_double_words_(WideValues::are_wanted(writer.values())),
       along_rays_(writer.values()),
       others_(has_triangle_channels(writer.values())) {}
 
@@ -72,6 +67,15 @@ void LensOutput::write_depths(const PixelBox& area) const {
   }
 }
 
+void LensOutput::write_depth(std::size_t i, std::size_t pixel) const {
+  const rendering::EncodedValues& values = writer_.values().depth;
+  if (values.codes) {
+    values.codes[pixel] = static_cast<std::uint16_t>(rounded_.depths[i]);
+  } else {
+    values.binary32[pixel] = rounded_.depths[i];
+  }
+}
+
 std::size_t LensOutput::pixel_of(const LensTile& tile, std::size_t i) const {
   const PixelBox& area = tile.tile().area();
   return layout_.pixel(area.first_column + Tile::column_of(i), area.first_row + Tile::row_of(i));
@@ -105,7 +109,34 @@ bool LensOutput::write_in_binary64(const LensTile& tile, std::size_t i, std::siz
   set(context.axes.right, around(places.x[i]));
   set(context.axes.down, around(places.y[i]));
   set(context.axes.forward, {1, 1});
-  return surface->write(pixel, box, writer_.values());
+  return surface->write(pixel, box, writer_.values(), writer_.code_factor());
+}
+
+bool LensOutput::write_in_double_words(const LensTile& tile, std::size_t i, std::size_t pixel,
+                                       const LensContext& context) {
+  const std::optional<lens::DirectionWords> direction = direction_at(tile, i, context);
+  return direction &&
+         wide_values_->write(pixel, Tile::place_of(tile.tile().tags()[i]),
+                             tile.tile().surface_at(i).number(), *direction, writer_.values());
+}
+
+std::optional<lens::DirectionWords> LensOutput::direction_at(const LensTile& tile, std::size_t i,
+                                                             const LensContext& context) {
+  const PixelBox& area = tile.tile().area();
+  const std::uint32_t column = area.first_column + Tile::column_of(i);
+  const std::uint32_t row = area.first_row + Tile::row_of(i);
+  if (const auto direction = formulas_->of_pixel(column, row, starts_->at(i))) return direction;
+  return context.preimages.of_pixel(column, row)->words();
+}
+
+void LensOutput::prepare_double_words(const LensTile& tile, const LensContext& context) {
+  wide_values_.emplace(context.window_rays, context.window_camera, context.axes);
+  wide_values_->start(tile.tile().end_of_places());
+  if (!formulas_) {
+    formulas_.emplace(context.preimages);
+    starts_.emplace(context.preimages);
+  }
+  starts_->start(tile.places(), context.axes);
 }
 
 void LensOutput::write_others(const LensTile& tile, std::size_t i, std::size_t pixel,
@@ -120,11 +151,13 @@ void LensOutput::write_others(const LensTile& tile, std::size_t i, std::size_t p
 }
 
 // Normals and numbers are those of the first pixel of a surface, once for each tile. Other
-// channels are settled in binary64 for all rays within the error of the place, or else, with depths
-// that are not settled, computed along the exact ray.
+// channels are settled in binary64 for all rays within the error of the place, or in double-words,
+// or else, with depths that are not settled, computed along the exact ray.
 std::optional<EncodingFault> LensOutput::write(const LensTile& tile, const LensContext& context) {
   const PixelBox& area = tile.tile().area();
-  round_depths(tile, rounded_);
+  const rendering::EncodedValues& depth_values = writer_.values().depth;
+  depth_values.codes ? round_to_codes(tile, writer_.code_factor(), rounded_)
+                     : round_depths(tile, rounded_);
   const Depths depths = depths_of(tile, context);
   if (depths == Depths::in_rows) write_depths(area);
   RaySurface::Wanted wanted = along_rays_;
@@ -132,6 +165,7 @@ std::optional<EncodingFault> LensOutput::write(const LensTile& tile, const LensC
   first_pixel_.assign(tile.tile().end_of_places(), not_written);
   surfaces_.clear();
   if (wanted.any()) surfaces_.resize(tile.tile().end_of_places());
+  if (needs_double_words_) prepare_double_words(tile, context);
   std::optional<EncodingFault> fault;
   RenderStatistics& statistics = context.window.statistics;
   for (std::size_t word = 0; word < rounded_.surface.size(); ++word) {
@@ -140,7 +174,8 @@ std::optional<EncodingFault> LensOutput::write(const LensTile& tile, const LensC
       const std::size_t pixel = pixel_of(tile, i);
       const bool from_q = depths == Depths::in_rows || depths == Depths::by_sample;
       const bool is_open = needs_exact_rays_ || (from_q && rounded_.is_open(i));
-      if (is_open || (wanted.any() && !write_in_binary64(tile, i, pixel, wanted, context))) {
+      if (is_open || (wanted.any() && !write_in_binary64(tile, i, pixel, wanted, context)) ||
+          (needs_double_words_ && !write_in_double_words(tile, i, pixel, context))) {
         ++statistics.rounding.exact;
         context.window.note_doubt(area.first_column + Tile::column_of(i),
                                   area.first_row + Tile::row_of(i));
@@ -148,8 +183,8 @@ std::optional<EncodingFault> LensOutput::write(const LensTile& tile, const LensC
         if (found && (!fault || found->pixel < fault->pixel)) fault = std::move(found);
       } else {
         ++statistics.rounding.interval;
-        if (depths == Depths::by_sample)
-          writer_.values().depth.binary32[pixel] = rounded_.depths[i];
+        if (needs_double_words_) ++statistics.double_word_roundings;
+        if (depths == Depths::by_sample) write_depth(i, pixel);
         if (others_) write_others(tile, i, pixel, context);
       }
     }
@@ -158,8 +193,10 @@ std::optional<EncodingFault> LensOutput::write(const LensTile& tile, const LensC
 }
 
 LensOutput::Depths LensOutput::depths_of(const LensTile& tile, const LensContext& context) const {
-  if (writer_.values().depth.binary32 == nullptr) return Depths::none;
+  const rendering::EncodedValues& depth = writer_.values().depth;
+  if (depth.binary32 == nullptr && depth.codes == nullptr) return Depths::none;
   if (!context.axes.is_of_camera()) return Depths::along_rays;
+  if (depth.codes != nullptr) return Depths::by_sample;
   return tile.places().is_whole ? Depths::in_rows : Depths::by_sample;
 }
 
@@ -171,7 +208,8 @@ std::uint64_t LensOutput::work_at(std::size_t word, Depths depths,
   };
   statistics.pixels_with_surface += count(shown);
   const bool by_sample = depths == Depths::by_sample || depths == Depths::along_rays;
-  if (needs_exact_rays_ || along_rays_.any() || others_ || by_sample) return shown;
+  const bool along_rays = needs_exact_rays_ || needs_double_words_ || along_rays_.any();
+  if (along_rays || others_ || by_sample) return shown;
   const std::uint64_t open = depths == Depths::in_rows ? rounded_.open[word] : 0;
   statistics.rounding.interval += count(shown & ~open);
   return open;

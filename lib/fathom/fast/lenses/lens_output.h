@@ -8,7 +8,10 @@
 #include "fathom/fast/channels/map_rows.h"
 #include "fathom/fast/channels/resolve.h"
 #include "fathom/fast/lenses/lens_tile.h"
+#include "fathom/fast/lenses/stage_starts.h"
+#include "fathom/fast/lenses/wide_values.h"
 #include "fathom/lens/preimages.h"
+#include "fathom/lens/word_formulas.h"
 #include "fathom/rendering/rendered.h"
 #include "fathom/scene/triangle_source.h"
 #include "fathom/triangle/channels.h"
@@ -28,6 +31,8 @@ class LensOutput {
  private:
   /// Writes the depths that are settled, and +∞ where there is no surface.
   void write_depths(const PixelBox& area) const;
+  /// Writes a depth that is settled.
+  void write_depth(std::size_t i, std::size_t pixel) const;
   std::optional<triangle::EncodingFault> write_along_ray(const LensTile& tile, std::size_t i,
                                                          const LensContext& context) const;
   /// The pixel of the map that shows a sample of the tile.
@@ -36,7 +41,7 @@ class LensOutput {
   enum class Depths : std::uint8_t {
     none,
     in_rows,    // rounded from q, with the background: of a tile that one view holds
-    by_sample,  // rounded from q, where there is a surface
+    by_sample,  // rounded from q, where there is a surface; always of codes
     along_rays  // with the other channels along rays: q is of another axis than Z
   };
   [[nodiscard]] Depths depths_of(const LensTile& tile, const LensContext& context) const;
@@ -45,6 +50,13 @@ class LensOutput {
   /// Channels along rays; false if one of them is not settled.
   bool write_in_binary64(const LensTile& tile, std::size_t i, std::size_t pixel,
                          const triangle::RaySurface::Wanted& wanted, const LensContext& context);
+  /// The direction that a sample sees; nullopt where double-words do not find it.
+  std::optional<lens::DirectionWords> direction_at(const LensTile& tile, std::size_t i,
+                                                   const LensContext& context);
+  void prepare_double_words(const LensTile& tile, const LensContext& context);
+  /// Channels for which binary64 has too few bits; false if one of them is not settled.
+  bool write_in_double_words(const LensTile& tile, std::size_t i, std::size_t pixel,
+                             const LensContext& context);
   /// The channels that are the same wherever a surface is seen.
   void write_others(const LensTile& tile, std::size_t i, std::size_t pixel,
                     const LensContext& context);
@@ -55,7 +67,7 @@ class LensOutput {
 
   triangle::ChannelWriter& writer_;
   MapLayout layout_;
-  bool needs_exact_rays_;
+  bool needs_exact_rays_, needs_double_words_;
   triangle::RaySurface::Wanted along_rays_;
   /// Whether a channel is asked for that is the same wherever a surface is seen.
   bool others_;
@@ -64,6 +76,11 @@ class LensOutput {
   std::vector<std::size_t> first_pixel_;
   /// By the same places; made where they are needed.
   std::vector<std::optional<triangle::RaySurface>> surfaces_;
+  /// Of the camera; made where double-words are needed.
+  std::optional<lens::WordFormulas> formulas_;
+  std::optional<StageStarts> starts_;
+  /// Of the tile's window.
+  std::optional<WideValues> wide_values_;
 };
 
 /// An image that no window holds, because its rays are too far from the axis for binary64 numbers.

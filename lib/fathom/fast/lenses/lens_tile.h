@@ -9,7 +9,9 @@
 #include "fathom/fast/lenses/window.h"
 #include "fathom/fast/tiles/draw_context.h"
 #include "fathom/fast/tiles/tile.h"
+#include "fathom/triangle/rays.h"
 #include "fathom/triangle/referee.h"
+#include "fathom/triangle/stored_quantity.h"
 
 namespace fathom::fast {
 
@@ -22,6 +24,8 @@ struct LensContext {
   const lens::Preimages& preimages;
   /// Those of the window.
   const ViewAxes& axes;
+  const Camera& window_camera;
+  const triangle::SceneRays& window_rays;
 };
 
 /// Rectangles around the samples of some parts of a tile that have a ray, in the window, from the
@@ -81,8 +85,8 @@ class LensTile {
   Rectangles<4 * TileShape::blocks> cells_;
 };
 
-/// The depths of a tile's surfaces rounded to binary32, by Tile::index(); +∞ where there is no
-/// surface. Those that are open mean nothing.
+/// The depths of a tile's surfaces rounded to binary32 or to codes, by Tile::index(); +∞, or the
+/// code 0, where there is no surface. Those that are open mean nothing.
 struct LensDepths {
   alignas(64) std::array<float, TileShape::samples> depths;
   /// A bit for each sample: whether it shows a surface, and whether the bounds do not settle the
@@ -94,5 +98,7 @@ struct LensDepths {
 };
 
 void round_depths(const LensTile& tile, LensDepths& rounded);
+/// 0 also for a depth that is certainly above the greatest code, where that means no surface.
+void round_to_codes(const LensTile& tile, const triangle::CodeFactor& factor, LensDepths& rounded);
 
 }  // namespace fathom::fast

@@ -3,47 +3,11 @@
 #include <cmath>
 
 #include "fathom/numeric/certified_rounding.h"
+#include "fathom/triangle/settled_storage.h"
 
 namespace fathom::fast {
 using namespace rendering;
 using namespace triangle;
-
-namespace {
-
-template <class T>
-bool take(const std::optional<T>& rounded, T& target) {
-  if (rounded) target = *rounded;
-  return rounded.has_value();
-}
-
-bool take(const Certified<WordPair>& x, float& target) {
-  return take(to_binary32(x.value, x.error), target);
-}
-
-/// Stores a value as the channel is encoded. If it is exact and a single word, its product with an
-/// exact factor is an exact double-word.
-bool store(const EncodedValues& values, std::size_t pixel, const Certified<WordPair>& x,
-           const CodeFactor& factor) {
-  if (values.binary32) return take(x, values.binary32[pixel]);
-  if (values.binary64) return take(to_binary64(x.value, x.error), values.binary64[pixel]);
-  using Real = DoubleWord<false>;
-  const Real scaled = Real(x.value) * factor.value;
-  const bool is_exact = x.error == 0 && x.value.lo == 0 && factor.error == 0;
-  // The effect of the factor's error on x.error is within the slack.
-  const double error =
-      is_exact ? 0 : (x.error * factor.value + scaled.hi * (epsilon<Real> + factor.error)) * slack;
-  return take(to_code(scaled, error), values.codes[pixel]);
-}
-
-/// D − Z: hi − Z is exact, as Z is the binary32 number nearest to hi.
-bool store_low_part(const Certified<WordPair>& depth, float& target) {
-  const auto Z = to_binary32(depth.value, depth.error);
-  if (!Z) return false;
-  const WordPair low = two_sum(depth.value.hi - static_cast<double>(*Z), depth.value.lo);
-  return take(to_binary32(low, depth.error), target);
-}
-
-}  // namespace
 
 void PixelWriter::write_position(std::size_t k) {
   if (facts_.usable && settle_position(k)) return count_wide();
