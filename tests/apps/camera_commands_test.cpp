@@ -254,7 +254,7 @@ for X in points:
 
 TEST_F(CameraCommands, DistortedCamerasAreLeftOutUnlessTheyAreTaken) {
   folder_.write("cameras.txt",
-                "1 FOV 640 480 525 525 320 240 0.1\n2 PINHOLE 640 480 525 525 320 240\n");
+                "1 FOV 640 480 525 525 320 240 4\n2 PINHOLE 640 480 525 525 320 240\n");
   folder_.write("images.txt", "1 1 0 0 0 0 0 3 1 a.jpg\n\n2 1 0 0 0 0 0 3 2 b.jpg\n\n");
   const std::vector<std::string> command{"camera", "import", "colmap", "."};
   const auto with = [&](const std::vector<std::string>& more) {

@@ -45,7 +45,7 @@ TEST(LensNumbers, EveryModelTakesItsOwnCount) {
 
 // As the specification has them; files, importers and C take keys and lists from the same table.
 TEST(LensModels, HaveTheirParametersInOrder) {
-  const std::array<std::string, 26> rows{
+  const std::array<std::string, 27> rows{
       "SIMPLE_PINHOLE f cx cy",
       "PINHOLE fx fy cx cy",
       "SIMPLE_RADIAL f cx cy k",
@@ -54,6 +54,7 @@ TEST(LensModels, HaveTheirParametersInOrder) {
       "FULL_OPENCV fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6",
       "OPENCV_14 fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4 tauX tauY",
       "BROWN fx fy cx cy k1 k2 k3 k4 p1 p2",
+      "FOV fx fy cx cy omega",
       "SIMPLE_DIVISION f cx cy k",
       "DIVISION fx fy cx cy k",
       "FISHEYE_STEREOGRAPHIC fx fy cx cy",
@@ -108,6 +109,9 @@ TEST(LensNumbers, FaultsAreNamed) {
   EXPECT_EQ(fault("RADIAL", {1, std::numeric_limits<double>::infinity()}),
             "k2 is not a finite number");
   EXPECT_EQ(fault("RADIAL", {1, 2}, 0), "max_radius is not greater than 0");
+  EXPECT_EQ(fault("FOV", {std::nextafter(-3.141592653589793, -4)}),
+            "omega is not between -pi and pi");
+  EXPECT_EQ(fault("FOV", {3.141592653589793}), "none");
   EXPECT_EQ(fault("UCM", {-1e-300}), "alpha is not between 0 and 1");
   EXPECT_EQ(fault("EUCM", {std::nextafter(1.0, 2.0), 1}), "alpha is not between 0 and 1");
   EXPECT_EQ(fault("EUCM", {1, 0}), "beta is not greater than 0");

@@ -33,6 +33,7 @@ std::vector<NamedLens> lenses() {
       {"rational", {LensModel::full_opencv, {-0.125, 0, 0, 0, 0, 0.0625, 0.015625, 0.0078125}}},
       {"tilted", {LensModel::opencv_14, {-0.125, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.05, -0.03}}},
       {"brown", {LensModel::brown, {-0.125, 0.03125, -0.0078125, 0.001953125}}},
+      {"field of view", {LensModel::fov, {0.875}}},
       {"division", {LensModel::division, {-0.25}}},
       {"equidistant", {LensModel::simple_fisheye}},
       {"fisheye", {LensModel::opencv_fisheye, {0.03125, -0.0078125}}},
@@ -82,7 +83,7 @@ void for_each_view(std::uint64_t seed, int scenes, const Check& check) {
 TEST(LensLaws, ALensWithoutDistortionGivesThePinholesMap) {
   std::mt19937_64 random(41);
   for (const LensModelEntry& entry : lens_models()) {
-    if (entry.formula != RayFormula::plane) continue;
+    if (!is_plane(entry.model)) continue;
     SCOPED_TRACE(entry.name);
     const Scene scene = soup_around_eye(random, 8);
     const Camera camera = camera_with(Lens{entry.model});
@@ -103,6 +104,7 @@ TEST(LensLaws, AModelGivesTheMapOfTheModelThatContainsIt) {
        {LensModel::opencv_14, {-0.25, 0.125, 0.01, 0.02, 0.1, 0.2, 0.1, 0.05}}},
       {{LensModel::opencv, {-0.25, 0.125, 0.01, 0.02}},
        {LensModel::brown, {-0.25, 0.125, 0, 0, 0.01, 0.02}}},
+      {{LensModel::fov, {0.75}}, {LensModel::fov, {-0.75}}},
       {{LensModel::simple_division, {0.25}}, {LensModel::division, {0.25}}},
       {{LensModel::fisheye_stereographic}, {LensModel::division, {-0.25}}},
       {{LensModel::simple_fisheye}, {LensModel::fisheye}},

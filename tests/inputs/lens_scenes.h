@@ -84,6 +84,9 @@ class LensCaseMaker {
                            n.above[2] = term() / 8, n.above[3] = term() / 16,
                            n.p1 = small_term(),     n.p2 = small_term()};
         break;
+      case LensModel::fov:
+        n.omega = lens.distortion[0] = (below(2) == 0 ? 1 : -1) * (1 + below(20)) / 8.0;
+        break;
       case LensModel::simple_division:
       case LensModel::division:
         lens.distortion[0] = term();
@@ -160,6 +163,7 @@ class LensCaseMaker {
     Projection& p = c.view.camera.projection;
     for (const double below : c.numbers.below)
       if (below != 0) return;
+    if (c.numbers.omega && below(2) == 0) return put_corners_on_the_fixed_circle(c);
     const double x = std::ldexp(this->below(9) - 4, -3), y = std::ldexp(this->below(9) - 4, -3);
     const double q = x * x + y * y;
     double factor = 1, power = 1;
@@ -170,14 +174,27 @@ class LensCaseMaker {
     const double gy =
         y * factor + n.p1 * (q + 2 * y * y) + 2 * n.p2 * x * y + n.s3 * q + n.s4 * q * q;
     const std::array d{x, y, n.division ? 1 + *n.division * q : 1.0};
-    // Corners of few bits lie on no ray of a fisheye but the axis, and on few of a model with a
-    // root. Edges in the plane of the ray and the axis meet it.
-    const bool is_meridian = (n.is_angle || n.root != oracle::LensNumbers::Root::none) && q > 0;
+    // Corners of few bits lie on no ray of a fisheye but the axis, and on few of FOV and of a model
+    // with a root. Edges in the plane of the ray and the axis meet it.
+    const bool is_meridian =
+        (n.is_angle || n.omega || n.root != oracle::LensNumbers::Root::none) && q > 0;
     p.skew = 0;
     p.pixel_centre = 0.5;
     p.cx = this->below(6) + 0.5 - p.fx * gx;
     p.cy = this->below(5) + 0.5 - p.fy * gy;
     move_corners(c, d, is_meridian ? std::optional<std::size_t>(2) : std::nullopt);
+  }
+
+  /// Moves the image so that a sample of FOV lies at (3, 4)/10, on the circle that it shows where a
+  /// pinhole does.
+  void put_corners_on_the_fixed_circle(LensCase& c) {
+    Projection& p = c.view.camera.projection;
+    p.fx = p.fy = 10;
+    p.skew = 0;
+    p.pixel_centre = 0.5;
+    p.cx = below(6) + 0.5 - 3;
+    p.cy = below(5) + 0.5 - 4;
+    move_corners(c, {0.75, 1, 2.5}, std::nullopt);
   }
 
   /// Moves the image so that a sample looks along a multiple of 45°. Where its ray has no direction

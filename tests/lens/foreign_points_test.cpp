@@ -82,7 +82,7 @@ TEST(ForeignPoints, AreSeenWhereColmapShowsThem) {
     EXPECT_LE(pixels_between(point), 1e-12) << point.model;
   }
   for (const char* const model :
-       {"SIMPLE_PINHOLE", "PINHOLE", "SIMPLE_RADIAL", "RADIAL", "OPENCV", "FULL_OPENCV",
+       {"SIMPLE_PINHOLE", "PINHOLE", "SIMPLE_RADIAL", "RADIAL", "OPENCV", "FULL_OPENCV", "FOV",
         "SIMPLE_DIVISION", "DIVISION", "SIMPLE_FISHEYE", "FISHEYE", "SIMPLE_RADIAL_FISHEYE",
         "RADIAL_FISHEYE", "OPENCV_FISHEYE", "THIN_PRISM_FISHEYE"})
     EXPECT_EQ(models.count(model), 12U) << model;

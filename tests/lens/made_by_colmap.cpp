@@ -53,4 +53,5 @@ int main() {
   write_points<RadialFisheyeCameraModel>(0.1);
   write_points<OpenCVFisheyeCameraModel>(0.05);
   write_points<ThinPrismFisheyeCameraModel>(0.05);
+  write_points<FOVCameraModel>(1.2);
 }

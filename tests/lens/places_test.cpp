@@ -95,6 +95,8 @@ TEST_P(PlacesOf, LieWithinTheirBounds) {
 INSTANTIATE_TEST_SUITE_P(
     Lenses, PlacesOf,
     ::testing::Values(NamedLens{"opencv", {LensModel::opencv, {-0.02, 0.001, 0.001, -0.002}}},
+                      NamedLens{"fov", {LensModel::fov, {0.75}}},
+                      NamedLens{"fov_that_ends", {LensModel::fov, {-2}, 1}},
                       NamedLens{"division", {LensModel::division, {-0.25}}},
                       NamedLens{"fisheye", {LensModel::fisheye}},
                       NamedLens{"equirectangular", {LensModel::equirectangular}},

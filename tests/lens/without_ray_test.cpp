@@ -118,6 +118,13 @@ TEST(WithoutRay, IsTheAreaBeyondTheEndOfADivision) {
   expect_share(lens, 15, Reason::end_of_model);
 }
 
+TEST(WithoutRay, IsTheAreaOfAFieldOfViewBeyondItsEnds) {
+  expect_share({LensModel::fov, {-1.25}}, 12, Reason::end_of_model);
+  expect_share({LensModel::fov, {1.25}, 1.6}, 12, Reason::end_of_model);
+  expect_share({LensModel::fov, {1.25}, 0.75}, 25, Reason::max_radius);
+  expect_share({LensModel::fov, {0}, 0.5}, 40, Reason::max_radius);
+}
+
 TEST(WithoutRay, IsTheAreaBeyondTheEndOfARoot) {
   expect_share({LensModel::fisheye_orthographic}, 15, Reason::end_of_model);
   expect_share({LensModel::fisheye_equisolid}, 8, Reason::end_of_model);
@@ -147,6 +154,7 @@ TEST(WithoutRay, IsNoneWhereAllSamplesHaveARay) {
   EXPECT_FALSE(found({LensModel::fisheye_stereographic}, 1));
   EXPECT_FALSE(found({LensModel::ucm, {0.5}}, 1));
   EXPECT_FALSE(found({LensModel::omni, {1}}, 1));
+  EXPECT_FALSE(found({LensModel::fov, {0.75}}, 25));
   EXPECT_FALSE(found({LensModel::fisheye_equisolid}, 17));
   EXPECT_FALSE(find_samples_without_ray(Projection(), width, height).has_value());
 }

@@ -163,18 +163,19 @@ F arc_of_inverse(int n) {
   return sum;
 }
 
+/// Machin's 16·atan(1/5) − 4·atan(1/239).
+const F& pi() {
+  static const F value = 16 * arc_of_inverse(5) - 4 * arc_of_inverse(239);
+  return value;
+}
+
 struct SineAndCosine {
   Q sine, cosine;
 };
 
-/// Of an angle in turns. π is Machin's 16·atan(1/5) − 4·atan(1/239); 400 terms of the series leave
-/// less than 2^−4000.
-SineAndCosine of_turns(const Q& turns) {
-  static const F pi = 16 * arc_of_inverse(5) - 4 * arc_of_inverse(239);
-  mpz_class whole;
-  const Q shifted = turns + Q(1, 2);
-  mpz_fdiv_q(whole.get_mpz_t(), shifted.get_num_mpz_t(), shifted.get_den_mpz_t());
-  const F angle = 2 * pi * F(Q(turns - whole), bits), q = angle * angle;
+/// Of an angle below 4; 400 terms of the series leave less than 2^−4000.
+SineAndCosine of_angle(const F& angle) {
+  const F q = angle * angle;
   F sine_term = angle, cosine_term = number(1), sine = number(0), cosine = number(0);
   for (int k = 0; k < 400; ++k) {
     sine = sine + sine_term;
@@ -183,6 +184,24 @@ SineAndCosine of_turns(const Q& turns) {
     cosine_term = -cosine_term * q / number((2.0 * k + 1) * (2.0 * k + 2));
   }
   return {settled(sine), settled(cosine)};
+}
+
+SineAndCosine of_turns(const Q& turns) {
+  mpz_class whole;
+  const Q shifted = turns + Q(1, 2);
+  mpz_fdiv_q(whole.get_mpz_t(), shifted.get_num_mpz_t(), shifted.get_den_mpz_t());
+  return of_angle(2 * pi() * F(Q(turns - whole), bits));
+}
+
+/// FOV, as the specification has it.
+std::optional<Vector> in_field_of_view(double signed_omega, const Q& x, const Q& y) {
+  const F omega = number(std::abs(signed_omega)), r(sqrt(F(x * x + y * y, bits)));
+  if (omega == 0 || r == 0) return Vector{x, y, 1};
+  const F angle = omega * r;
+  if (angle >= pi() / 2) return std::nullopt;
+  const SineAndCosine of_ray = of_angle(angle), of_half = of_angle(omega / 2);
+  const Q aside = of_ray.sine / rational(r);
+  return Vector{x * aside, y * aside, 2 * of_half.sine / of_half.cosine * of_ray.cosine};
 }
 
 std::optional<Vector> turned(LensNumbers::Panorama panorama, const Q& x, const Q& y) {
@@ -213,6 +232,7 @@ std::function<std::optional<Vector>(const Q& u, const Q& v)> lens_rays(const Ray
     const Q y = (v + shift - camera.cy) / camera.fy;
     const Q x = (u + shift - camera.cx - camera.skew * y) / camera.fx;
     if (lens.root != LensNumbers::Root::none) return bent_by_root(lens, x, y);
+    if (lens.omega) return in_field_of_view(*lens.omega, x, y);
     if (lens.panorama != LensNumbers::Panorama::none) return turned(lens.panorama, x, y);
     if (!lens.division) {
       const auto ray = bent_by_polynomial(lens, x, y, greatest_q);

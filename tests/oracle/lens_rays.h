@@ -21,6 +21,8 @@ struct LensNumbers {
   /// A formula with a square root instead, and its numbers.
   Root root = Root::none;
   double alpha = 0, beta = 1, xi = 0;
+  /// The ω of FOV instead.
+  std::optional<double> omega;
   /// A panorama instead: fx is the width of a turn, fy the height of half a turn (sphere) or of 1.
   enum class Panorama { none, sphere, cylinder } panorama = Panorama::none;
 

@@ -170,7 +170,7 @@ def test_a_name_that_no_image_has_is_answered_with_the_names_there_are(tmp_path)
 
 
 def test_distorted_cameras_are_left_out_with_a_warning(tmp_path):
-    (tmp_path / "cameras.txt").write_text("1 FOV 64 48 9 9 3 2 0.1\n2 PINHOLE 64 48 9 9 3 2\n")
+    (tmp_path / "cameras.txt").write_text("1 FOV 64 48 9 9 3 2 4\n2 PINHOLE 64 48 9 9 3 2\n")
     (tmp_path / "images.txt").write_text("1 1 0 0 0 0 0 3 1 a\n\n2 1 0 0 0 0 0 3 2 b\n\n")
     with pytest.warns(fathom.ViewWarning, match="1 of 2 cameras has lens distortion") as caught:
         assert list(fathom.Camera.from_colmap(tmp_path)) == ["b"]

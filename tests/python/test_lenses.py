@@ -118,6 +118,7 @@ def over(denominator):
 
 
 @pytest.mark.parametrize("model, numbers, project", [
+    ("FOV", [0.9], over(lambda aside, z, length: aside * 0.9 / np.arctan(2 * aside / z * np.tan(0.45)))),
     ("FISHEYE_ORTHOGRAPHIC", [], over(lambda aside, z, length: length)),
     ("FISHEYE_EQUISOLID", [], over(lambda aside, z, length: aside / (2 * np.sin(np.arctan2(aside, z) / 2)))),
     ("UCM", [0.6], over(lambda aside, z, length: 0.6 * length + 0.4 * z)),
@@ -126,7 +127,7 @@ def over(denominator):
                                         + 0.4 * (z - 0.2 * length))),
     ("OMNI", [0.9], over(lambda aside, z, length: z + 0.9 * length)),
 ])
-def test_models_with_a_root_show_points_where_their_publications_do(model, numbers, project):
+def test_models_with_a_formula_show_points_where_their_publications_do(model, numbers, project):
     params = [50, 50, 32, 24, *numbers]
     check(fathom.Camera(*size, pixel_centre=0.5, world_to_camera=pose, model=model, params=params), project, 0.5)
 

@@ -24,6 +24,7 @@ constexpr std::array<Name, 14> of_opencv{"k1", "k2", "p1", "p2", "k3", "k4",   "
                                          "k6", "s1", "s2", "s3", "s4", "tauX", "tauY"};
 constexpr std::array<Name, 1> of_one_term{"k"};
 constexpr std::array<Name, 6> of_brown{"k1", "k2", "k3", "k4", "p1", "p2"};
+constexpr std::array<Name, 1> of_fov{"omega"};
 
 // OpenCV's functions take as many.
 constexpr std::array<std::size_t, 4> shorter_than_14{4, 5, 8, 12};
@@ -42,9 +43,10 @@ constexpr std::array<Name, 2> of_double_sphere{"xi", "alpha"};
 constexpr std::array<Name, 1> of_omni{"xi"};
 
 constexpr auto plane = RayFormula::plane, angle = RayFormula::angle, with_root = RayFormula::root,
-               turn = RayFormula::turn, direct = RayFormula::direct;
+               turn = RayFormula::turn, direct = RayFormula::direct,
+               field_of_view = RayFormula::field_of_view;
 
-constexpr std::array<LensModelEntry, 26> table{{
+constexpr std::array<LensModelEntry, 27> table{{
     {LensModel::simple_pinhole, "SIMPLE_PINHOLE", plane, one_focal_length, {}, {}},
     {LensModel::pinhole, "PINHOLE", plane, two_focal_lengths, {}, {}},
     {LensModel::simple_radial, "SIMPLE_RADIAL", plane, one_focal_length, of_one_term, {}},
@@ -53,6 +55,7 @@ constexpr std::array<LensModelEntry, 26> table{{
     {LensModel::full_opencv, "FULL_OPENCV", plane, two_focal_lengths, first(8), {}},
     {LensModel::opencv_14, "OPENCV_14", plane, two_focal_lengths, of_opencv, shorter_than_14},
     {LensModel::brown, "BROWN", plane, two_focal_lengths, of_brown, {}},
+    {LensModel::fov, "FOV", field_of_view, two_focal_lengths, of_fov, {}},
     {LensModel::simple_division, "SIMPLE_DIVISION", direct, one_focal_length, of_one_term, {}},
     {LensModel::division, "DIVISION", direct, two_focal_lengths, of_one_term, {}},
     {LensModel::fisheye_stereographic, "FISHEYE_STEREOGRAPHIC", direct, two_focal_lengths, {}, {}},
@@ -106,7 +109,8 @@ const LensModelEntry& entry_of(LensModel model) {
 }
 
 bool is_plane(LensModel model) {
-  return entry_of(model).formula == RayFormula::plane;
+  const RayFormula formula = entry_of(model).formula;
+  return formula == RayFormula::plane || formula == RayFormula::field_of_view;
 }
 
 bool has_stage(LensModel model) {
@@ -142,14 +146,16 @@ std::optional<LensModel> lens_model_named(std::string_view name) {
 
 namespace {
 
-/// The fault of the number of a parameter; nullopt if it is in range. The binary64 number nearest
-/// to π/2 is less than π/2, so the greatest angle of a tilt is that number.
+/// The fault of the number of a parameter; nullopt if it is in range. The binary64 numbers nearest
+/// to π/2 and π are less than these, so they are the greatest angles.
 std::optional<std::string> range_fault(LensModel model, std::string_view parameter, double value) {
   const std::string name(parameter);
   if (!std::isfinite(value)) return name + " is not a finite number";
   const bool is_tilt = parameter == "tauX" || parameter == "tauY";
   if (is_tilt && std::abs(value) > std::numbers::pi / 2)
     return name + " is not between -pi/2 and pi/2";
+  if (parameter == "omega" && std::abs(value) > std::numbers::pi)
+    return name + " is not between -pi and pi";
   if (parameter == "alpha" && !(value >= 0 && value <= 1)) return name + " is not between 0 and 1";
   if (parameter == "beta" && !(value > 0)) return name + " is not greater than 0";
   if (parameter != "xi") return std::nullopt;

@@ -25,6 +25,7 @@ enum class LensModel : std::uint8_t {
   full_opencv,
   opencv_14,
   brown,
+  fov,
   simple_division,
   division,
   fisheye_stereographic,
@@ -51,6 +52,9 @@ enum class RayFormula : std::uint8_t {
   plane,
   /// The angle of the ray to the z axis is |m|, where the stage takes m to the sample.
   angle,
+  /// The tangent of an angle in proportion to the distance from the axis gives the ray: every ray
+  /// has z > 0.
+  field_of_view,
   /// A formula with a square root gives the ray.
   root,
   /// A rational formula or a table gives the ray.
@@ -98,7 +102,8 @@ struct Lens {
   LensModel model = LensModel::pinhole;
   /// The numbers of entry_of(model).distortion, in this order; the rest is 0.
   std::array<double, 14> distortion{};
-  /// Rays end there: |m| of a model of the plane, else the angle to the z axis in radians.
+  /// Rays end there: |m| of a model of the plane with a stage, else the angle to the z axis in
+  /// radians.
   double max_radius = std::numeric_limits<double>::infinity();
   /// Of the model TABLE: the directions of the pixels. Copies of a lens share them.
   std::shared_ptr<const DirectionTable> directions;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
@@ -7,8 +8,8 @@
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/exact_polynomial.h"
 
-/// Values of linear and quadratic forms in any arithmetic, and its first precisions. Only for .cpp
-/// files of this module.
+/// Values of linear and quadratic forms in any arithmetic, and precisions. Only for .cpp files of
+/// this module.
 namespace fathom::lens {
 
 /// The bits of the first attempt at a sign.
@@ -47,6 +48,20 @@ auto converted(const std::array<Number, size>& numbers, const Convert& convert,
 template <class Number, std::size_t size, class Convert>
 auto converted(const std::array<Number, size>& numbers, const Convert& convert) {
   return converted(numbers, convert, std::make_index_sequence<size>());
+}
+
+inline Dyadic size_of(const DyadicInterval& x) {
+  return std::max(abs(x.low), abs(x.high));
+}
+
+/// Whether an enclosure of a direction is as narrow as `bits` bits of `size`; x and y, of the
+/// greater of them.
+inline bool is_narrow(const std::array<DyadicInterval, 3>& d, long bits, const Dyadic& size) {
+  const Dyadic aside = std::max(size_of(d[0]), size_of(d[1])).scaled(-bits);
+  const auto is_within = [&d](std::size_t k, const Dyadic& width) {
+    return d[k].high - d[k].low <= width;
+  };
+  return is_within(0, aside) && is_within(1, aside) && is_within(2, size.scaled(-bits));
 }
 
 }  // namespace fathom::lens

@@ -25,9 +25,11 @@ bool is_beyond_every_angle(double radius) {
   return radius > std::numbers::pi;
 }
 
-/// Whether the angle between an algebraic d and the z axis is at most `radius` > 0: the sign of z −
-/// |d|·cos(radius). The cosine of a rational number other than 0 is transcendental, so it is never
-/// 0.
+/// Whether the angle between d and the z axis is at most `radius` > 0: the sign of z −
+/// |d|·cos(radius). It is never 0. Of an algebraic d: the cosine of a rational number other than 0
+/// is transcendental. Of FOV it would be 0 if sin α·cos β·cos(radius) = 2·cos α·sin β·sin(radius)
+/// with α = ωr and β = ω/2. The exponent i(α + β + radius) occurs once on each side, with the
+/// factors 1/8i and −¼: they differ (Lindemann, Weierstrass).
 template <class Direction>
 bool is_within_angle(const Direction& d, double radius) {
   if (is_beyond_every_angle(radius)) return true;
@@ -92,6 +94,7 @@ std::optional<ExactDirection> Preimages::of(const Dyadic& u, const Dyadic& v) co
   }
   if (roots_) return by_root(plane_.at(u, v));
   if (is_panorama(lens_.model)) return by_turns(plane_.at(u, v));
+  if (lens_.model == LensModel::fov) return by_field_of_view(plane_.at(u, v));
   if (!has_stage(lens_.model)) {
     std::optional<RationalDirection> d = divide(plane_.at(u, v), division_term(lens_));
     if (!d || !is_within_angle(*d, lens_.max_radius)) return std::nullopt;
@@ -116,6 +119,31 @@ std::optional<ExactDirection> Preimages::by_root(const DistortedPoint& y) const 
       *roots_);
 }
 
+namespace {
+
+/// Whether ωr < π/2 with r = |y|: never equal, because ωr is algebraic.
+bool is_before_right_angle(const DistortedPoint& y, double omega) {
+  for (long bits = 128;; bits *= 2) {
+    const auto number = [bits](const Dyadic& x) { return BigInterval(x, bits); };
+    const BigInterval r = sqrt(square(number(y.a)) + square(number(y.b))) / number(y.c);
+    const Sign sign = (BigInterval::pi(bits) - r * number(2 * omega)).sign();
+    if (sign != Sign::zero) return sign == Sign::positive;
+  }
+}
+
+}  // namespace
+
+// Where r = ½, d is 2·sin(ω/2)·(x_d, y_d, 1).
+std::optional<ExactDirection> Preimages::by_field_of_view(const DistortedPoint& y) const {
+  const double omega = std::abs(lens_.distortion[0]);
+  const Dyadic square = y.a * y.a + y.b * y.b;
+  RationalDirection straight({y.a, y.b, y.c}, y.c);
+  if (omega == 0 || square.is_zero() || square.scaled(2) == y.c * y.c)
+    return kept_within(lens_.max_radius, std::move(straight));
+  if (!is_before_right_angle(y, omega)) return std::nullopt;
+  return kept_within(lens_.max_radius, AngleDirection(std::move(straight), omega));
+}
+
 // At a pole, ½ of half a turn, the cosine is 0: d = (0, ±1, 0).
 std::optional<ExactDirection> Preimages::by_turns(const DistortedPoint& sample) const {
   if (lens_.model == LensModel::cylindrical)
@@ -134,8 +162,7 @@ std::optional<ExactDirection> Preimages::before_stage(const Dyadic& u, const Dya
   return std::visit([](const auto& d) { return ExactDirection(d); }, *m);
 }
 
-std::optional<Preimages::PlaneDirection> Preimages::find_before_stage(const Dyadic& u,
-                                                                      const Dyadic& v) const {
+std::optional<PlaneDirection> Preimages::find_before_stage(const Dyadic& u, const Dyadic& v) const {
   std::optional<DistortedPoint> y = plane_.at(u, v);
   if (tilt_) y = tilt_->undone(*y);
   if (!y) return std::nullopt;

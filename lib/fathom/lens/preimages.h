@@ -66,11 +66,11 @@ class Preimages {
   [[nodiscard]] double disc() const { return stage_.disc; }
 
  private:
-  using PlaneDirection = AngleDirection::PlaneDirection;
   [[nodiscard]] std::optional<PlaneDirection> find_before_stage(const Dyadic& u,
                                                                 const Dyadic& v) const;
   [[nodiscard]] ExactDirection lifted(PlaneDirection m) const;
   [[nodiscard]] std::optional<ExactDirection> by_root(const DistortedPoint& y) const;
+  [[nodiscard]] std::optional<ExactDirection> by_field_of_view(const DistortedPoint& y) const;
   [[nodiscard]] std::optional<ExactDirection> by_turns(const DistortedPoint& sample) const;
 
   SamplePlane plane_;

@@ -120,10 +120,6 @@ std::array<DyadicInterval, 3> enclose_in_bits(const Vector& d, long bits) {
   return {x.ends(), y.ends(), z.ends()};
 }
 
-Dyadic size_of(const DyadicInterval& x) {
-  return std::max(abs(x.low), abs(x.high));
-}
-
 RootVector<Dyadic> scaled(RootVector<Dyadic> d, long power) {
   for (std::size_t k = 0; k < 3; ++k) {
     d.a[k] = d.a[k].scaled(power);
@@ -233,12 +229,7 @@ template <class Vector>
 std::array<DyadicInterval, 3> RootDirection<Vector>::enclosure(long bits) const {
   for (long precision = bits + bits_to_lose;; precision *= 2) {
     auto d = enclose_in_bits(d_, precision);
-    const Dyadic aside = std::max(size_of(d[0]), size_of(d[1])).scaled(-bits);
-    const auto is_within = [&d](std::size_t k, const Dyadic& width) {
-      return d[k].high - d[k].low <= width;
-    };
-    if (is_within(0, aside) && is_within(1, aside) && is_within(2, Dyadic(1.0).scaled(-bits)))
-      return d;
+    if (is_narrow(d, bits, 1.0)) return d;
   }
 }
 

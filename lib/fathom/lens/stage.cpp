@@ -51,6 +51,7 @@ StageNumbers<double> stage_of(const Lens& lens) {
       return {polynomial({d[0], d[1], d[2], d[3]}), {1}, 0, 0, 0, 0, 0, 0};
     case LensModel::thin_prism_fisheye:
       return {polynomial({d[0], d[1], d[4], d[5]}), {1}, d[2], d[3], d[6], 0, d[7], 0};
+    case LensModel::fov:
     case LensModel::simple_division:
     case LensModel::division:
     case LensModel::fisheye_stereographic:

@@ -104,6 +104,19 @@ std::optional<Rim> rim_of_division(const Lens& lens) {
   return std::isfinite(end) ? std::optional(Rim{Reason::end_of_model, end}) : std::nullopt;
 }
 
+// At the angle θ from the axis tan θ = tan(ωr)/(2·tan(ω/2)); ωr < π/2.
+std::optional<Rim> rim_of_field_of_view(const Lens& lens) {
+  const double omega = std::abs(lens.distortion[0]);
+  const double right_angle = std::numbers::pi / 2;
+  if (lens.max_radius < right_angle) {
+    const double tangent = std::tan(lens.max_radius);
+    const double radius =
+        omega == 0 ? tangent : std::atan(2 * std::tan(omega / 2) * tangent) / omega;
+    return Rim{Reason::max_radius, radius};
+  }
+  return omega == 0 ? std::nullopt : std::optional(Rim{Reason::end_of_model, right_angle / omega});
+}
+
 std::optional<Rim> rim_of_root(const RootProfile& profile, double farthest, const Lens& lens) {
   if (const auto radius = profile.radius_at(lens.max_radius, farthest))
     return Rim{Reason::max_radius, *radius};
@@ -268,10 +281,12 @@ std::optional<WithoutRay> find_samples_without_ray(const Projection& projection,
   for (const double u : {0.0, static_cast<double>(width)})
     for (const double v : {0.0, static_cast<double>(height)})
       farthest = std::max(farthest, forward.distance_from_axis(u, v));
-  const auto roots = root_formula(lens);
-  const std::optional<Rim> rim = is_by_stage ? rim_of_stage(stage, farthest, lens)
-                                 : roots     ? rim_of_root(RootProfile(*roots), farthest, lens)
-                                             : rim_of_division(lens);
+  const auto rim = [&] {
+    if (is_by_stage) return rim_of_stage(stage, farthest, lens);
+    if (lens.model == LensModel::fov) return rim_of_field_of_view(lens);
+    const auto roots = root_formula(lens);
+    return roots ? rim_of_root(RootProfile(*roots), farthest, lens) : rim_of_division(lens);
+  }();
   if (!rim) return std::nullopt;
   const Polygon seen = image_of_circle(forward, rim->radius);
   if (seen.empty()) return std::nullopt;

@@ -14,8 +14,8 @@ struct WithoutRay {
     /// Beyond the disc on which the lens is one to one.
     fold,
     max_radius,
-    /// Beyond 1 + k·r² = 2 (DIVISION), beyond the root of 0 (models with a root), 180° from the
-    /// axis (fisheyes), or beyond a pole (EQUIRECTANGULAR).
+    /// Beyond 1 + k·r² = 2 (DIVISION), beyond the root of 0 (models with a root), 90° (FOV) or
+    /// 180° (fisheyes) from the axis, or beyond a pole (EQUIRECTANGULAR).
     end_of_model,
     /// Pixels without a direction (TABLE).
     table

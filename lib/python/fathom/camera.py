@@ -75,7 +75,7 @@ class Camera:
     distortion       its numbers of distortion, in the model's order
     params           all parameters of the model in its order, in place of fx, fy, cx, cy and
                      distortion; [w, h] for EQUIRECTANGULAR, whose fx is then w and fy h
-    max_radius       where the lens ends, on the plane z = 1; for fisheyes, panoramas, DIVISION,
+    max_radius       where the lens ends, on the plane z = 1; for FOV, fisheyes, panoramas, DIVISION,
                      SIMPLE_DIVISION and TABLE the angle to the z axis in radians
 
     >>> camera = Camera(640, 480, 500, 500, 320, 240, pixel_centre=0.5)

@@ -62,7 +62,7 @@ class ForwardLens {
  public:
   explicit ForwardLens(const Camera& camera)
       : lens_(*camera.projection.lens),
-        stage_(lens::stage_of(lens_)),
+        stage_(lens::stage_of(has_stage(lens_.model) ? lens_ : Lens())),
         disc_(lens::Preimages(camera.projection, lens_).disc()) {
     if (const auto formula = lens::root_formula(lens_)) roots_.emplace(*formula);
   }
@@ -82,6 +82,7 @@ class ForwardLens {
       return Point{x_d, y_d};
     }
     if (roots_) return by_root(x, y);
+    if (lens_.model == LensModel::fov) return in_field_of_view(x, y);
     if (is_panorama(lens_.model)) {
       const double down = y / std::sqrt(1 + x * x);
       const bool is_cylinder = lens_.model == LensModel::cylindrical;
@@ -97,6 +98,12 @@ class ForwardLens {
   }
 
  private:
+  [[nodiscard]] Point in_field_of_view(double x, double y) const {
+    const double omega = std::abs(lens_.distortion[0]), size = std::hypot(x, y);
+    if (omega == 0 || size == 0) return {x, y};
+    const double factor = std::atan(2 * std::tan(omega / 2) * size) / (omega * size);
+    return {factor * x, factor * y};
+  }
   [[nodiscard]] std::optional<Point> by_root(double x, double y) const {
     constexpr double farthest = 0x1p40;
     const double size = std::hypot(x, y);

@@ -56,14 +56,12 @@ constexpr std::array<std::string_view, 18> model_names{"SIMPLE_PINHOLE",
                                                        "EUCM",
                                                        "EQUIRECTANGULAR"};
 
-/// The models that Fathom does not have.
-constexpr std::array<Model, 2> models_of_colmap_alone{
-    {{"FOV", 5, 2, true}, {"RAD_TAN_THIN_PRISM_FISHEYE", 16, 2, false}}};
+/// The model that Fathom does not have.
+constexpr Model model_of_colmap_alone{"RAD_TAN_THIN_PRISM_FISHEYE", 16, 2, false};
 
 /// `name` is one of model_names.
 Model colmap_model(std::string_view name) {
-  const auto* const alone = std::ranges::find(models_of_colmap_alone, name, &Model::name);
-  if (alone != models_of_colmap_alone.end()) return *alone;
+  if (name == model_of_colmap_alone.name) return model_of_colmap_alone;
   const LensModelEntry& lens = lens_model_of(name);
   if (lens.model == LensModel::equirectangular)
     return {.name = name, .parameters = 2, .focals = 2, .pinhole = false, .lens = lens.model};

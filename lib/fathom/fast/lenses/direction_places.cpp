@@ -93,6 +93,9 @@ DirectionModel::DirectionModel(const lens::Preimages& the_preimages, const Proje
   if (the_preimages.stage() != nullptr) angles_.emplace(the_preimages, projection, grid);
   if (const auto exact = lens::root_formula(*projection.lens))
     roots_ = lens::converted(*exact, [](const Dyadic& x) { return to_certified(enclose(x)); });
+  if (model_ != LensModel::fov) return;
+  omega_.value = std::abs(projection.lens->distortion[0]);
+  stretch_ = to_certified(lens::stretch_of_field(omega_.value));
 }
 
 template <class DirectionAt>
@@ -116,6 +119,7 @@ std::vector<DirectionModel::Sample> DirectionModel::of_tile(std::uint32_t tile) 
   return collected(tile, [this](std::uint32_t column, std::uint32_t row) {
     if (table_ != nullptr) return in_table(column, row);
     if (is_panorama(model_)) return turned(column, row);
+    if (model_ == LensModel::fov) return in_field_of_view(column, row);
     return roots_ ? by_root(column, row) : divided(column, row);
   });
 }
@@ -220,10 +224,16 @@ std::optional<ApproximateDirection> DirectionModel::by_root(std::uint32_t column
   const double e = plane_.error();
   const std::optional<Bounded> bounded = bounded_direction(*roots_, {{x, e}, {y, e}, {1, 0}});
   if (!bounded) return std::nullopt;
+  return kept(*bounded, column, row);
+}
+
+std::optional<ApproximateDirection> DirectionModel::kept(const Bounded& bounded,
+                                                         std::uint32_t column,
+                                                         std::uint32_t row) const {
   ApproximateDirection direction{{}, 0};
   double size = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto& [value, error] = (*bounded)[k];
+    const auto& [value, error] = bounded[k];
     if (!(error < std::numeric_limits<double>::infinity())) return exactly_at(column, row);
     direction.d[k] = value;
     direction.error = std::max(direction.error, error);
@@ -231,6 +241,27 @@ std::optional<ApproximateDirection> DirectionModel::by_root(std::uint32_t column
   }
   if (!(direction.error < size)) return exactly_at(column, row);
   return kept(direction, column, row);
+}
+
+// With θ = ω|y| and q = θ², the derivatives of cos √q and sin √q/√q by q are at most ½ and ⅙. What
+// lens_sine proves of x·sin θ/θ for x = 2, whose product is exact, holds for sin θ/θ, too. There is
+// a ray where θ < π/2: end_of_angles is the greatest number below π².
+std::optional<ApproximateDirection> DirectionModel::in_field_of_view(std::uint32_t column,
+                                                                     std::uint32_t row) const {
+  constexpr double right_angle_squared = lens::end_of_angles / 4;
+  static_assert(right_angle_squared < end_of_series);
+  const auto [x_value, y_value] = plane_.at(column + 0.5, row + 0.5);
+  const Certified<double> x{x_value, plane_.error()}, y{y_value, plane_.error()};
+  const Certified<double> across = omega_ * x, down = omega_ * y;
+  const Certified<double> q = across * across + down * down;
+  const Interval enclosed = enclose(q);
+  if (enclosed.lower > right_angle_squared) return std::nullopt;
+  if (!(enclosed.upper <= right_angle_squared)) return exactly_at(column, row);
+  const Certified<double> sine_over_angle{alternating_series<1>(q.value),
+                                          (lift_rounding + q.error / 6) * up};
+  const Certified<double> cosine{alternating_series<0>(q.value),
+                                 (lift_rounding + q.error / 2) * up};
+  return kept(Bounded{x * sine_over_angle, y * sine_over_angle, stretch_ * cosine}, column, row);
 }
 
 // An angle that errs by e moves sines and cosines by at most e. With errors of E and F of the
@@ -265,6 +296,17 @@ ApproximateDirection middle_of(const std::array<Interval, 3>& box) {
   return direction;
 }
 
+/// The same direction, times a power of two that brings its greatest component to about 1.
+std::array<DyadicInterval, 3> scaled_to_one(std::array<DyadicInterval, 3> d) {
+  Dyadic greatest;
+  for (const auto& [low, high] : d) greatest = std::max({greatest, abs(low), abs(high)});
+  for (auto& [low, high] : d) {
+    low = low.scaled(-greatest.top());
+    high = high.scaled(-greatest.top());
+  }
+  return d;
+}
+
 }  // namespace
 
 std::optional<ApproximateDirection> DirectionModel::exactly_at(std::uint32_t column,
@@ -275,7 +317,7 @@ std::optional<ApproximateDirection> DirectionModel::exactly_at(std::uint32_t col
     const auto [x, y, z] = lens::scaled_to_one(*d);
     return middle_of({enclose(x), enclose(y), enclose(z)});
   }
-  const auto [x, y, z] = exact->enclosure(64);
+  const auto [x, y, z] = scaled_to_one(exact->enclosure(64));
   return middle_of({enclose(x), enclose(y), enclose(z)});
 }
 
@@ -343,7 +385,7 @@ std::array<PlacesInView, all_views.size()> find_places(const DirectionModel& mod
   std::ranges::fill(places.y, no_number);
   std::array<PlacesInView, all_views.size()> found;
   const std::vector<DirectionModel::Sample> samples = model.of_tile(tile);
-  const unsigned common = common_views(samples);
+  const unsigned common = model.looks_ahead() ? 1U : common_views(samples);
   const auto view_of = [common](const ApproximateDirection& direction) {
     return common != 0 ? static_cast<std::uint8_t>(std::countr_zero(common))
                        : view_along(direction.d);

@@ -36,8 +36,8 @@ class AngleLimit {
   std::optional<Interval> cosine_;
 };
 
-/// The directions of the samples of a lens whose rays may go to all sides: a table, a model of
-/// division or with a root, a fisheye, a panorama.
+/// The directions of the samples of a lens whose rays may go to all sides, or FOV: a table, a model
+/// of division or with a root, a fisheye, a panorama.
 class DirectionModel {
  public:
   DirectionModel(const lens::Preimages& the_preimages, const Projection& projection,
@@ -53,6 +53,8 @@ class DirectionModel {
   /// ray.
   [[nodiscard]] std::optional<ApproximateDirection> exactly_at(std::uint32_t column,
                                                                std::uint32_t row) const;
+  /// Whether all directions lie in front of the camera.
+  [[nodiscard]] bool looks_ahead() const { return is_plane(model_); }
 
  private:
   [[nodiscard]] std::optional<ApproximateDirection> in_table(std::uint32_t column,
@@ -61,8 +63,15 @@ class DirectionModel {
                                                             std::uint32_t row) const;
   [[nodiscard]] std::optional<ApproximateDirection> by_root(std::uint32_t column,
                                                             std::uint32_t row) const;
+  [[nodiscard]] std::optional<ApproximateDirection> in_field_of_view(std::uint32_t column,
+                                                                     std::uint32_t row) const;
   [[nodiscard]] std::optional<ApproximateDirection> turned(std::uint32_t column,
                                                            std::uint32_t row) const;
+  /// The direction with these components if all of them are known; otherwise from the exact
+  /// direction.
+  [[nodiscard]] std::optional<ApproximateDirection> kept(
+      const std::array<Certified<double>, 3>& bounded, std::uint32_t column,
+      std::uint32_t row) const;
   /// The direction if it lies within max_radius; from the exact direction if its error leaves that
   /// open.
   [[nodiscard]] std::optional<ApproximateDirection> kept(const ApproximateDirection& direction,
@@ -79,7 +88,9 @@ class DirectionModel {
   /// Of a model of division: k of d = (x_d, y_d, 1 + k·r²).
   double k_;
   std::optional<lens::AnyRootFormula<Certified<double>>> roots_;
-  /// Of a model of division or with a root: the map to (x_d, y_d).
+  /// Of FOV: ω, and tan(ω/2)/(ω/2).
+  Certified<double> omega_{0, 0}, stretch_{1, 0};
+  /// Of a model of division or with a root, or FOV: the map to (x_d, y_d).
   CertifiedPlane plane_;
   AngleLimit limit_;
   /// Of a fisheye: the points whose |m| is the angle.
@@ -94,7 +105,8 @@ struct PlacesInView {
 };
 
 /// Finds the places of a tile: all in one view if they are not far from its middle, the camera's
-/// first, or else each in the view along its greatest component.
+/// first, or else each in the view along its greatest component. Those of FOV are all in the
+/// camera's.
 std::array<PlacesInView, all_views.size()> find_places(const DirectionModel& model,
                                                        const TileGrid& grid, std::uint32_t tile,
                                                        const FoundPlaces& places,

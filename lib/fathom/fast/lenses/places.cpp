@@ -32,7 +32,8 @@ Places::Places(const Projection& projection, std::uint32_t width, std::uint32_t 
       preimages_(projection, *projection.lens),
       x_(std::make_unique_for_overwrite<double[]>(samples())),
       y_(std::make_unique_for_overwrite<double[]>(samples())) {
-  is_plane(projection.lens->model) ? find_in_plane() : find_in_views();
+  preimages_.stage() != nullptr&& is_plane(projection.lens->model) ? find_in_plane()
+                                                                   : find_in_views();
   for (View& view : views_)
     for (const PlaneBox& box : view.boxes) view.box.add(box);
   are_usable_ = std::ranges::all_of(views_, is_usable);
