@@ -134,6 +134,7 @@ INSTANTIATE_TEST_SUITE_P(
             {LensModel::opencv_14,
              {-0.01, 0.002, 0.001, 0.002, 0, 0, 0, 0, 0.001, -0.002, 0.004, 0.001, 0.05, -0.03}}},
         NamedLens{"pinhole_that_ends", {LensModel::pinhole, {}, 1.75}},
+        NamedLens{"fov", {LensModel::fov, {1.25}}}, NamedLens{"pinhole_fov", {LensModel::fov, {0}}},
         NamedLens{"division", {LensModel::division, {-0.25}}},
         NamedLens{"stereographic", {LensModel::fisheye_stereographic}},
         NamedLens{"fisheye", {LensModel::fisheye}},

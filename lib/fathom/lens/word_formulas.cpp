@@ -38,24 +38,33 @@ class Formulas {
     if (const auto roots = root_formula(lens_))
       roots_ = converted(*roots, [](const Dyadic& x) { return in_words<fused>(words_of(x)); });
     division_ = exactly(division_term(lens_));
+    if (lens_.model == LensModel::fov) omega_ = exactly(std::abs(lens_.distortion[0]));
     const auto pi = BigInterval::pi(128).ends();
     two_pi_ = exactly(2) * in_words<fused>(words_within({pi, pi, pi})[0]);
     set_series();
+    const Word half = omega_ * exactly(0.5), q = half * half;
+    stretch_ = alternating(sine_, q) / alternating(cosine_, q);
   }
 
   [[nodiscard]] std::optional<DirectionWords> of_pixel(std::uint32_t column, std::uint32_t row,
                                                        const StageStart& start) const {
     if (lens_.directions) return in_table(column, row);
     const HomogeneousPoint<Word> y = point_at(column + 0.5, row + 0.5);
-    if (has_stage(lens_.model)) {
-      const auto m = preimage(y, start);
-      if (!m) return std::nullopt;
-      return as_pairs(is_plane(lens_.model) ? Direction{(*m)[0], (*m)[1], exactly(1)} : lifted(*m));
+    switch (entry_of(lens_.model).formula) {
+      case RayFormula::plane:
+      case RayFormula::angle:
+        return by_stage(y, start);
+      case RayFormula::root:
+        return as_pairs(
+            std::visit([&](const auto& formula) { return formula.at(y).components(); }, *roots_));
+      case RayFormula::turn:
+        return as_pairs(turned(y));
+      case RayFormula::field_of_view:
+        return as_pairs(in_field(y));
+      case RayFormula::direct:
+        return as_pairs(divided(y));
     }
-    if (roots_)
-      return as_pairs(
-          std::visit([&](const auto& formula) { return formula.at(y).components(); }, *roots_));
-    return as_pairs(is_panorama(lens_.model) ? turned(y) : divided(y));
+    return std::nullopt;
   }
 
  private:
@@ -106,6 +115,21 @@ class Formulas {
   // d = (y, 1 + k·|y|²), times c².
   [[nodiscard]] Direction divided(const HomogeneousPoint<Word>& y) const {
     return {y.a * y.c, y.b * y.c, y.c * y.c + division_ * (y.a * y.a + y.b * y.b)};
+  }
+
+  // FOV: d = (y·sin θ/θ, t·cos θ) with θ = ω|y| and t = tan(ω/2)/(ω/2).
+  [[nodiscard]] Direction in_field(const HomogeneousPoint<Word>& point) const {
+    const Word x = point.a / point.c, y = point.b / point.c;
+    const Word q = omega_ * omega_ * (x * x + y * y);
+    const Word sine_over_angle = alternating(sine_, q);
+    return {x * sine_over_angle, y * sine_over_angle, stretch_ * alternating(cosine_, q)};
+  }
+
+  [[nodiscard]] std::optional<DirectionWords> by_stage(const HomogeneousPoint<Word>& y,
+                                                       const StageStart& start) const {
+    const auto m = preimage(y, start);
+    if (!m) return std::nullopt;
+    return as_pairs(is_plane(lens_.model) ? Direction{(*m)[0], (*m)[1], exactly(1)} : lifted(*m));
   }
 
   /// S(m) − y
@@ -201,6 +225,8 @@ class Formulas {
   std::optional<StageNumbers<Word>> words_;
   std::optional<AnyRootFormula<Word>> roots_;
   Word division_, two_pi_;
+  /// |ω| of FOV, and tan(ω/2)/(ω/2).
+  Word omega_, stretch_;
   /// 1/(2k)! and 1/(2k + 1)!
   std::vector<Word> cosine_, sine_;
 };
