@@ -51,9 +51,15 @@ Lens lens_of(LensModel model) {
   }
 }
 
+constexpr std::uint32_t width = 32, height = 28;
+
 Camera camera_with(const Lens& lens) {
-  Camera camera = testing::camera_of(42, 38, 24);
-  camera.projection.cx = 20.25;
+  Camera camera = testing::camera_of(width, height, 18);
+  camera.projection.cx = 15.25;
+  if (is_panorama(lens.model)) {
+    camera.projection.fx = 110;
+    camera.projection.fy = lens.model == LensModel::cylindrical ? 18 : 55;
+  }
   camera.projection.lens = lens;
   camera.world_to_camera[2][3] = 3;
   return camera;
@@ -74,7 +80,7 @@ RenderOptions options_of(const DepthEncoding& encoding, LensModel model) {
 void expect_fast(const Scene& scene, const Camera& camera, const DepthEncoding& encoding) {
   const RenderStatistics statistics =
       expect_same(scene, camera, options_of(encoding, camera.projection.lens->model));
-  EXPECT_GT(statistics.pixels_with_surface, 80U);
+  EXPECT_GT(statistics.pixels_with_surface, 50U);
   EXPECT_LE(statistics.rounding.exact * 50, statistics.pixels_with_surface);
 }
 
@@ -96,7 +102,7 @@ TEST_P(EncodingsOf, AreTheReferenceEnginesAllAround) {
   const Scene scene = testing::two_spheres(12);
   Camera camera = camera_with(lens_of(GetParam()));
   camera.world_to_camera[2][3] = 0.125;
-  for (const DepthEncoding& encoding : encodings) expect_fast(scene, camera, encoding);
+  for (const std::size_t i : {0U, 1U}) expect_fast(scene, camera, encodings[i]);
 }
 
 std::string name_of_model(const ::testing::TestParamInfo<LensModel>& info) {
@@ -107,8 +113,8 @@ INSTANTIATE_TEST_SUITE_P(FastLenses, EncodingsOf, ::testing::ValuesIn(testing::b
                          name_of_model);
 
 TEST(FastLensEncodings, ATableOfDirections) {
-  const Camera camera =
-      testing::with_table(camera_with({}), testing::DirectionMaker(7).numbers(42U * 38));
+  const Camera camera = testing::with_table(
+      camera_with({}), testing::DirectionMaker(7).numbers(std::size_t{width} * height));
   const Scene scene = testing::two_spheres(12);
   Camera inside = camera;
   inside.world_to_camera[2][3] = 0.125;
@@ -135,7 +141,7 @@ DepthMap of_wall(const Wall& wall, LensModel model, const DepthEncoding& encodin
   return fast;
 }
 
-constexpr std::size_t middle = 19 * 42 + 20;
+constexpr std::size_t middle = 14 * width + 15;
 
 // 2.0625 is 2062.5 codes: the tie goes to the even one; its neighbours do not.
 TEST(FastLensEncodings, CodesAtATie) {
