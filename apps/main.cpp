@@ -19,8 +19,7 @@ std::vector<Companion> companions() {
       {"areas", "fathom-surfaces",
        "Measure the areas that a sun, a lamp or a camera sees, exactly, without pixels"},
       {"sun", "fathom-surfaces", "Print directions towards the sun, for areas"},
-      {"draw", "fathom-surfaces",
-       "Draw the visible edges as SVG or PDF, with exact hidden lines"},
+      {"draw", "fathom-surfaces", "Draw the visible edges as SVG or PDF, with exact hidden lines"},
       {"evaluate", "fathom-surfaces",
        "Measure a reconstructed mesh or point cloud against the true one: Depth L1, accuracy, "
        "completeness"},

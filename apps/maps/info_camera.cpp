@@ -13,8 +13,8 @@
 #include "fathom/camera/camera_files.h"
 #include "fathom/lens/preimages.h"
 #include "fathom/lens/without_ray.h"
-#include "fathom/text/percentage.h"
 #include "fathom/text/parse_json.h"
+#include "fathom/text/percentage.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::app {

@@ -11,7 +11,7 @@
 namespace fathom {
 namespace {
 
-std::string to_text(const DepthAgreement& d) {
+std::string depth_text(const DepthAgreement& d) {
   const DepthMetrics& m = d.metrics;
   std::string text =
       fmt::format("Depth L1 {:.6g} over the {} in {} that show both surfaces\n", m.mae,
@@ -61,7 +61,7 @@ std::string outliers_text(const SurfaceComparison& surfaces, double max_distance
       max_distance, surfaces.accuracy.outliers, surfaces.completeness.outliers);
 }
 
-std::string to_text(const char* name, const SurfaceDistances& d) {
+std::string distances_text(const char* name, const SurfaceDistances& d) {
   std::string line = fmt::format("{:<13} {:>9} {:>9}", name, d.points, d.seen);
   for (const double figure : {d.mean, d.rms, d.median, d.p90, d.p99, d.max})
     line += !d.has_figures() ? fmt::format(" {:>11}", "-") : fmt::format(" {:>11.6g}", figure);
@@ -73,12 +73,12 @@ std::string to_text(const char* name, const SurfaceDistances& d) {
 std::string to_text(const Evaluation& evaluation, const SurfaceComparisonOptions& options) {
   const StandardArithmetic standard;
   const SurfaceComparison& surfaces = evaluation.surfaces;
-  std::string text = evaluation.depth ? to_text(*evaluation.depth) : "";
+  std::string text = evaluation.depth ? depth_text(*evaluation.depth) : "";
   text += note_on("reconstruction", surfaces.accuracy, options.density);
   text += note_on("truth", surfaces.completeness, options.truth_density);
   text += heading(options.within);
-  text += to_text("accuracy", surfaces.accuracy);
-  text += to_text("completeness", surfaces.completeness);
+  text += distances_text("accuracy", surfaces.accuracy);
+  text += distances_text("completeness", surfaces.completeness);
   if (const auto& mean = surfaces.overall)
     text += fmt::format("{:<33} {:>11.6g}\n", "overall", *mean);
   if (!options.within.empty())
