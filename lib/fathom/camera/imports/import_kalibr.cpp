@@ -18,10 +18,10 @@ namespace {
 
 using Names = std::span<const std::string_view>;
 
-constexpr std::array<std::string_view, 1> of_omni{"xi"}, of_fov{"omega"};
-constexpr std::array<std::string_view, 2> of_eucm{"alpha", "beta"}, of_ds{"xi", "alpha"};
-constexpr std::array<std::string_view, 4> of_radtan{"k1", "k2", "p1", "p2"},
-    of_equidistant{"k1", "k2", "k3", "k4"};
+constexpr std::array<std::string_view, 1> kalibr_omni{"xi"}, kalibr_fov{"omega"};
+constexpr std::array<std::string_view, 2> kalibr_eucm{"alpha", "beta"}, kalibr_ds{"xi", "alpha"};
+constexpr std::array<std::string_view, 4> kalibr_radtan{"k1", "k2", "p1", "p2"},
+    kalibr_equidistant{"k1", "k2", "k3", "k4"};
 
 /// A camera_model of Kalibr.
 struct ProjectionOfKalibr {
@@ -42,19 +42,19 @@ struct DistortionOfKalibr {
   Names parameters;
 };
 
-constexpr std::array<std::string_view, 4> every_distortion{"none", "radtan", "equidistant", "fov"};
+constexpr std::array<std::string_view, 4> kalibr_all{"none", "radtan", "equidistant", "fov"};
 
 constexpr std::array<ProjectionOfKalibr, 4> kalibr_projections{
-    {{"pinhole", {}, {}, every_distortion},
-     {"omni", "OMNI", of_omni, Names(every_distortion).first(2)},
-     {"eucm", "EUCM", of_eucm, Names(every_distortion).first(1)},
-     {"ds", "DOUBLE_SPHERE", of_ds, Names(every_distortion).first(1)}}};
+    {{"pinhole", {}, {}, kalibr_all},
+     {"omni", "OMNI", kalibr_omni, Names(kalibr_all).first(2)},
+     {"eucm", "EUCM", kalibr_eucm, Names(kalibr_all).first(1)},
+     {"ds", "DOUBLE_SPHERE", kalibr_ds, Names(kalibr_all).first(1)}}};
 
 constexpr std::array<DistortionOfKalibr, 4> kalibr_distortions{
     {{"none", "PINHOLE", {}},
-     {"radtan", "OPENCV", of_radtan},
-     {"equidistant", "OPENCV_FISHEYE", of_equidistant},
-     {"fov", "FOV", of_fov}}};
+     {"radtan", "OPENCV", kalibr_radtan},
+     {"equidistant", "OPENCV_FISHEYE", kalibr_equidistant},
+     {"fov", "FOV", kalibr_fov}}};
 
 template <class Model>
 std::string names_of_models(std::span<const Model> models) {
