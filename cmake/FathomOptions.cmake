@@ -74,8 +74,8 @@ function(fathom_target_options target)
                                            # designated initializers leave out what has a default
                                            -Wno-missing-field-initializers)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    # False alarms on string concatenation: https://gcc.gnu.org/PR105651.
-    target_compile_options(${target} PRIVATE -Wno-restrict)
+    # False alarms on string concatenation, and on headers that are precompiled: https://gcc.gnu.org/PR105651.
+    target_compile_options(${target} PRIVATE -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow)
   endif()
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # -fpch-preprocess: or else ccache passes over what uses precompiled headers.
