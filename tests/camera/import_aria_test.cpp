@@ -61,7 +61,7 @@ TEST(ImportAria, KannalaBrandt) {
     const double r = std::hypot(d[0], d[1]), theta = std::atan2(r, d[2]), t = theta * theta;
     const double s =
         theta * (1 + 0.01 * t - 0.02 * t * t + 0.03 * t * t * t - 0.004 * t * t * t * t) / r;
-    return ImagePoint{5 * d[0] * s + 3.25, 6 * d[1] * s + 2.5};
+    return PixelPoint{5 * d[0] * s + 3.25, 6 * d[1] * s + 2.5};
   });
 }
 
@@ -87,7 +87,7 @@ TEST(ImportAria, Fisheye624) {
     const double p0 = 0.003, p1 = -0.004;
     const double u = x + (2 * x * x + q) * p0 + 2 * x * y * p1 + 0.005 * q - 0.002 * q * q;
     const double v = y + (2 * y * y + q) * p1 + 2 * x * y * p0 + 0.001 * q + 0.006 * q * q;
-    return ImagePoint{5 * u + 3.25, 5 * v + 2.5};
+    return PixelPoint{5 * u + 3.25, 5 * v + 2.5};
   });
 }
 

@@ -49,18 +49,18 @@ double length(const Direction& d) {
   return std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
 }
 
-ImagePoint radtan(const ImagePoint& m, const std::array<double, 4>& k) {
+PixelPoint radtan(const PixelPoint& m, const std::array<double, 4>& k) {
   const double q = m[0] * m[0] + m[1] * m[1], radial = k[0] * q + k[1] * q * q;
   return {m[0] + m[0] * radial + 2 * k[2] * m[0] * m[1] + k[3] * (q + 2 * m[0] * m[0]),
           m[1] + m[1] * radial + 2 * k[3] * m[0] * m[1] + k[2] * (q + 2 * m[1] * m[1])};
 }
 
 /// With fu fv pu pv = 5, 6, 3.25, 2.5.
-ImagePoint in_image(const ImagePoint& m) {
+PixelPoint in_image(const PixelPoint& m) {
   return {5 * m[0] + 3.25, 6 * m[1] + 2.5};
 }
 
-ImagePoint on_plane(const Direction& d) {
+PixelPoint on_plane(const Direction& d) {
   return {d[0] / d[2], d[1] / d[2]};
 }
 
@@ -85,7 +85,7 @@ TEST(ImportKalibr, PinholesHaveThreeDistortions) {
               });
   expect_rays(valid(first_of(cam("pinhole", K, "equidistant", "0.01, -0.02, 0.03, -0.004"))), 0,
               [](const Direction& d) {
-                const ImagePoint m = on_plane(d);
+                const PixelPoint m = on_plane(d);
                 const double r = std::hypot(m[0], m[1]), theta = std::atan(r), t = theta * theta;
                 const double scale =
                     theta *
@@ -95,7 +95,7 @@ TEST(ImportKalibr, PinholesHaveThreeDistortions) {
   const ImportedCamera fov = first_of(cam("pinhole", K, "fov", "0.9"));
   if (lens_model_named("FOV")) {
     expect_rays(valid(fov), 0, [](const Direction& d) {
-      const ImagePoint m = on_plane(d);
+      const PixelPoint m = on_plane(d);
       const double r = std::hypot(m[0], m[1]),
                    scale = std::atan(2 * std::tan(0.45) * r) / (0.9 * r);
       return in_image({m[0] * scale, m[1] * scale});
@@ -108,7 +108,7 @@ TEST(ImportKalibr, PinholesHaveThreeDistortions) {
 TEST(ImportKalibr, OmniBeginsWithXi) {
   const auto on_mirror = [](const Direction& d) {
     const double w = d[2] + 1.5 * length(d);
-    return ImagePoint{d[0] / w, d[1] / w};
+    return PixelPoint{d[0] / w, d[1] / w};
   };
   const std::string numbers = "1.5, 5, 6, 3.25, 2.5";
   const Camera camera = valid(first_of(cam("omni", numbers, "none", "")));

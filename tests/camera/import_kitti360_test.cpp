@@ -35,12 +35,12 @@ ImportedCamera import(const std::string& json) {
   return parse_kitti360({json, "image_02.yaml"}, {}, std::nullopt, std::nullopt).at(0);
 }
 
-ImagePoint on_mirror(const Direction& d) {
+PixelPoint on_mirror(const Direction& d) {
   const double w = d[2] + 2.2134 * std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
   return {d[0] / w, d[1] / w};
 }
 
-ImagePoint in_image(double x, double y) {
+PixelPoint in_image(double x, double y) {
   return {13.36 * x + 3.25, 13.35 * y + 2.5};
 }
 

@@ -50,7 +50,7 @@ TEST(ImportWideNerf, EquirectangularShowsATurn) {
     const double x = d[0], up = -d[1], back = -d[2];
     const double theta = std::atan2(-x, -back);
     const double phi = std::atan2(std::hypot(x, back), up);
-    return ImagePoint{8 - 8 * theta / pi, 4 - 8 * (0.5 - phi / pi)};
+    return PixelPoint{8 - 8 * theta / pi, 4 - 8 * (0.5 - phi / pi)};
   });
 }
 
@@ -82,7 +82,7 @@ TEST(ImportWideNerf, ScanNetppHasTwoListsOfFrames) {
     const double r = std::hypot(d[0], d[1]), theta = std::atan2(r, d[2]), t = theta * theta;
     const double s =
         theta * (1 + 0.01 * t - 0.02 * t * t + 0.03 * t * t * t - 0.004 * t * t * t * t) / r;
-    return ImagePoint{5 * d[0] * s + 4, 6 * d[1] * s + 3};
+    return PixelPoint{5 * d[0] * s + 4, 6 * d[1] * s + 3};
   });
 }
 

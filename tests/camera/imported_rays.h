@@ -15,7 +15,7 @@
 namespace fathom::test {
 
 using Direction = std::array<double, 3>;
-using ImagePoint = std::array<double, 2>;
+using PixelPoint = std::array<double, 2>;
 
 /// Expects that `project` takes the ray of every pixel to the pixel's centre, where the centre of
 /// the first pixel is (first, first). Directions are rounded to binary64, and focal lengths and
@@ -29,7 +29,7 @@ void expect_rays(const Camera& camera, double first, const Project& project) {
       const auto direction = table.at(column, row);
       if (!direction) continue;
       ++rays;
-      const ImagePoint p = project(*direction);
+      const PixelPoint p = project(*direction);
       EXPECT_NEAR(p[0], column + first, 1e-11) << column << ", " << row;
       EXPECT_NEAR(p[1], row + first, 1e-11) << column << ", " << row;
     }

@@ -96,8 +96,8 @@ Camera pinhole_part(const JsonValue& root, const CalibrationKeys& keys, const Gi
 
 /// OpenCV's lens or fisheye with these numbers; no lens where all are 0 and the model is one of the
 /// plane.
-void set_lens(const JsonValue& list, LensModel model, const std::vector<double>& numbers,
-              ImportedCamera& one) {
+void set_opencv_lens(const JsonValue& list, LensModel model, const std::vector<double>& numbers,
+                     ImportedCamera& one) {
   const bool bends = std::ranges::any_of(numbers, [](double number) { return number != 0; });
   if (is_plane(model) && !bends) return;
   if (const auto fault = distortion_count_fault(entry_of(model), numbers.size())) list.fail(*fault);
@@ -122,8 +122,8 @@ void read_opencv_lens(const JsonValue& root, ImportedCamera& one) {
   const auto fisheye = root.find("fisheye_model");
   const bool is_fisheye = fisheye && fisheye->is_number() && fisheye->number() != 0;
   if (const auto list = find_first(root, keys_of_opencv.distortion)) {
-    set_lens(*list, is_fisheye ? LensModel::opencv_fisheye : LensModel::opencv_14,
-             numbers_of_matrix(*list), one);
+    set_opencv_lens(*list, is_fisheye ? LensModel::opencv_fisheye : LensModel::opencv_14,
+                    numbers_of_matrix(*list), one);
   } else {
     one.distortion = root.where() + ": has no numbers of distortion: expected " +
                      listed(keys_of_opencv.distortion);
@@ -169,7 +169,7 @@ void read_ros_lens(const JsonValue& root, ImportedCamera& one) {
     list->fail("found " + text::counted(numbers.size(), "number") + ", " + model.string() +
                " has " + joined(counts, " or "));
   }
-  set_lens(*list, known->model, numbers, one);
+  set_opencv_lens(*list, known->model, numbers, one);
 }
 
 }  // namespace
