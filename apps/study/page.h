@@ -91,7 +91,7 @@ class Page {
 namespace fathom::studies::page_texts {
 
 extern const std::string_view antialiasing, blending, clipping, course, depth_resolution,
-    hidden_surface, indistinguishable, lines, mitigation, scene_fights, scene_hidden_surface,
+    hidden_surface, indistinguishable, lens, lines, mitigation, scene_fights, scene_hidden_surface,
     subpixel, z_fighting;
 
 }  // namespace fathom::studies::page_texts

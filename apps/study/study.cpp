@@ -24,6 +24,8 @@ const std::vector<Study>& all_studies() {
       {"indistinguishable",
        "Which of many depths become equal or swap in a pipeline, after Reed, Upchurch and Desbrun",
        false, study_indistinguishable},
+      {"lens", "OpenCV's and COLMAP's inverses, bent vertices and remapped maps against exact rays",
+       true, study_lens},
       {"lines", "How far lines in floating point drift from the exact ones, and what steps cost",
        false, study_lines},
       {"mitigation", "Z-fighting before and after: near plane, polygon offset, other formats", true,

@@ -99,6 +99,12 @@ std::vector<StudyFile> study_hidden_surface(const StudyOptions& options,
 std::vector<StudyFile> study_indistinguishable(const StudyOptions& options,
                                                const std::function<void(double)>& tick);
 
+/// Lenses as other programs approximate them, against the exact map: OpenCV's and COLMAP's inverses,
+/// bent vertices, looked-up maps of a pinhole; errors in pixels, of depth and of surfaces, by model
+/// and strength, and the mesh that bent vertices need. Default: a corridor, and four lenses.
+std::vector<StudyFile> study_lens(const StudyOptions& options,
+                                  const std::function<void(double)>& tick);
+
 /// The study `lines`.
 std::vector<StudyFile> study_lines(const StudyOptions& options,
                                    const std::function<void(double)>& tick);

@@ -100,6 +100,7 @@ TEST_F(StudyTest, WhatCannotBeMeantIsRefused) {
   refused({"indistinguishable", "--near", "1e-30", "--out", "out"}, "1e-15");
   refused({"mitigation", "--near", "-1", "--out", "out"}, "near = -1");
   refused({"mitigation", "--samples", "5", "--out", "out"}, "no --separation and no --samples");
+  refused({"lens", "--near", "1", "--out", "out"}, "the study lens has no --near");
   refused({"clipping", "--samples", "4000000000", "--out", "out"}, "--samples");
   refused({"depth-resolution", "--scene", "a.obj", "--out", "out"}, "takes no --scene");
   refused({"z-fighting", "--camera", "a.json", "--out", "out"}, "belongs to --scene");

@@ -159,6 +159,10 @@ TEST(PageCommands, DrawThePicturesOfBlending) {
       {"panes-exact.png", "wall-exact.png", "ring-exact.png", "penetration-exact.png"});
 }
 
+TEST(PageCommands, DrawThePicturesOfLenses) {
+  expect_pictures_by_commands("lens", 11, {});
+}
+
 TEST(PageCommands, DrawThePicturesOfMitigation) {
   expect_pictures_by_commands("mitigation", 7, {});
 }

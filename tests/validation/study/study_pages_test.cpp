@@ -66,6 +66,9 @@ TEST(StudyPages, Course) {
 TEST(StudyPages, HiddenSurface) {
   EXPECT_EQ(pictures_of("hidden-surface"), 11U);
 }
+TEST(StudyPages, Lens) {
+  EXPECT_EQ(pictures_of("lens"), 11U);
+}
 TEST(StudyPages, Lines) {
   EXPECT_EQ(pictures_of("lines", {.samples = 2}), 2U);
 }
