@@ -99,7 +99,7 @@ std::vector<StudyFile> study_hidden_surface(const StudyOptions& options,
 std::vector<StudyFile> study_indistinguishable(const StudyOptions& options,
                                                const std::function<void(double)>& tick);
 
-/// Lenses as other programs approximate them, against the exact map: OpenCV's and COLMAP's inverses,
+/// Lenses as other programs compute them, against the exact map: OpenCV's and COLMAP's inverses,
 /// bent vertices, looked-up maps of a pinhole; errors in pixels, of depth and of surfaces, by model
 /// and strength, and the mesh that bent vertices need. Default: a corridor, and four lenses.
 std::vector<StudyFile> study_lens(const StudyOptions& options,

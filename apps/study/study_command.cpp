@@ -151,8 +151,8 @@ void add_study(Command& program) {
                     "Folder for CSV, PNG, SVG, summary.json, index.html");
   command.option_with_values(
       "--scene", "FILE", arguments->scene,
-      "Meshes or scene files to study, for antialiasing, hidden-surface, lens, mitigation, subpixel "
-      "and z-fighting (default: the study's own scene)");
+      "Meshes or scene files to study, for antialiasing, hidden-surface, lens, mitigation, "
+      "subpixel and z-fighting (default: the study's own scene)");
   arguments->limits.add_to(command);
   command.option("--camera", "FILE", arguments->camera,
                  "Camera file (JSON) for --scene (default: a camera that frames the scene)");

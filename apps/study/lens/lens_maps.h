@@ -55,8 +55,8 @@ using Inverse = std::function<std::optional<PlanePoint>(const lens::StageNumbers
 ShownMap map_by_inverse(const LensView& view, const Inverse& inverse);
 
 /// The map of a pinhole, looked up at the places of the exact rays: at the nearest pixel, or as the
-/// mean of four pixels, which has no ray of its own. It is three times as wide and as high as the image, so that it contains
-/// rays that the lens pulls into the image.
+/// mean of four pixels, which has no ray of its own. It is three times as wide and as high as the
+/// image, so that it contains rays that the lens pulls into the image.
 enum class Lookup { nearest, bilinear };
 ShownMap map_by_lookup(const LensView& view, Lookup lookup);
 

@@ -49,7 +49,7 @@ class SceneOfFaces {
   void face(const std::array<MeshPoint, 4>& corners) {
     Mesh& mesh = scene_.meshes.back();
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
+    for (const MeshPoint& p : corners) mesh.vertices.push_back(p);
     mesh.triangles.push_back({first, first + 1, first + 2});
     mesh.triangles.push_back({first, first + 2, first + 3});
     mesh.face_count = mesh.triangles.size();

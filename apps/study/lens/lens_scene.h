@@ -9,7 +9,7 @@
 #include "fathom/camera/lens.h"
 #include "fathom/scene/scene.h"
 
-/// What the study of lenses draws: a scene in the frame of its camera, and lenses of every strength.
+/// What the study of lenses draws: a scene in the frame of its camera, and lenses by strength.
 namespace fathom::studies {
 
 /// A scene in the frame of the camera. Its coordinates, each rounded to binary64, are the truth of

@@ -1,6 +1,6 @@
-// Writes points that COLMAP's cameras undistort: the lines of inverted_by_colmap.txt. The build does
-// not use it: compile it with src/colmap/sensor/models.h of github.com/colmap/colmap, revision
-// 5d968cf3, Eigen, glog and Ceres.
+// Writes points that COLMAP's cameras undistort: the lines of inverted_by_colmap.txt. The build
+// does not use it: compile it with the headers of github.com/colmap/colmap, 5d968cf3, Eigen, glog
+// and Ceres.
 //
 // Each line: k1 k2 p1 p2 of a lens OPENCV, a point of the plane in which it distorts, 1 or 0 for
 // whether COLMAP finds a ray, and x and y of the ray (x, y, 1) or of the last step, as hexadecimal

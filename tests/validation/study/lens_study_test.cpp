@@ -129,7 +129,7 @@ TEST(LensStudy, TheExactMapHasNoErrors) {
 /// A rectangle that faces the camera: its corners lie equally far from the axis, so that bending
 /// them makes it larger or smaller, and an error is that of one radius.
 TEST(LensStudy, TheErrorOfABentRectangleIsKnown) {
-  constexpr double k = -0.2, x = 0.4, y = 0.3, f = 100;
+  constexpr double k = -0.2, x = 0.4, y = 0.31, f = 100;
   SceneView view{"rectangle", {}, {}};
   Mesh mesh;
   mesh.vertices = {{-x, -y, 1}, {x, -y, 1}, {x, y, 1}, {-x, y, 1}};
@@ -162,7 +162,7 @@ TEST(LensStudy, TheErrorOfABentRectangleIsKnown) {
   EXPECT_GT(greatest, 0.5);
   EXPECT_NEAR(map.longest_edge, 2 * f * std::hypot(x, y) * scale, 1e-9);
   EXPECT_EQ(errors.surface_pixels - errors.missing + errors.invented, inside);
-  EXPECT_EQ(errors.greatest_depth, 0);
+  EXPECT_LT(errors.greatest_depth, 1e-15);
 
   // Half the edges, a quarter of the error.
   const auto greatest_of = [&](int parts) {
@@ -172,18 +172,18 @@ TEST(LensStudy, TheErrorOfABentRectangleIsKnown) {
   EXPECT_NEAR(greatest_of(8) / greatest_of(16), 4, 0.4);
 }
 
-/// Pieces are numbered within their triangles, so that surfaces and depths are right: a mesh as fine
-/// as pixels shows the exact map except beside edges.
+/// Pieces are numbered within their triangles, so surfaces and depths are right: a mesh as fine as
+/// pixels shows the exact map except beside edges.
 TEST(LensStudy, AFineMeshIsRight) {
   const LensScene scene = in_camera_frame(small_corridor());
-  const LensView view(scene, lens_called("pincushion", scene.pinhole));
+  const LensView view(scene, lens_called("pincushion", scene.pinhole, 0.5));
   const LensErrors errors = errors_of(map_by_vertices(view, bend_vertices(view, 64)).shown, view);
   EXPECT_LT(errors.greatest.value(), 0.01);
   EXPECT_LT(errors.greatest_depth, 0.001);
   EXPECT_LT(errors.wrong_surface(), 10U);
 }
 
-/// A barrel lens makes distances smaller, so that half a pixel's diagonal remains the greatest error.
+/// A barrel lens makes distances smaller, so half a pixel's diagonal remains the greatest error.
 TEST(LensStudy, TheNearestPixelIsHalfAPixelOff) {
   const LensScene scene = in_camera_frame(small_corridor());
   const LensView view(scene, lens_called("barrel", scene.pinhole, 0.5));
