@@ -102,7 +102,8 @@ template <>
 struct Fields<attribution::RayModel> {
   template <class Visit, class S>
   static void each(Visit&& visit, S& s) {
-    auto& [shift, roundings, rotation_error, depth_from_point] = s;
+    // Renderers that draw in a child have the camera's rays.
+    [[maybe_unused]] auto& [shift, roundings, rotation_error, depth_from_point, rays] = s;
     visit("shift", shift);
     visit("roundings", roundings);
     visit("rotation_error", rotation_error);

@@ -17,6 +17,21 @@ PixelBox whole_image(const Camera& camera) {
   return {0, camera.width - 1, 0, camera.height - 1};
 }
 
+PixelBox PixelSquares::pixels(std::size_t square) const {
+  const auto column = static_cast<std::uint32_t>(square % squares(width_)) * side,
+             row = static_cast<std::uint32_t>(square / squares(width_)) * side;
+  return {column, std::min(column + side, width_) - 1, row, std::min(row + side, height_) - 1};
+}
+
+void PixelSquares::extend(PixelBox& box, const PixelBox& more) {
+  if (box.is_empty()) {
+    box = more;
+    return;
+  }
+  box = {std::min(box.first_column, more.first_column), std::max(box.last_column, more.last_column),
+         std::min(box.first_row, more.first_row), std::max(box.last_row, more.last_row)};
+}
+
 PixelBox pixels_of(const ImageBox& box, const Camera& camera, double more) {
   const double last_x = camera.width - 1.0, last_y = camera.height - 1.0;
   const bool meets = box.least_x - more <= last_x && box.least_y - more <= last_y &&

@@ -48,6 +48,39 @@ struct ImageBox {
 /// All pixels of an image.
 PixelBox whole_image(const Camera& camera);
 
+/// An image in squares of pixels, numbered row by row: what holds for all samples of a square is
+/// computed once.
+class PixelSquares {
+ public:
+  explicit PixelSquares(const Camera& camera) : width_(camera.width), height_(camera.height) {}
+
+  [[nodiscard]] std::size_t count() const {
+    return std::size_t{squares(width_)} * squares(height_);
+  }
+  /// The square of a pixel.
+  [[nodiscard]] std::size_t of(std::uint32_t column, std::uint32_t row) const {
+    return std::size_t{row / side} * squares(width_) + column / side;
+  }
+  [[nodiscard]] PixelBox pixels(std::size_t square) const;
+  /// The smallest box of pixels around the squares for which `is_met(square)`.
+  template <class IsMet>
+  [[nodiscard]] PixelBox around(const IsMet& is_met) const {
+    PixelBox all;
+    for (std::size_t square = 0; square < count(); ++square)
+      if (is_met(square)) extend(all, pixels(square));
+    return all;
+  }
+
+ private:
+  static constexpr std::uint32_t side = 16;
+  static constexpr std::uint32_t squares(std::uint32_t pixels) {
+    return (pixels + side - 1) / side;
+  }
+  static void extend(PixelBox& box, const PixelBox& more);
+
+  std::uint32_t width_, height_;
+};
+
 /// The pixels that a box meets, enlarged by `more` pixels on each side; empty if it misses the
 /// image.
 PixelBox pixels_of(const ImageBox& box, const Camera& camera, double more);

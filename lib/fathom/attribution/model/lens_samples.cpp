@@ -13,13 +13,6 @@
 namespace fathom::attribution {
 namespace {
 
-/// Pixels of a square, in a row.
-constexpr std::uint32_t side = 16;
-
-std::uint32_t squares_of(std::uint32_t pixels) {
-  return (pixels + side - 1) / side;
-}
-
 bool overlap(const ImageBox& a, const ImageBox& b) {
   return a.least_x <= b.greatest_x && b.least_x <= a.greatest_x && a.least_y <= b.greatest_y &&
          b.least_y <= a.greatest_y;
@@ -49,7 +42,8 @@ Camera without_lens(Camera camera) {
 LensSamples::LensSamples(const Camera& camera, double x, double y, Places places)
     : camera_(camera),
       points_(std::size_t{camera.width} * camera.height),
-      boxes_(std::size_t{squares_of(camera.width)} * squares_of(camera.height)) {
+      squares_(camera),
+      boxes_(squares_.count()) {
   require_planar_depths(camera);
   const lens::Preimages preimages(camera.projection, *camera.projection.lens);
   const RoundedProjection projection(without_lens(camera).projection);
@@ -71,36 +65,20 @@ LensSamples::LensSamples(const Camera& camera, double x, double y, Places places
         point[0] > 0 && point[1] > 0 && point[0] < camera.width && point[1] < camera.height;
     return is_in_image ? point : std::array<double, 2>{none, none};
   };
-  const std::uint32_t columns = squares_of(camera.width);
-  parallel_for(std::uint32_t{0}, squares_of(camera.height), [&](std::uint32_t square) {
-    const std::uint32_t end = std::min((square + 1) * side, camera.height);
-    for (std::uint32_t row = square * side; row < end; ++row) {
-      for (std::uint32_t column = 0; column < camera.width; ++column) {
+  parallel_for(std::size_t{0}, squares_.count(), [&](std::size_t square) {
+    const PixelBox pixels = squares_.pixels(square);
+    for (std::uint32_t row = pixels.first_row; row <= pixels.last_row; ++row) {
+      for (std::uint32_t column = pixels.first_column; column <= pixels.last_column; ++column) {
         const auto point = point_of(column, row);
         points_[std::size_t{row} * camera.width + column] = point;
-        if (!std::isnan(point[0]))
-          boxes_[square * columns + column / side].add(point[0], point[1], 0, 0);
+        if (!std::isnan(point[0])) boxes_[square].add(point[0], point[1], 0, 0);
       }
     }
   });
 }
 
 PixelBox LensSamples::pixels_of(const ImageBox& box) const {
-  const std::uint32_t columns = squares_of(camera_.width);
-  PixelBox pixels;
-  for (std::uint32_t square = 0; square < boxes_.size(); ++square) {
-    if (!overlap(boxes_[square], box)) continue;
-    const std::uint32_t column = square % columns * side, row = square / columns * side;
-    const std::uint32_t last_column = std::min(column + side, camera_.width) - 1,
-                        last_row = std::min(row + side, camera_.height) - 1;
-    if (pixels.is_empty()) {
-      pixels = {column, last_column, row, last_row};
-      continue;
-    }
-    pixels = {std::min(pixels.first_column, column), std::max(pixels.last_column, last_column),
-              std::min(pixels.first_row, row), std::max(pixels.last_row, last_row)};
-  }
-  return pixels;
+  return squares_.around([&](std::size_t square) { return overlap(boxes_[square], box); });
 }
 
 }  // namespace fathom::attribution

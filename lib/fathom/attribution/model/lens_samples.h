@@ -41,6 +41,7 @@ class LensSamples {
  private:
   Camera camera_;
   std::vector<std::array<double, 2>> points_;
+  PixelSquares squares_;
   /// Around the samples of each square of pixels.
   std::vector<ImageBox> boxes_;
 };

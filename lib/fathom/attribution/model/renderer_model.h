@@ -74,6 +74,22 @@ struct RasterModel {
   [[nodiscard]] Mapping stored_mapping() const { return written ? written->mapping : mapping; }
 };
 
+/// Rays of a renderer that are not those of a pinhole: one for each pixel, all from the origin of
+/// the world.
+///
+/// Frame    world, scene units; rows from the top.
+struct PixelRays {
+  struct PixelRay {
+    /// Of any length; 0, 0, 0 where the renderer shoots no ray.
+    std::array<double, 3> direction{};
+    /// Bounds on the error of the renderer's own direction, component by component.
+    std::array<double, 3> error{};
+  };
+  std::vector<PixelRay> rays;
+  /// How far a ray may pass by the origin, component by component.
+  double origin_error = 0;
+};
+
 /// A ray is intersected with triangles; the depth of the hit is stored as binary32.
 struct RayModel {
   /// Corners are held in binary32 as position − shift. Frame: world, scene units.
@@ -85,6 +101,10 @@ struct RayModel {
   double rotation_error = 0;
   /// The depth of a hit is computed from its position in the world.
   bool depth_from_point = false;
+  /// The rays, if they are not the camera's. Depths are then distances from the origin, also those
+  /// of the truth and its near and far; `shift`, `rotation_error` and the sample's position are
+  /// ignored.
+  std::shared_ptr<const PixelRays> rays = nullptr;
 };
 
 class LensSamples;

@@ -4,7 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <numbers>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "fathom/attribution/fragment.h"
 #include "fathom/attribution/model/lens_samples.h"
@@ -82,6 +86,8 @@ struct Seen {
   Vector3 e1, e2, normal;
   /// N·d, and the sum of the bounds of the edge tests.
   double facing = 0, facing_error = 0;
+  /// The part of it that roundings of the renderer's own ray are.
+  double facing_rounded = 0;
 };
 
 Seen seen_from(const Ray& ray, const std::array<Vector3, 3>& corners) {
@@ -127,6 +133,7 @@ std::optional<Fragment> covered(Seen& seen, const Ray& ray, const RayModel& mode
   const EdgeTests tests = edge_tests(seen, ray, model);
   const bool turned = seen.facing < 0;
   Fragment f{.coverage = Coverage::must, .turned = turned, .inside = true};
+  seen.facing_rounded = 3 * own_roundings * tests.rounded;
   bool one_way = true, other_way = true;
   for (std::size_t k = 0; k < 3; ++k) {
     const double bound = own_roundings * (tests.error[k] + tests.rounded);
@@ -144,10 +151,19 @@ std::optional<Fragment> covered(Seen& seen, const Ray& ray, const RayModel& mode
   return f;
 }
 
+/// The error of a distance that is computed from the point at rounded weights of the corners. They
+/// are the weights of the renderer's own ray, up to `weight_error`.
+double distance_error(const Seen& seen, double weight_error) {
+  const double longest = std::max({seen.e1.norm(), seen.e2.norm(), (seen.e2 - seen.e1).norm()});
+  const double size =
+      std::max({seen.corners[0].norm(), seen.corners[1].norm(), seen.corners[2].norm()});
+  return 2 * own_roundings * weight_error * longest + 16 * u * size;
+}
+
 /// The distance: N·(corner − origin) / N·d, of a plane whose corners are displaced.
 void set_value(Fragment& f, const Seen& seen, const Ray& ray, const ModelRays& rays,
                const RayModel& model) {
-  const auto& [a, held, e1, e2, normal, facing, facing_error] = seen;
+  const auto& [a, held, e1, e2, normal, facing, facing_error, facing_rounded] = seen;
   const double t = normal.dot(a[0]) / facing;
   const double rest = std::abs(facing) - facing_error;
   const Vector3 displaced = held[0].cwiseMax(held[1]).cwiseMax(held[2]);
@@ -163,9 +179,14 @@ void set_value(Fragment& f, const Seen& seen, const Ray& ray, const ModelRays& r
     half = infinity;
   }
   half += 2 * u * std::abs(t);
-  if (model.depth_from_point) half += rays.depth_error(ray, t);
+  if (model.rays) {
+    half = half * ray.length + (std::abs(t) + half) * ray.direction_error.norm();
+    if (model.depth_from_point) half += distance_error(seen, facing_rounded / rest);
+  } else if (model.depth_from_point) {
+    half += rays.depth_error(ray, t);
+  }
   if (std::isnan(half)) half = infinity;
-  f.exact = std::isfinite(t) ? t : 0;
+  f.exact = std::isfinite(t) ? t * ray.length : 0;
   f.value = {f.exact - half, f.exact + half};
 }
 
@@ -202,6 +223,114 @@ CameraCorner in_camera(const Camera& camera, const Vector3& p) {
   return {terms.rowwise().sum(), terms.cwiseAbs().maxCoeff()};
 }
 
+/// A cone from the origin: all directions within an angle of an axis.
+struct Cone {
+  Vector3 axis{0, 0, 0};
+  /// π or more: all directions. Negative: none.
+  double angle = -1;
+};
+
+constexpr double all_directions = std::numbers::pi;
+/// Far more than corners, origins and computed angles err by.
+constexpr double cone_margin = 1e-5;
+
+/// The angle between two directions, up to 10⁻⁷.
+double angle_between(const Vector3& a, const Vector3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// Contains the directions of a set of rays, and how far their errors turn them.
+Cone cone_around(const std::vector<const PixelRays::PixelRay*>& rays) {
+  Cone cone;
+  for (const auto* ray : rays) cone.axis += as_vector(ray->direction).normalized();
+  if (!rays.empty() && cone.axis.norm() < 0x1p-10)
+    return {.axis = {0, 0, 1}, .angle = all_directions};
+  for (const auto* ray : rays) {
+    const Vector3 direction = as_vector(ray->direction);
+    const double turn = as_vector(ray->error).norm() / direction.norm();
+    // asin(x) <= πx/2
+    const double angle = angle_between(cone.axis, direction) + std::numbers::pi / 2 * turn;
+    cone.angle = std::max(cone.angle, turn < 1 ? angle : all_directions);
+  }
+  return cone;
+}
+
+/// Contains a triangle.
+Cone cone_around(const std::array<Vector3, 3>& corners) {
+  Cone cone{.axis = (corners[0] + corners[1] + corners[2]) / 3};
+  double radius = 0;
+  for (const Vector3& corner : corners) radius = std::max(radius, (corner - cone.axis).norm());
+  const double sine = radius / cone.axis.norm();
+  cone.angle = sine < 0.99 ? std::asin(sine) : all_directions;
+  return cone;
+}
+
+/// Rays that a model gives pixel by pixel.
+class GivenRays {
+ public:
+  GivenRays(const Camera& camera, std::shared_ptr<const PixelRays> rays)
+      : width_(camera.width), squares_(camera), rays_(std::move(rays)) {
+    if (!rays_) return;
+    for (std::size_t square = 0; square < squares_.count(); ++square)
+      cones_.push_back(cone_of(squares_.pixels(square)));
+  }
+
+  /// nullopt where no ray is shot.
+  [[nodiscard]] std::optional<Ray> at(std::uint32_t column, std::uint32_t row) const {
+    const PixelRays::PixelRay& given = given_at(column, row);
+    Ray ray{.origin = Vector3::Zero(),
+            .direction = as_vector(given.direction),
+            .origin_error = Vector3::Constant(rays_->origin_error),
+            .direction_error = as_vector(given.error)};
+    ray.length = ray.direction.norm();
+    if (ray.length == 0) return std::nullopt;
+    return ray;
+  }
+
+  /// Whether the ray of a pixel may meet a triangle in the cone.
+  /// Exact    |cos(a + b) − cos a| ≤ b.
+  [[nodiscard]] bool may_meet(std::uint32_t column, std::uint32_t row, const Cone& cone) const {
+    if (cone.angle >= all_directions) return true;
+    const PixelRays::PixelRay& ray = given_at(column, row);
+    const Vector3 direction = as_vector(ray.direction);
+    const double turned = std::numbers::pi / 2 * as_vector(ray.error).norm();
+    const double room = turned + cone_margin * direction.norm();
+    return direction.dot(cone.axis) >=
+           (std::cos(cone.angle) * direction.norm() - room) * cone.axis.norm();
+  }
+
+  /// The pixels whose rays may meet a triangle.
+  [[nodiscard]] PixelBox pixels_of(const std::array<Vector3, 3>& corners) const {
+    const Cone cone = cone_around(corners);
+    return squares_.around([&](std::size_t square) {
+      const Cone& rays = cones_[square];
+      if (rays.angle < 0) return false;
+      const double reach = rays.angle + cone.angle + cone_margin;
+      return reach >= all_directions || angle_between(rays.axis, cone.axis) <= reach;
+    });
+  }
+
+ private:
+  [[nodiscard]] const PixelRays::PixelRay& given_at(std::uint32_t column, std::uint32_t row) const {
+    return rays_->rays[std::size_t{row} * width_ + column];
+  }
+  [[nodiscard]] Cone cone_of(const PixelBox& pixels) const {
+    std::vector<const PixelRays::PixelRay*> rays;
+    for (std::uint32_t row = pixels.first_row; row <= pixels.last_row; ++row) {
+      for (std::uint32_t column = pixels.first_column; column <= pixels.last_column; ++column) {
+        const auto& ray = given_at(column, row);
+        if (ray.direction != std::array<double, 3>{}) rays.push_back(&ray);
+      }
+    }
+    return cone_around(rays);
+  }
+
+  std::uint32_t width_;
+  PixelSquares squares_;
+  std::shared_ptr<const PixelRays> rays_;
+  std::vector<Cone> cones_;
+};
+
 class RayFragments final : public FragmentSource {
  public:
   RayFragments(const WorldMesh& mesh, const Camera& camera, const SamplePosition& sample,
@@ -210,7 +339,8 @@ class RayFragments final : public FragmentSource {
         sample_(sample),
         grid_(camera, sample),
         model_(model),
-        rays_(camera, model, sample.error) {}
+        rays_(camera, model, sample.error),
+        given_(camera, model.rays) {}
 
   [[nodiscard]] PixelBox box(std::uint32_t triangle) const override;
   void each(std::uint32_t triangle, const PixelBox& box, const TakeFragment& take) const override;
@@ -223,14 +353,24 @@ class RayFragments final : public FragmentSource {
             as_vector(mesh_.points[t[2]]) - shift};
   }
 
+  /// nullopt where no ray is shot.
+  [[nodiscard]] std::optional<Ray> ray_of(std::uint32_t column, std::uint32_t row) const {
+    if (model_.rays) return given_.at(column, row);
+    const auto [x, y] = grid_.at(column, row);
+    if (std::isnan(x)) return std::nullopt;
+    return rays_.through(x, y);
+  }
+
   const WorldMesh& mesh_;
   SamplePosition sample_;
   SampleGrid grid_;
   RayModel model_;
   ModelRays rays_;
+  GivenRays given_;
 };
 
 PixelBox RayFragments::box(std::uint32_t triangle) const {
+  if (model_.rays) return given_.pixels_of(corners(triangle));
   const Camera& c = rays_.camera();
   const auto [cx, cy] = principal_point(c.projection);
   ImageBox box;
@@ -261,12 +401,13 @@ void RayFragments::each(std::uint32_t triangle, const PixelBox& box,
                         const TakeFragment& take) const {
   if (box.is_empty()) return;
   const std::array<Vector3, 3> points = corners(triangle);
+  const Cone cone = model_.rays ? cone_around(points) : Cone{.angle = all_directions};
   for (std::uint32_t row = box.first_row; row <= box.last_row; ++row) {
     for (std::uint32_t column = box.first_column; column <= box.last_column; ++column) {
-      const auto [x, y] = grid_.at(column, row);
-      if (std::isnan(x)) continue;  // no ray
-      const Ray ray = rays_.through(x, y);
-      std::optional<Fragment> f = ray_on_triangle(points, ray, rays_, model_);
+      if (model_.rays && !given_.may_meet(column, row, cone)) continue;
+      const std::optional<Ray> ray = ray_of(column, row);
+      if (!ray) continue;
+      std::optional<Fragment> f = ray_on_triangle(points, *ray, rays_, model_);
       if (!f) continue;
       f->triangle = triangle;
       take(column, row, *f);

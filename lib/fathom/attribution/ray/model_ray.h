@@ -31,10 +31,12 @@ inline double permanent(const Vector3& a, const Vector3& b, const Vector3& c) {
          p[2] * (q[0] * r[1] + q[1] * r[0]);
 }
 
-/// A ray origin + t·direction, where t is the depth, with bounds on the deviation of the renderer's
-/// own ray, component by component.
+/// A ray origin + t·direction with bounds on the deviation of the renderer's own ray, component by
+/// component.
 struct Ray {
   Vector3 origin, direction, origin_error, direction_error;
+  /// The depth is t times this; it is 1 for the rays of a camera.
+  double length = 1;
 };
 
 /// The rays of a camera as a renderer of the model has them.
