@@ -18,6 +18,7 @@
 #include "fathom/image/map_formats.h"
 #include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
+#include "validation/lenses/lens_judge.h"
 #include "validation/rays/ray_engines.h"
 #include "validation/scenes/validation_scenes.h"
 #include "validation/variants/peer.h"
@@ -47,6 +48,15 @@ void expect_scene(const std::string& name) {
 
 void expect_ray_engine(const std::string& name) {
   validation::ray_engine_named(name);
+}
+
+void expect_lens_engine(const std::string& name) {
+  std::vector<std::string> names = validation::ray_engine_names();
+  names.emplace_back(validation::cycles_engine);
+  if (std::ranges::find(names, name) != names.end()) return;
+  throw UnknownName(
+      fmt::format("there is no engine '{}'; there are {}", name, fmt::join(names, ", ")), name,
+      names);
 }
 
 std::string parse_model(const std::string& text) {
@@ -81,12 +91,16 @@ void ValidateArguments::add_to(Command& command) {
   command.option("--rays", "NAME", names_into(rays, expect_ray_engine),
                  "Trace rays through the scenes with these engines and check every hit: embree, "
                  "embree-robust, cgal");
+  command.option("--lenses", "NAME", names_into(lenses, expect_lens_engine),
+                 "Trace the scenes through lenses and panoramas with these engines and check every "
+                 "pixel: embree, embree-robust, cgal, cycles (panoramas of Blender)");
   command.option("--count", "N", into(ray_count, parse_positive),
                  "With --rays: rays of each kind in each scene (default 16384)");
   command.option("--scene", "NAME", names_into(scene_names, expect_scene),
                  "Use these built-in scenes instead of SCENE (default: all, see below)");
   command.option("--variants", "NAME", variants,
-                 "Check only these variants of the renderers, e.g. unorm24, robust (default: all)");
+                 "Check only these variants of the renderers, e.g. unorm24, robust (default: all); "
+                 "with --lenses, these lenses, e.g. UCM,EQUIRECTANGULAR");
   limits.add_to(command);
   command.option("--size", "WxH", into(size, parse_size),
                  "Image size without --camera (default 320x240)");
@@ -109,7 +123,8 @@ void ValidateArguments::add_to(Command& command) {
       "maps like maps from a file, in binary32; matching: each by the model of its variant");
   add_output_option(command, "PATH", output,
                     "Write report.json and report.html to this folder; with --colour, colours.json "
-                    "and pictures; with --rays, rays.json; with --render, the map to this file");
+                    "and pictures; with --rays, rays.json; with --lenses, lenses.json; with "
+                    "--render, the map to this file");
   command.option("--baseline", "REPORT", baseline,
                  "Compare with an earlier report.json; exit status 1 if a result became worse; "
                  "with --output also writes comparison.html");

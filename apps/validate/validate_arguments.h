@@ -25,7 +25,7 @@ inline constexpr const char* matching = "matching";
 struct ValidateArguments {
   std::vector<std::string> scenes;
   std::string map, camera, model, channel, baseline, junit;
-  std::string against, scene_names, variants, render, rays, output;
+  std::string against, scene_names, variants, render, rays, lenses, output;
   bool colour = false, faults = false, for_ctest = false;
   /// Codes per scene unit of a map of integers that does not contain its scale.
   std::optional<double> png_scale;
@@ -94,5 +94,10 @@ int validate_faults(const ValidateArguments& arguments, const Console& console);
 /// line for each engine and kind of rays, writes rays.json, and returns the exit status:
 /// answer_is_no if an answer is wrong.
 int validate_rays(const ValidateArguments& arguments, const Console& console);
+
+/// `validate --lenses`: has engines trace the rays of cameras with lenses and compares every pixel
+/// with the truth. Prints a line for each engine, scene and lens, writes lenses.json, and returns
+/// the exit status: answer_is_no if a pixel is unexplained.
+int validate_lenses(const ValidateArguments& arguments, const Console& console);
 
 }  // namespace fathom::app

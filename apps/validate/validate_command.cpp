@@ -16,14 +16,14 @@ namespace fathom::app {
 namespace {
 
 int run_validate(const ValidateArguments& arguments, const Console& console) {
-  const int modes = static_cast<int>(!arguments.map.empty()) +
-                    static_cast<int>(!arguments.against.empty()) +
-                    static_cast<int>(!arguments.render.empty()) +
-                    static_cast<int>(arguments.colour) + static_cast<int>(!arguments.rays.empty());
+  const int modes =
+      static_cast<int>(!arguments.map.empty()) + static_cast<int>(!arguments.against.empty()) +
+      static_cast<int>(!arguments.render.empty()) + static_cast<int>(arguments.colour) +
+      static_cast<int>(!arguments.rays.empty()) + static_cast<int>(!arguments.lenses.empty());
   if (modes != 1) {
     throw UsageError(
-        "one of --against RENDERERS, --map MAP, --colour, --rays ENGINES and --render RENDERER is "
-        "expected");
+        "one of --against RENDERERS, --map MAP, --colour, --rays ENGINES, --lenses ENGINES and "
+        "--render RENDERER is expected");
   }
   if (arguments.faults && arguments.against.empty()) {
     throw UsageError("--faults goes with --against RENDERERS");
@@ -37,6 +37,7 @@ int run_validate(const ValidateArguments& arguments, const Console& console) {
   }
   if (arguments.png_scale && arguments.map.empty()) throw UsageError("--png-scale goes with --map");
   if (arguments.ray_count && arguments.rays.empty()) throw UsageError("--count goes with --rays");
+  if (!arguments.lenses.empty()) return validate_lenses(arguments, console);
   if (!arguments.rays.empty()) return validate_rays(arguments, console);
   if (arguments.faults) return validate_faults(arguments, console);
   if (!arguments.against.empty()) return validate_against(arguments, console);
@@ -58,6 +59,7 @@ void add_validate(Command& program) {
       "  fathom validate --faults --against vtk --scene spot -o faults\n"
       "  fathom validate --colour --scene spot\n"
       "  fathom validate --rays embree,embree-robust,cgal -o rays\n"
+      "  fathom validate --lenses embree,embree-robust -o lenses\n"
       "  fathom validate --render vtk spot.obj --camera camera.json -o vtk.exr\n"
       "\nScenes: " +
           fmt::format("{}", fmt::join(validation::scene_names(), ", ")) +

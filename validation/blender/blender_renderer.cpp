@@ -15,6 +15,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/geometry/eigen_arrays.h"
 #include "fathom/image/map_files.h"
+#include "validation/blender/blender_panorama.h"
 #include "validation/blender/blender_script.h"
 #include "validation/child/child_process.h"
 
@@ -115,11 +117,11 @@ struct BlenderCamera {
   /// In widths of the image.
   double shift_x = 0, shift_y = 0;
   double aspect_x = 1, aspect_y = 1;
+  /// Instead of the above.
+  std::optional<BlenderPanorama> panorama;
   /// Camera to world, row by row; the camera's axes are Blender's: x right, y up, −z forward.
   std::array<double, 16> world_from_camera{};
 };
-
-constexpr double sensor_width = 36;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw InputError("blender: cannot express " + what);
@@ -130,14 +132,31 @@ void require_rotation(const Eigen::Matrix3d& R) {
   if (off.cwiseAbs().maxCoeff() > 1e-6) refuse("a camera whose R is no rotation");
 }
 
+/// Camera to world; Blender's camera has y up and z backward.
+std::array<double, 16> world_from_blender(const Camera& camera) {
+  std::array<double, 16> rows{};
+  Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> world_from_camera(rows.data());
+  const auto camera_from_world = geometry::as_matrix(camera.world_to_camera);
+  const Eigen::Matrix3d R = camera_from_world.leftCols<3>();
+  world_from_camera.setIdentity();
+  world_from_camera.topLeftCorner<3, 3>() = R.transpose() * Eigen::Vector3d(1, -1, -1).asDiagonal();
+  world_from_camera.col(3).head<3>() = -R.transpose() * camera_from_world.col(3);
+  return rows;
+}
+
 /// Fails    InputError if Blender cannot express the camera: skew, an R that is not a rotation (up
 ///          to 10⁻⁶), mirrored axes, pixels more than twice as wide as high or the reverse.
 BlenderCamera blender_camera(const Camera& camera) {
+  if (bends_rays(camera.projection)) {
+    BlenderCamera made{.panorama = panorama_of(camera)};
+    if (!made.panorama) refuse("this camera with a lens");
+    made.world_from_camera = world_from_blender(camera);
+    return made;
+  }
   if (camera.projection.skew != 0) refuse("a camera with skew");
   if (camera.projection.fx <= 0 || camera.projection.fy <= 0) refuse("a mirrored camera");
   const auto camera_from_world = geometry::as_matrix(camera.world_to_camera);
-  const Eigen::Matrix3d R = camera_from_world.leftCols<3>();
-  require_rotation(R);
+  require_rotation(camera_from_world.leftCols<3>());
   const double pixel = camera.projection.fx / camera.projection.fy;  // aspect_y / aspect_x
   if (pixel > 2 || pixel < 0.5) refuse("pixels more than twice as wide as high, or the reverse");
   const double width = camera.width, height = camera.height;
@@ -147,17 +166,11 @@ BlenderCamera blender_camera(const Camera& camera) {
   made.perspective = is_perspective(camera.projection);
   made.aspect_x = std::max(1.0, 1 / pixel);
   made.aspect_y = std::max(1.0, pixel);
-  made.lens = camera.projection.fx * sensor_width / width;
+  made.lens = camera.projection.fx * blender_sensor_width / width;
   made.ortho_scale = width / camera.projection.fx;
   made.shift_x = (width / 2 - cx) / width;
   made.shift_y = (cy - height / 2) * pixel / width;
-
-  Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> world_from_camera(
-      made.world_from_camera.data());
-  world_from_camera.setIdentity();
-  // Blender's camera has y up and z backward.
-  world_from_camera.topLeftCorner<3, 3>() = R.transpose() * Eigen::Vector3d(1, -1, -1).asDiagonal();
-  world_from_camera.col(3).head<3>() = -R.transpose() * camera_from_world.col(3);
+  made.world_from_camera = world_from_blender(camera);
   return made;
 }
 
@@ -177,8 +190,10 @@ Camera moved(Camera camera, const std::array<double, 3>& shift) {
   return camera;
 }
 
-std::array<double, 3> middle_of(const WorldMesh& mesh) {
+/// Blender draws panoramas at the origin.
+std::array<double, 3> middle_of(const WorldMesh& mesh, const Camera& camera) {
   std::array<double, 3> middle{};
+  if (bends_rays(camera.projection)) return middle;
   const auto box = box_of(mesh);
   if (!box) return middle;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -197,13 +212,17 @@ std::string scene_json(const Camera& camera, const BlenderCamera& b) {
     rows += fmt::format("{}[{:.17g}, {:.17g}, {:.17g}, {:.17g}]", r == 0 ? "" : ", ", m[4 * r],
                         m[4 * r + 1], m[4 * r + 2], m[4 * r + 3]);
   }
+  const BlenderPanorama panorama = b.panorama.value_or(BlenderPanorama());
+  const std::string type = b.panorama ? name_of(panorama.type) : "";
   return fmt::format(
-      R"({{"camera": {{"perspective": {}, "lens": {:.17g}, "ortho_scale": {:.17g},
+      R"({{"camera": {{"panorama": "{}", "fisheye_fov": {:.17g}, "fisheye_lens": {:.17g},
+ "perspective": {}, "lens": {:.17g}, "ortho_scale": {:.17g},
  "shift_x": {:.17g}, "shift_y": {:.17g}, "aspect_x": {:.17g}, "aspect_y": {:.17g},
  "near": {:.17g}, "far": {:.17g}, "width": {}, "height": {},
  "world_from_camera": [{}]}}}})",
-      b.perspective ? "true" : "false", b.lens, b.ortho_scale, b.shift_x, b.shift_y, b.aspect_x,
-      b.aspect_y, camera.near, camera.far, camera.width, camera.height, rows);
+      type, panorama.fov, panorama.lens, b.perspective ? "true" : "false", b.lens, b.ortho_scale,
+      b.shift_x, b.shift_y, b.aspect_x, b.aspect_y, camera.near, camera.far, camera.width,
+      camera.height, rows);
 }
 
 void hand_over(const Workplace& place, const WorldMesh& mesh, const std::array<double, 3>& shift,
@@ -242,10 +261,9 @@ DrawnMap draw_blender(const WorldMesh& mesh, const Camera& camera) {
   const Workplace place;
   drawn.model = model_named("cycles");
   drawn.model.name = "Cycles";
-  // ½/1024 of the filter's width, and as much for its table's roundings
-  drawn.model.sample.error = 1e-5;
+  drawn.model.sample.error = blender_sample_error;
   auto& model = std::get<RayModel>(drawn.model.kind);
-  model.shift = middle_of(mesh);
+  model.shift = middle_of(mesh, camera);
   hand_over(place, mesh, model.shift, camera);
   // Whoever ends this process ends Blender with it.
   const Said answer = run_command({"setpriv", "--pdeathsig", "KILL", "blender", "-b",

@@ -35,10 +35,15 @@ scene.collection.objects.link(bpy.data.objects.new("mesh", mesh))
 
 given = scene_file["camera"]
 camera = bpy.data.cameras.new("camera")
-camera.type = "PERSP" if given["perspective"] else "ORTHO"
+camera.type = "PANO" if given["panorama"] else "PERSP" if given["perspective"] else "ORTHO"
 camera.sensor_fit = "HORIZONTAL"
 camera.sensor_width = 36.0
-if given["perspective"]:
+if given["panorama"]:
+    camera.sensor_height = camera.sensor_width * given["height"] / given["width"]
+    camera.cycles.panorama_type = given["panorama"]
+    camera.cycles.fisheye_fov = given["fisheye_fov"]
+    camera.cycles.fisheye_lens = given["fisheye_lens"]
+elif given["perspective"]:
     camera.lens = given["lens"]
 else:
     camera.ortho_scale = given["ortho_scale"]
