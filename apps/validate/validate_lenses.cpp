@@ -77,6 +77,7 @@ std::vector<Camera> chosen_lenses(const std::string& engine, const ValidateArgum
 
 void require_known_lenses(const std::vector<std::string>& engines,
                           const ValidateArguments& arguments) {
+  if (arguments.variants.empty()) return;
   std::vector<std::string> known;
   for (const std::string& engine : engines)
     for (const Camera& lens : lenses_of(engine, {2, 2}))

