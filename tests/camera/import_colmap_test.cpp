@@ -152,10 +152,6 @@ TEST(ImportColmap, DistortionIsToldUnlessItIsZero) {
   const ImportedCamera bent = colmap_text("1 EUCM 4 2 3 3 2 1 2 1", image).at(0);
   EXPECT_EQ(bent.distortion, "cameras.txt: line 1: camera 1: alpha is not between 0 and 1");
   EXPECT_EQ(bent.camera.projection.cx, 2);
-  EXPECT_THAT(colmap_text("1 RAD_TAN_THIN_PRISM_FISHEYE 4 2 3 3 2 1 0 0 0 0 0 0 0 0 0 0 0 0", image)
-                  .at(0)
-                  .absence,
-              AllOf(HasSubstr("cameras.txt: line 1"), HasSubstr("undistort")));
 }
 
 TEST(ImportColmap, FisheyesKeepTheirLens) {
@@ -173,6 +169,8 @@ TEST(ImportColmap, FisheyesKeepTheirLens) {
   expect("OPENCV_FISHEYE 4 2 3 5 2 1 1 2 3 4", {LensModel::opencv_fisheye, {1, 2, 3, 4}});
   expect("THIN_PRISM_FISHEYE 4 2 3 5 2 1 1 2 3 4 5 6 7 8",
          {LensModel::thin_prism_fisheye, {1, 2, 3, 4, 5, 6, 7, 8}});
+  expect("RAD_TAN_THIN_PRISM_FISHEYE 4 2 3 5 2 1 1 2 3 4 5 6 7 8 9 10 11 12",
+         {LensModel::rad_tan_thin_prism_fisheye, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}});
 }
 
 TEST(ImportColmap, AFisheyeHasNoPinholePart) {
@@ -196,29 +194,6 @@ TEST(ImportColmap, PanoramasHaveTheirMiddleInTheMiddle) {
   EXPECT_EQ(message_of<InputError>(
                 [&] { chosen_cameras({one}, "model", {.ignore_distortion = true}, warnings); }),
             "a.png: the lens EQUIRECTANGULAR has no pinhole part to take");
-}
-
-TEST(ImportColmap, AModelThatFathomDoesNotHaveIsLeftOut) {
-  std::istringstream cameras(
-      "1 RAD_TAN_THIN_PRISM_FISHEYE 4 2 3 3 2 1 0 0 0 0 0 0 0 0 0 0 0 0\n2 OPENCV 4 2 3 3 2 1 1 0 "
-      "0 0\n"),
-      images("1 1 0 0 0 0 0 0 1 a.png\n\n2 1 0 0 0 0 0 0 2 b.png\n\n");
-  const std::vector<ImportedCamera> imported =
-      parse_colmap_text({cameras, "cameras.txt"}, {images, "images.txt"});
-  for (const bool ignore : {false, true}) {
-    Warnings warnings;
-    const std::vector<Camera> chosen =
-        chosen_cameras(imported, "model", {.ignore_distortion = ignore}, warnings);
-    ASSERT_EQ(chosen.size(), 1U);
-    EXPECT_EQ(chosen[0].name, "b.png");
-    EXPECT_EQ(chosen[0].projection.lens.has_value(), !ignore);
-    EXPECT_THAT(warnings,
-                ElementsAre(HasSubstr("1 of 2 cameras is left out: cameras.txt: line 1: camera 1: "
-                                      "the model RAD_TAN_THIN_PRISM_FISHEYE is not supported")));
-    EXPECT_THAT(message_of<InputError>(
-                    [&] { chosen_cameras(imported, "model", {.image = "a.png"}, warnings); }),
-                HasSubstr("RAD_TAN_THIN_PRISM_FISHEYE"));
-  }
 }
 
 // Binary files can have such numbers; they do not matter to who takes the pinhole part.

@@ -45,7 +45,7 @@ TEST(LensNumbers, EveryModelTakesItsOwnCount) {
 
 // As the specification has them; files, importers and C take keys and lists from the same table.
 TEST(LensModels, HaveTheirParametersInOrder) {
-  const std::array<std::string, 27> rows{
+  const std::array<std::string, 28> rows{
       "SIMPLE_PINHOLE f cx cy",
       "PINHOLE fx fy cx cy",
       "SIMPLE_RADIAL f cx cy k",
@@ -64,6 +64,7 @@ TEST(LensModels, HaveTheirParametersInOrder) {
       "RADIAL_FISHEYE f cx cy k1 k2",
       "OPENCV_FISHEYE fx fy cx cy k1 k2 k3 k4",
       "THIN_PRISM_FISHEYE fx fy cx cy k1 k2 p1 p2 k3 k4 sx1 sy1",
+      "RAD_TAN_THIN_PRISM_FISHEYE fx fy cx cy k0 k1 k2 k3 k4 k5 p0 p1 s0 s1 s2 s3",
       "FISHEYE_ORTHOGRAPHIC fx fy cx cy",
       "FISHEYE_EQUISOLID fx fy cx cy",
       "UCM fx fy cx cy alpha",

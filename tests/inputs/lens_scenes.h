@@ -113,6 +113,16 @@ class LensCaseMaker {
                            n.p2 = small_term(), n.above[2] = term() / 8, n.above[3] = term() / 16,
                            n.s1 = small_term(), n.s3 = small_term()};
         break;
+      case LensModel::rad_tan_thin_prism_fisheye:
+        for (std::size_t i = 0; i < n.first.size(); ++i)
+          lens.distortion[i] = n.first[i] = std::ldexp(term(), -2 * static_cast<int>(i));
+        lens.distortion[6] = n.p2 = small_term();
+        lens.distortion[7] = n.p1 = small_term();
+        lens.distortion[8] = n.s1 = small_term();
+        lens.distortion[9] = n.s2 = small_term() / 2;
+        lens.distortion[10] = n.s3 = small_term();
+        lens.distortion[11] = n.s4 = small_term() / 2;
+        break;
       case LensModel::fisheye_orthographic:
         n.root = oracle::LensNumbers::Root::orthographic;
         break;
@@ -164,7 +174,10 @@ class LensCaseMaker {
     for (const double below : c.numbers.below)
       if (below != 0) return;
     if (c.numbers.omega && below(2) == 0) return put_corners_on_the_fixed_circle(c);
-    const double x = std::ldexp(this->below(9) - 4, -3), y = std::ldexp(this->below(9) - 4, -3);
+    const double m_x = std::ldexp(this->below(9) - 4, -3), m_y = std::ldexp(this->below(9) - 4, -3);
+    double first = 1, power_of_first = 1;
+    for (const double k : c.numbers.first) first += k * (power_of_first *= m_x * m_x + m_y * m_y);
+    const double x = m_x * first, y = m_y * first;
     const double q = x * x + y * y;
     double factor = 1, power = 1;
     for (const double k : c.numbers.above) factor += k * (power *= q);
@@ -173,7 +186,7 @@ class LensCaseMaker {
         x * factor + 2 * n.p1 * x * y + n.p2 * (q + 2 * x * x) + n.s1 * q + n.s2 * q * q;
     const double gy =
         y * factor + n.p1 * (q + 2 * y * y) + 2 * n.p2 * x * y + n.s3 * q + n.s4 * q * q;
-    const std::array d{x, y, n.division ? 1 + *n.division * q : 1.0};
+    const std::array d{m_x, m_y, n.division ? 1 + *n.division * q : 1.0};
     // Corners of few bits lie on no ray of a fisheye but the axis, and on few of FOV and of a model
     // with a root. Edges in the plane of the ray and the axis meet it.
     const bool is_meridian =

@@ -84,7 +84,7 @@ TEST(ForeignPoints, AreSeenWhereColmapShowsThem) {
   for (const char* const model :
        {"SIMPLE_PINHOLE", "PINHOLE", "SIMPLE_RADIAL", "RADIAL", "OPENCV", "FULL_OPENCV", "FOV",
         "SIMPLE_DIVISION", "DIVISION", "SIMPLE_FISHEYE", "FISHEYE", "SIMPLE_RADIAL_FISHEYE",
-        "RADIAL_FISHEYE", "OPENCV_FISHEYE", "THIN_PRISM_FISHEYE"})
+        "RADIAL_FISHEYE", "OPENCV_FISHEYE", "THIN_PRISM_FISHEYE", "RAD_TAN_THIN_PRISM_FISHEYE"})
     EXPECT_EQ(models.count(model), 12U) << model;
 }
 

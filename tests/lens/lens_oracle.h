@@ -54,11 +54,29 @@ class NamedParameters {
   std::map<std::string, double> values_;
 };
 
+/// Both stages of RAD_TAN_THIN_PRISM_FISHEYE, with derivatives.
+template <class S>
+OraclePoint<Dual<S>> distorted_twice(const NamedParameters& n, const Dual<S>& x, const Dual<S>& y) {
+  const auto c = [](double value) { return Dual<S>{S(value)}; };
+  const Dual<S> angle2 = x * x + y * y, two = c(2);
+  Dual<S> radial = c(1), power = c(1);
+  for (const char* const k : {"k0", "k1", "k2", "k3", "k4", "k5"}) {
+    power = power * angle2;
+    radial = radial + c(n[k]) * power;
+  }
+  const Dual<S> u = x * radial, v = y * radial, r2 = u * u + v * v, r4 = r2 * r2;
+  return {u + two * c(n["p1"]) * u * v + c(n["p0"]) * (r2 + two * u * u) + c(n["s0"]) * r2 +
+              c(n["s1"]) * r4,
+          v + two * c(n["p0"]) * u * v + c(n["p1"]) * (r2 + two * v * v) + c(n["s2"]) * r2 +
+              c(n["s3"]) * r4};
+}
+
 /// The stage, with derivatives; without the tilt.
 template <class S>
 OraclePoint<Dual<S>> distorted(const NamedParameters& n, const S& px, const S& py) {
   const Dual<S> x{px, S(1.0), S(0.0)}, y{py, S(0.0), S(1.0)};
   const auto c = [](double value) { return Dual<S>{S(value)}; };
+  if (n.model() == LensModel::rad_tan_thin_prism_fisheye) return distorted_twice(n, x, y);
   const Dual<S> r2 = x * x + y * y, r4 = r2 * r2, r6 = r4 * r2, r8 = r4 * r4, one = c(1);
   const bool has_four_above = n.model() == LensModel::brown ||
                               n.model() == LensModel::opencv_fisheye ||
@@ -106,8 +124,8 @@ inline constexpr std::array<LensModel, 6> stage_models{
     LensModel::simple_radial, LensModel::radial,    LensModel::opencv,
     LensModel::full_opencv,   LensModel::opencv_14, LensModel::brown};
 /// The fisheyes that have a stage which may change something.
-inline constexpr std::array<LensModel, 4> fisheye_models{
+inline constexpr std::array<LensModel, 5> fisheye_models{
     LensModel::simple_radial_fisheye, LensModel::radial_fisheye, LensModel::opencv_fisheye,
-    LensModel::thin_prism_fisheye};
+    LensModel::thin_prism_fisheye, LensModel::rad_tan_thin_prism_fisheye};
 
 }  // namespace fathom::oracle

@@ -54,4 +54,5 @@ int main() {
   write_points<OpenCVFisheyeCameraModel>(0.05);
   write_points<ThinPrismFisheyeCameraModel>(0.05);
   write_points<FOVCameraModel>(1.2);
+  write_points<RadTanThinPrismFisheyeModel>(0.02);
 }

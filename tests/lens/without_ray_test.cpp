@@ -57,6 +57,12 @@ TEST(WithoutRay, IsTheAreaBeyondTheFold) {
                Reason::fold);
 }
 
+TEST(WithoutRay, IsTheAreaBeyondTheFoldOfEitherStage) {
+  const auto model = LensModel::rad_tan_thin_prism_fisheye;
+  expect_share({model, {-0.2, 0, 0, 0, 0, 0, 0.01, 0.02, 0.03}}, 16, Reason::fold);
+  expect_share({model, {0.01, 0, 0, 0, 0, 0, 0.1, 0.02, 0.3, 0, -0.1}}, 16, Reason::fold);
+}
+
 /// A panorama of `turns` of this image's width.
 Projection panorama(const Lens& lens, double turns, double fy) {
   Projection projection = with(lens, 1);

@@ -23,7 +23,7 @@ struct Image {
 };
 
 template <class T, class Make>
-Image<T> image_of(const LensNumbers& lens, const T& x, const T& y, const Make& make) {
+Image<T> image_of_last(const LensNumbers& lens, const T& x, const T& y, const Make& make) {
   const T q = x * x + y * y;
   T above = make(1), above_by_q = make(0), below = make(1), below_by_q = make(0), power = make(1);
   for (std::size_t i = 0; i < lens.above.size(); ++i) {
@@ -48,6 +48,29 @@ Image<T> image_of(const LensNumbers& lens, const T& x, const T& y, const Make& m
                  two * x * y * factor_by_q + two * p1 * x + two * p2 * y + two * y * u,
                  two * x * y * factor_by_q + two * p1 * x + two * p2 * y + two * x * v,
                  factor + two * y * y * factor_by_q + six * p1 * y + two * p2 * x + two * y * v};
+  return image;
+}
+
+/// The same of both stages, by the rule of the chain.
+template <class T, class Make>
+Image<T> image_of(const LensNumbers& lens, const T& x, const T& y, const Make& make) {
+  const T q = x * x + y * y;
+  T factor = make(1), factor_by_q = make(0), power = make(1);
+  for (std::size_t i = 0; i < lens.first.size(); ++i) {
+    factor_by_q = factor_by_q + make(lens.first[i] * (static_cast<double>(i) + 1)) * power;
+    power = power * q;
+    factor = factor + make(lens.first[i]) * power;
+  }
+  const T bend = make(2) * factor_by_q;
+  const T u_by_x = factor + x * x * bend, u_by_y = x * y * bend, v_by_y = factor + y * y * bend;
+  const T u = x * factor, v = y * factor;
+  const Image<T> last = image_of_last(lens, u, v, make);
+  Image<T> image{last.x,
+                 last.y,
+                 last.x_by_x * u_by_x + last.x_by_y * u_by_y,
+                 last.x_by_x * u_by_y + last.x_by_y * v_by_y,
+                 last.y_by_x * u_by_x + last.y_by_y * u_by_y,
+                 last.y_by_x * u_by_y + last.y_by_y * v_by_y};
   return image;
 }
 

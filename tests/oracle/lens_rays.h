@@ -13,6 +13,8 @@ struct LensNumbers {
   /// Of r², r⁴, … above and below the fraction bar.
   std::array<double, 4> above{};
   std::array<double, 3> below{};
+  /// Of r², r⁴, … in a stage before.
+  std::array<double, 6> first{};
   double p1 = 0, p2 = 0, s1 = 0, s2 = 0, s3 = 0, s4 = 0;
   /// d = (x_d, y_d, 1 + k·r²) instead.
   std::optional<double> division;

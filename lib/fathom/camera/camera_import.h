@@ -52,10 +52,8 @@ std::vector<Camera> chosen_cameras(const std::vector<ImportedCamera>& imported,
                                    Warnings& warnings);
 
 /// A COLMAP model: the folder with cameras and images, .bin (preferred where both exist) or .txt.
-/// Sorted by image name. Takes the lens models that Camera has; cameras of
-/// RAD_TAN_THIN_PRISM_FISHEYE are absent. Rigs and frames (COLMAP 3.12) are not needed: images has
-/// the pose of each image. A folder that has models in folders below it (sparse/0) is refused with
-/// their names.
+/// Sorted by image name. Rigs and frames (COLMAP 3.12) are not needed: images has the pose of each
+/// image. A folder that has models in folders below it (sparse/0) is refused with their names.
 std::vector<ImportedCamera> import_colmap(const std::filesystem::path& folder);
 /// Whether a folder has the files of a COLMAP model.
 bool is_colmap_model(const std::filesystem::path& folder);

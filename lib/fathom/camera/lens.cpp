@@ -37,6 +37,8 @@ constexpr std::array<Name, 4> of_equirectangular{"w", "h", "cx", "cy"};
 constexpr std::array<Name, 4> of_cylinder{"w", "fy", "cx", "cy"};
 
 constexpr std::array<Name, 8> of_thin_prism{"k1", "k2", "p1", "p2", "k3", "k4", "sx1", "sy1"};
+constexpr std::array<Name, 12> of_rad_tan{"k0", "k1", "k2", "k3", "k4", "k5",
+                                          "p0", "p1", "s0", "s1", "s2", "s3"};
 // UCM has the first.
 constexpr std::array<Name, 2> of_eucm{"alpha", "beta"};
 constexpr std::array<Name, 2> of_double_sphere{"xi", "alpha"};
@@ -46,7 +48,7 @@ constexpr auto plane = RayFormula::plane, angle = RayFormula::angle, with_root =
                turn = RayFormula::turn, direct = RayFormula::direct,
                field_of_view = RayFormula::field_of_view;
 
-constexpr std::array<LensModelEntry, 27> table{{
+constexpr std::array<LensModelEntry, 28> table{{
     {LensModel::simple_pinhole, "SIMPLE_PINHOLE", plane, one_focal_length, {}, {}},
     {LensModel::pinhole, "PINHOLE", plane, two_focal_lengths, {}, {}},
     {LensModel::simple_radial, "SIMPLE_RADIAL", plane, one_focal_length, of_one_term, {}},
@@ -79,6 +81,12 @@ constexpr std::array<LensModelEntry, 27> table{{
      angle,
      two_focal_lengths,
      of_thin_prism,
+     {}},
+    {LensModel::rad_tan_thin_prism_fisheye,
+     "RAD_TAN_THIN_PRISM_FISHEYE",
+     angle,
+     two_focal_lengths,
+     of_rad_tan,
      {}},
     {LensModel::fisheye_orthographic, "FISHEYE_ORTHOGRAPHIC", with_root, two_focal_lengths, {}, {}},
     {LensModel::fisheye_equisolid, "FISHEYE_EQUISOLID", with_root, two_focal_lengths, {}, {}},

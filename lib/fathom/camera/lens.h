@@ -35,6 +35,7 @@ enum class LensModel : std::uint8_t {
   radial_fisheye,
   opencv_fisheye,
   thin_prism_fisheye,
+  rad_tan_thin_prism_fisheye,
   fisheye_orthographic,
   fisheye_equisolid,
   ucm,

@@ -16,6 +16,9 @@
 /// For y ≠ 0, F is negative at 0. In the disc (polynomial_stage.h) it changes its sign once at
 /// most, at the preimage: A is positive there, which makes other zeroes (where w = 0) minima with
 /// the value 0, beyond the preimage.
+///
+/// Of two stages, the second takes t = m·N₁(q) to y. The same F, of |t|² = q·N₁(q)², which grows
+/// with q in the disc, shows q; and m is t/N₁(q).
 namespace fathom::lens {
 
 template <class T>
@@ -27,7 +30,8 @@ struct Elimination {
 };
 
 template <class T>
-Elimination<T> eliminate(const StageNumbers<T>& n, const HomogeneousPoint<T>& y, const T& q) {
+Elimination<T> eliminate_single(const StageNumbers<T>& n, const HomogeneousPoint<T>& y,
+                                const T& q) {
   const T N = horner(n.numerator, q), D = horner(n.denominator, q), qc = q * y.c;
   // c·w, c²·W and c²·(W − 2q·p·w)
   const T wx = y.a - qc * (n.p2 + n.s1 + n.s2 * q);
@@ -36,6 +40,14 @@ Elimination<T> eliminate(const StageNumbers<T>& n, const HomogeneousPoint<T>& y,
   const T rest = W - (qc + qc) * (n.p2 * wx + n.p1 * wy);
   const T D_rest = D * rest, N_qc = N * qc;
   return {N_qc * N * y.c * W - D_rest * D_rest, {N_qc * wx, N_qc * wy, D_rest}};
+}
+
+template <class T>
+Elimination<T> eliminate(const StageNumbers<T>& n, const HomogeneousPoint<T>& y, const T& q) {
+  if (!n.is_double()) return eliminate_single(n, y, q);
+  Elimination<T> result = eliminate_single(n, y, image_of_circle(n, q));
+  result.direction[2] = result.direction[2] * horner(n.before, q);
+  return result;
 }
 
 enum class Existence { yes, no, unknown };

@@ -33,6 +33,8 @@ namespace {
 /// polynomials may lose.
 constexpr long box_bits = 56, spare_bits = 64;
 
+using ExactStage = StageNumbers<Dyadic>;
+
 BigInterval number(const Dyadic& x, long bits) {
   return {x, bits};
 }
@@ -45,8 +47,8 @@ auto to_bits(long bits) {
 /// F and the direction of one point, in intervals of so many bits.
 class EnclosedElimination {
  public:
-  EnclosedElimination(const PolynomialStage& stage, const DistortedPoint& y, long bits)
-      : bits_(bits), numbers_(stage.exact.in(to_bits(bits))), y_(y.in(to_bits(bits))) {}
+  EnclosedElimination(const ExactStage& stage, const DistortedPoint& y, long bits)
+      : bits_(bits), numbers_(stage.in(to_bits(bits))), y_(y.in(to_bits(bits))) {}
 
   [[nodiscard]] Elimination<BigInterval> at(const DyadicInterval& q) const {
     return eliminate(numbers_, y_, BigInterval(q, bits_));
@@ -58,8 +60,8 @@ class EnclosedElimination {
   HomogeneousPoint<BigInterval> y_;
 };
 
-Sign exact_sign_of_f(const PolynomialStage& stage, const DistortedPoint& y, const Dyadic& q) {
-  return eliminate(stage.exact, y, q).f.sign();
+Sign exact_sign_of_f(const ExactStage& stage, const DistortedPoint& y, const Dyadic& q) {
+  return eliminate(stage, y, q).f.sign();
 }
 
 /// How many bits the ends of an interval of positive numbers share, about.
@@ -77,7 +79,7 @@ Dyadic rounded(const Dyadic& x, long bits) {
 /// signs may double the bits that are known; otherwise it is halved.
 class RootNarrowing {
  public:
-  RootNarrowing(const PolynomialStage& stage, const DistortedPoint& y, DyadicInterval q)
+  RootNarrowing(const ExactStage& stage, const DistortedPoint& y, DyadicInterval q)
       : stage_(stage), y_(y), q_(std::move(q)) {}
 
   DyadicInterval to(long bits) {
@@ -122,7 +124,7 @@ class RootNarrowing {
     (sign == Sign::negative ? q_.low : q_.high) = std::move(x);
   }
 
-  const PolynomialStage& stage_;
+  const ExactStage& stage_;
   const DistortedPoint& y_;
   DyadicInterval q_;
 };
@@ -133,11 +135,10 @@ struct Polynomials {
 };
 
 template <class Form>
-Polynomials polynomials_of(const PolynomialStage& stage, const DistortedPoint& y,
-                           const Form& form) {
+Polynomials polynomials_of(const ExactStage& stage, const DistortedPoint& y, const Form& form) {
   const auto constant = [](const Dyadic& x) { return ExactPolynomial(x); };
   const Elimination<ExactPolynomial> e =
-      eliminate(as_polynomials(stage.exact), y.in(constant), ExactPolynomial::variable());
+      eliminate(as_polynomials(stage), y.in(constant), ExactPolynomial::variable());
   return {primitive(e.f), primitive(form_at(converted(form, constant), e.direction))};
 }
 
@@ -145,11 +146,11 @@ Polynomials polynomials_of(const PolynomialStage& stage, const DistortedPoint& y
 /// negative at the limit: there is no root.
 std::optional<DyadicInterval> isolate_root(const PolynomialStage& stage, const DistortedPoint& y) {
   const auto is_beyond = [&](const Dyadic& q) {
-    return exact_sign_of_f(stage, y, q) != Sign::negative;
+    return exact_sign_of_f(stage.exact, y, q) != Sign::negative;
   };
   Dyadic high = stage.limit.value_or(1.0);
   if (!stage.limit) {
-    const ExactPolynomial f = polynomials_of(stage, y, ExactVector3{}).f;
+    const ExactPolynomial f = polynomials_of(stage.exact, y, ExactVector3{}).f;
     if (f.sign_at_infinity() == Sign::negative) return std::nullopt;
     while (!is_beyond(high)) high = high.scaled(1);
   } else if (!is_beyond(high)) {
@@ -197,8 +198,9 @@ std::optional<PolynomialDirection> PolynomialDirection::find(const PolynomialSta
 std::array<DyadicInterval, 3> PolynomialDirection::enclosure(long bits) const {
   DyadicInterval q = q_;
   for (long precision = bits + spare_bits;; precision *= 2) {
-    q = RootNarrowing(*stage_, y_, q).to(precision);
-    const auto [x, y, z] = EnclosedElimination(*stage_, y_, precision + spare_bits).at(q).direction;
+    q = RootNarrowing(stage_->exact, y_, q).to(precision);
+    const auto [x, y, z] =
+        EnclosedElimination(stage_->exact, y_, precision + spare_bits).at(q).direction;
     if (z.sign() != Sign::positive) continue;
     const DyadicInterval mx = (x / z).ends(), my = (y / z).ends();
     const Dyadic size = std::max({abs(mx.low), abs(mx.high), abs(my.low), abs(my.high)});
@@ -212,23 +214,46 @@ std::optional<DirectionWords> PolynomialDirection::words() const {
   return words_of_preimage(*stage_, y_, {enclose(q_.low).upper, enclose(q_.high).lower});
 }
 
+namespace {
+
+bool has_no_z(const ExactVector3& form) {
+  return form[2].is_zero();
+}
+bool has_no_z(const std::array<Dyadic, 6>& form) {
+  return form[2].is_zero() && form[4].is_zero() && form[5].is_zero();
+}
+
+/// The sign of a form at the direction whose root lies in q.
 template <class Form>
-Sign PolynomialDirection::sign_of_form(const Form& form) const {
-  DyadicInterval q = RootNarrowing(*stage_, y_, q_).to(first_bits);
+Sign sign_at_root(const ExactStage& stage, const DistortedPoint& y, DyadicInterval q,
+                  const Form& form) {
+  q = RootNarrowing(stage, y, q).to(first_bits);
   const auto enclosed = converted(form, to_bits(first_bits));
-  const EnclosedElimination elimination(*stage_, y_, first_bits + spare_bits);
+  const EnclosedElimination elimination(stage, y, first_bits + spare_bits);
   const Sign sign = form_at(enclosed, elimination.at(q).direction).sign();
   if (sign != Sign::zero) return sign;
 
-  const auto [f, h] = polynomials_of(*stage_, y_, form);
+  const auto [f, h] = polynomials_of(stage, y, form);
   if (h.is_zero()) return Sign::zero;
   const long bound = zero_bound_bits(f, h);
   for (long bits = 2 * first_bits;; bits *= 2) {
-    q = RootNarrowing(*stage_, y_, q).to(bits);
+    q = RootNarrowing(stage, y, q).to(bits);
     const BigInterval value = value_of(h, q, bits + spare_bits);
     if (value.sign() != Sign::zero) return value.sign();
     if (is_below(value, bound)) return Sign::zero;
   }
+}
+
+}  // namespace
+
+// A first stage moves m along its direction from 0: the point before the second stage has the signs
+// of forms without z, and is the root of a polynomial of degree 8, not of more than 100.
+template <class Form>
+Sign PolynomialDirection::sign_of_form(const Form& form) const {
+  const ExactStage& exact = stage_->exact;
+  if (!exact.is_double() || !has_no_z(form)) return sign_at_root(exact, y_, q_, form);
+  const DyadicInterval image{image_of_circle(exact, q_.low), image_of_circle(exact, q_.high)};
+  return sign_at_root(second_stage(exact), y_, image, form);
 }
 
 Sign PolynomialDirection::sign_of(const ExactVector3& form) const {

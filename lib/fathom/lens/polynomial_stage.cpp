@@ -96,12 +96,33 @@ class DiscSearch {
   double inner_, outer_, pole_;
 };
 
+double disc_of_single(const StageNumbers<double>& numbers) {
+  const Definiteness stage(as_polynomials(numbers));
+  return is_radial(numbers) ? radial_disc(stage) : DiscSearch(stage).run();
+}
+
+/// In the disc of the first stage q·N₁² grows with q.
+double disc_of_double(const StageNumbers<double>& numbers) {
+  const double first = disc_of_single(first_stage(numbers));
+  const double second = disc_of_single(second_stage(numbers));
+  if (second == infinity) return first;
+  const StageNumbers<Dyadic> exact = numbers.in([](double x) { return Dyadic(x); });
+  const auto is_within = [&](double q) { return image_of_circle(exact, q) <= Dyadic(second); };
+  double last = std::min(first, greatest_number);
+  if (is_within(last)) return first;
+  auto inside = std::bit_cast<std::uint64_t>(0.0), outside = std::bit_cast<std::uint64_t>(last);
+  while (outside - inside > 1) {
+    const std::uint64_t between = inside + (outside - inside) / 2;
+    (is_within(std::bit_cast<double>(between)) ? inside : outside) = between;
+  }
+  return std::bit_cast<double>(inside);
+}
+
 }  // namespace
 
 double greatest_disc(const StageNumbers<double>& numbers) {
   const StandardArithmetic standard;
-  const Definiteness stage(as_polynomials(numbers));
-  return is_radial(numbers) ? radial_disc(stage) : DiscSearch(stage).run();
+  return numbers.is_double() ? disc_of_double(numbers) : disc_of_single(numbers);
 }
 
 namespace {

@@ -18,6 +18,15 @@ std::vector<double> polynomial(std::initializer_list<double> numbers) {
   return coefficients;
 }
 
+/// Of k0 … k5, p0, p1, s0 … s3: one stage where the other changes nothing.
+StageNumbers<double> in_two_stages(const std::array<double, 14>& d) {
+  const std::vector<double> radial = polynomial({d[0], d[1], d[2], d[3], d[4], d[5]});
+  StageNumbers<double> stage{{1}, {1}, d[7], d[6], d[8], d[9], d[10], d[11]};
+  (is_radial(stage) ? stage.numerator : stage.before) = radial;
+  if (radial.size() == 1) stage.before.clear();
+  return stage;
+}
+
 }  // namespace
 
 StageNumbers<double> stage_of(const Lens& lens) {
@@ -51,6 +60,8 @@ StageNumbers<double> stage_of(const Lens& lens) {
       return {polynomial({d[0], d[1], d[2], d[3]}), {1}, 0, 0, 0, 0, 0, 0};
     case LensModel::thin_prism_fisheye:
       return {polynomial({d[0], d[1], d[4], d[5]}), {1}, d[2], d[3], d[6], 0, d[7], 0};
+    case LensModel::rad_tan_thin_prism_fisheye:
+      return in_two_stages(d);
     case LensModel::fov:
     case LensModel::simple_division:
     case LensModel::division:
@@ -75,7 +86,7 @@ bool is_radial(const StageNumbers<double>& n) {
 }
 
 bool is_identity(const StageNumbers<double>& n) {
-  return n.numerator.size() == 1 && n.denominator.size() == 1 && is_radial(n);
+  return n.numerator.size() == 1 && n.denominator.size() == 1 && !n.is_double() && is_radial(n);
 }
 
 using namespace bounds;
@@ -139,7 +150,9 @@ double greatest_terms(const StageNumbers<double>& n, double X, double Y, double 
 // errs by 2k and by the 2k + 1 roundings of Horner's scheme at most; with n the degree, N errs by
 // 4n + 1, D by the same of its own terms (stage_magnitudes() has them as a factor), the quotient by
 // 8n + 3, its product with x by 8n + 4. The other terms have at most 8 roundings, and there are
-// four sums: 8n + 12 in all. Second order: 8n + 16.
+// four sums: 8n + 12 in all. Second order: 8n + 16. Of two stages, the first errs by 4n + 4 of its
+// terms. The second takes the error over in products of at most four of its components, and errs by
+// 16 itself: 4·(4n + 4) + 16 in all.
 StageBounds bounds_on_box(const StageNumbers<double>& stage, const std::array<Interval, 2>& box) {
   const StandardArithmetic standard;
   const auto numbers = stage.in([](double x) { return Range(x); });
@@ -149,15 +162,19 @@ StageBounds bounds_on_box(const StageNumbers<double>& stage, const std::array<In
   if (!(D.low > 0 && D.high < std::numeric_limits<double>::infinity())) return {};
   const double X = greatest_size(x.low, x.high), Y = greatest_size(y.low, y.high);
   if (!(denominator_magnitude(stage, X, Y) <= D.low * most_growth)) return {};
-  const double degree =
-      static_cast<double>(std::max(stage.numerator.size(), stage.denominator.size()) - 1);
+  const double degree = static_cast<double>(
+      std::max({stage.numerator.size(), stage.denominator.size(), stage.before.size()}) - 1);
   return {least_growth(stage_jacobian(numbers, x, y)), greatest_terms(stage, X, Y, D.low),
-          of_degree * degree + of_stage};
+          (stage.is_double() ? 2 : 1) * (of_degree * degree + of_stage)};
 }
 
 // With p = (p2, p1), S(m) = L·m + q·p + 2(m·p)·m + q·(s1 + s2·q, s3 + s4·q).
 double greatest_on_circle(const StageNumbers<double>& stage, double q) {
   const StandardArithmetic standard;
+  if (stage.is_double()) {
+    const Range image = image_of_circle(stage.in([](double x) { return Range(x); }), Range(q));
+    return greatest_on_circle(second_stage(stage), image.high);
+  }
   const auto numbers = stage.in([](double x) { return Range(x); });
   const Range N = horner(numbers.numerator, Range(q)), D = horner(numbers.denominator, Range(q));
   if (!(D.low > 0)) return std::numeric_limits<double>::infinity();

@@ -13,6 +13,7 @@
 /// The stage S of the specification (section 2), over any arithmetic T:
 ///   (x, y) ↦ (x·L + 2p1·xy + p2·(q + 2x²) + s1·q + s2·q²,
 ///             y·L + p1·(q + 2y²) + 2p2·xy + s3·q + s4·q²),  q = x² + y², L = N(q)/D(q)
+/// RAD_TAN_THIN_PRISM_FISHEYE has two stages, of which the first is radial. Here S is both.
 namespace fathom::lens {
 
 /// The numbers of a stage.
@@ -21,6 +22,11 @@ struct StageNumbers {
   /// N and D by ascending powers of q: 1, k1, k2, … and 1, l1, l2, …
   std::vector<T> numerator, denominator;
   T p1, p2, s1, s2, s3, s4;
+  /// N₁ of a first stage m ↦ m·N₁(|m|²); empty if there is none. N and D are 1 otherwise.
+  std::vector<T> before{};
+
+  /// Whether there are two stages.
+  [[nodiscard]] bool is_double() const { return !before.empty(); }
 
   /// The same numbers in another arithmetic.
   template <class Convert>
@@ -32,8 +38,9 @@ struct StageNumbers {
       for (const T& number : numbers) converted.push_back(convert(number));
       return converted;
     };
-    return StageNumbers<Other>{all(numerator), all(denominator), convert(p1), convert(p2),
-                               convert(s1),    convert(s2),      convert(s3), convert(s4)};
+    return StageNumbers<Other>{all(numerator), all(denominator), convert(p1),
+                               convert(p2),    convert(s1),      convert(s2),
+                               convert(s3),    convert(s4),      all(before)};
   }
 };
 
@@ -43,7 +50,28 @@ StageNumbers<ExactPolynomial> as_polynomials(const StageNumbers<T>& numbers) {
   return numbers.in([](const T& number) { return ExactPolynomial(number); });
 }
 
-/// The stage of a model that has one. Leading zeroes of N and D are left out.
+/// The first of two stages, by itself.
+template <class T>
+StageNumbers<T> first_stage(const StageNumbers<T>& n) {
+  const T zero = n.p1 - n.p1;
+  return {n.before, n.denominator, zero, zero, zero, zero, zero, zero};
+}
+/// The second of two stages, by itself.
+template <class T>
+StageNumbers<T> second_stage(StageNumbers<T> n) {
+  n.before.clear();
+  return n;
+}
+
+/// |m·N₁|² of a first stage where |m|² = q.
+template <class T>
+T image_of_circle(const StageNumbers<T>& n, const T& q) {
+  const T factor = horner(n.before, q);
+  return q * factor * factor;
+}
+
+/// The stage of a model that has one. Leading zeroes of N and D are left out, and a stage of two
+/// that changes nothing.
 StageNumbers<double> stage_of(const Lens& lens);
 
 /// Whether L is all that there is.
@@ -62,12 +90,20 @@ struct StageJacobian {
   T xx, xy, yx, yy;
 };
 
+/// Of a stage without another before it.
 template <class T>
-StagePoint<T> stage_value(const StageNumbers<T>& n, const T& x, const T& y) {
+StagePoint<T> single_stage_value(const StageNumbers<T>& n, const T& x, const T& y) {
   const T xx = x * x, yy = y * y, xy = x * y, q = xx + yy;
   const T L = horner(n.numerator, q) / horner(n.denominator, q);
   return {x * L + (n.p1 + n.p1) * xy + n.p2 * (q + xx + xx) + q * (n.s1 + n.s2 * q),
           y * L + n.p1 * (q + yy + yy) + (n.p2 + n.p2) * xy + q * (n.s3 + n.s4 * q)};
+}
+
+template <class T>
+StagePoint<T> stage_value(const StageNumbers<T>& n, const T& x, const T& y) {
+  if (!n.is_double()) return single_stage_value(n, x, y);
+  const T factor = horner(n.before, x * x + y * y);
+  return single_stage_value<T>(n, x * factor, y * factor);
 }
 
 /// p'(x), with the derivative of the scheme of Horner.
@@ -84,7 +120,7 @@ T horner_derivative(const std::vector<T>& coefficients, const T& x) {
 /// With ∇q = 2m: J = L·I + m·(2L'm + 2p)ᵀ + (2p·m)·I + (b + q·b')·2mᵀ, p = (p2, p1),
 /// b = p + (s1 + s2·q, s3 + s4·q).
 template <class T>
-StageJacobian<T> stage_jacobian(const StageNumbers<T>& n, const T& x, const T& y) {
+StageJacobian<T> single_stage_jacobian(const StageNumbers<T>& n, const T& x, const T& y) {
   const T q = x * x + y * y;
   const T N = horner(n.numerator, q), D = horner(n.denominator, q), L = N / D;
   const T slope = (horner_derivative(n.numerator, q) - L * horner_derivative(n.denominator, q)) / D;
@@ -94,6 +130,18 @@ StageJacobian<T> stage_jacobian(const StageNumbers<T>& n, const T& x, const T& y
   const T bx = n.p2 + n.s1 + two_q * n.s2, by = n.p1 + n.s3 + two_q * n.s4;
   const T x2 = x + x, y2 = y + y;
   return {A + x2 * (gx + bx), x2 * gy + y2 * bx, y2 * gx + x2 * by, A + y2 * (gy + by)};
+}
+
+/// Of two stages, the product of the Jacobians.
+template <class T>
+StageJacobian<T> stage_jacobian(const StageNumbers<T>& n, const T& x, const T& y) {
+  if (!n.is_double()) return single_stage_jacobian(n, x, y);
+  const T q = x * x + y * y, factor = horner(n.before, q), slope = horner_derivative(n.before, q);
+  const T of_x = (slope + slope) * x, across = of_x * y;
+  const StageJacobian<T> first{factor + of_x * x, across, across, factor + (slope + slope) * y * y};
+  const StageJacobian<T> second = single_stage_jacobian<T>(n, x * factor, y * factor);
+  return {second.xx * first.xx + second.xy * first.yx, second.xx * first.xy + second.xy * first.yy,
+          second.yx * first.xx + second.yy * first.yx, second.yx * first.xy + second.yy * first.yy};
 }
 
 /// The terms of D with their magnitudes.
@@ -131,7 +179,8 @@ namespace bounds {
 inline constexpr double up = 1 + 0x1p-40;
 /// The error of stage_value() in units of roundoff: for each degree of N or D (lens_polynomial,
 /// lens_factor), and what else there is (lens_stage), if the magnitudes of the terms of D add up to
-/// at most so many times D (lens_factor).
+/// at most so many times D (lens_factor). Two stages err by twice that, for the degree of the first
+/// (lens_second).
 inline constexpr double of_degree = 8, of_stage = 16;
 inline constexpr double most_growth = 0x1p42;
 /// Ends of intervals are moved outwards by so much of themselves (lens_interval).

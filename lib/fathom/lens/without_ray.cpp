@@ -39,6 +39,11 @@ struct OnCircle {
 
 /// At 64 points: between two of them little changes, as the degree in the angle is low.
 OnCircle on_circle(const StageNumbers<double>& stage, double radius) {
+  if (stage.is_double()) {
+    const OnCircle first = on_circle(first_stage(stage), radius);
+    const OnCircle second = on_circle(second_stage(stage), first.size);
+    return {std::min(first.growth, second.growth), second.size};
+  }
   OnCircle least;
   if (!(horner(stage.denominator, radius * radius) > 0)) return {-1, 0};
   const int points = is_radial(stage) ? 1 : 64;

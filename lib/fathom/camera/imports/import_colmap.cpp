@@ -27,13 +27,10 @@ struct Model {
   std::string_view name;
   std::size_t parameters;
   std::size_t focals;
-  /// Whether it is a pinhole camera if all its distortion parameters are 0.
-  bool pinhole;
-  /// Absent if Fathom does not have this lens.
-  std::optional<LensModel> lens = std::nullopt;
+  LensModel lens;
 
   /// A fisheye or a panorama.
-  [[nodiscard]] bool always_bends() const { return lens && !has_pinhole_part(*lens); }
+  [[nodiscard]] bool always_bends() const { return !has_pinhole_part(lens); }
 };
 
 /// In the order of COLMAP 4's model ids. COLMAP 3.8 had the first eleven models.
@@ -56,19 +53,14 @@ constexpr std::array<std::string_view, 18> model_names{"SIMPLE_PINHOLE",
                                                        "EUCM",
                                                        "EQUIRECTANGULAR"};
 
-/// The model that Fathom does not have.
-constexpr Model model_of_colmap_alone{"RAD_TAN_THIN_PRISM_FISHEYE", 16, 2, false};
-
 /// `name` is one of model_names.
 Model colmap_model(std::string_view name) {
-  if (name == model_of_colmap_alone.name) return model_of_colmap_alone;
   const LensModelEntry& lens = lens_model_of(name);
   if (lens.model == LensModel::equirectangular)
-    return {.name = name, .parameters = 2, .focals = 2, .pinhole = false, .lens = lens.model};
+    return {.name = name, .parameters = 2, .focals = 2, .lens = lens.model};
   return {.name = name,
           .parameters = lens.intrinsics.size() + lens.distortion.size(),
           .focals = lens.intrinsics.size() - 2,
-          .pinhole = has_pinhole_part(lens.model),
           .lens = lens.model};
 }
 
@@ -100,11 +92,6 @@ ImportedCamera make_camera(const CameraRecord& record, const Model& model,
   const std::string about = where + ": camera " + std::to_string(record.id) + ": ";
   ImportedCamera result;
   constexpr std::uint64_t largest = std::numeric_limits<std::uint32_t>::max();
-  if (!model.pinhole && !model.always_bends()) {
-    result.absence = about + "the model " + std::string(model.name) +
-                     " is not supported; undistort the images (colmap image_undistorter)";
-    return result;
-  }
   if (record.width > largest || record.height > largest) {
     result.fault = about + "the image is too large";
     return result;
@@ -117,16 +104,12 @@ ImportedCamera make_camera(const CameraRecord& record, const Model& model,
   if (model.always_bends() ||
       std::any_of(distortion, distortion + static_cast<long>(distortion_parameters(model)),
                   [](double k) { return k != 0; })) {
-    if (model.lens) {
-      Lens lens{*model.lens};
-      std::copy(distortion, numbers.end(), lens.distortion.begin());
-      if (const auto fault = find_fault(lens)) {
-        result.distortion = about + *fault;
-      } else {
-        camera.projection.lens = lens;
-      }
+    Lens lens{model.lens};
+    std::copy(distortion, numbers.end(), lens.distortion.begin());
+    if (const auto fault = find_fault(lens)) {
+      result.distortion = about + *fault;
     } else {
-      result.distortion = about + "the model " + std::string(model.name) + " has lens distortion";
+      camera.projection.lens = lens;
     }
   }
   camera.width = static_cast<std::uint32_t>(record.width);
@@ -146,7 +129,7 @@ ImportedCamera place(const ImageRecord& image, const Cameras& cameras, const std
                      ", which the model does not have");
   ImportedCamera result = camera->second;
   result.camera.name = image.name;
-  if (!result.fault.empty() || !result.absence.empty()) return result;
+  if (!result.fault.empty()) return result;
   const auto finite = [](double x) { return std::isfinite(x); };
   if (!std::all_of(image.quaternion.begin(), image.quaternion.end(), finite) ||
       !std::all_of(image.translation.begin(), image.translation.end(), finite)) {

@@ -38,7 +38,7 @@ struct StageValue {
   Point S;
   V xx, xy, yx, yy;
 };
-HWY_INLINE StageValue stage_at(const StageForLanes& n, Point m) {
+HWY_INLINE StageValue single_stage_at(const StageForLanes& n, Point m) {
   const V q = hn::MulAdd(m.x, m.x, hn::Mul(m.y, m.y));
   const Polynomial N = polynomial_at(n.numerator, n.numerator_count, q);
   V L = N.value, slope = N.slope;
@@ -67,6 +67,20 @@ HWY_INLINE StageValue stage_at(const StageForLanes& n, Point m) {
   s.yx = hn::MulAdd(two_y, gx, hn::Mul(two_x, by));
   s.yy = hn::MulAdd(two_y, hn::Add(gy, by), A);
   return s;
+}
+
+/// The same of two stages, the first of which is radial.
+HWY_INLINE StageValue stage_at(const StageForLanes& n, Point m) {
+  if (n.before_count == 0) return single_stage_at(n, m);
+  const V q = hn::MulAdd(m.x, m.x, hn::Mul(m.y, m.y));
+  const auto [factor, slope] = polynomial_at(n.before, n.before_count, q);
+  const V of_x = hn::Mul(hn::Add(slope, slope), m.x), of_y = hn::Mul(hn::Add(slope, slope), m.y);
+  const V xx = hn::MulAdd(of_x, m.x, factor), yy = hn::MulAdd(of_y, m.y, factor);
+  const V across = hn::Mul(of_x, m.y);
+  const StageValue s = single_stage_at(n, {hn::Mul(m.x, factor), hn::Mul(m.y, factor)});
+  return {s.S, hn::MulAdd(s.xx, xx, hn::Mul(s.xy, across)),
+          hn::MulAdd(s.xx, across, hn::Mul(s.xy, yy)), hn::MulAdd(s.yx, xx, hn::Mul(s.yy, across)),
+          hn::MulAdd(s.yx, across, hn::Mul(s.yy, yy))};
 }
 
 /// The inverse of a Jacobian.
@@ -165,6 +179,7 @@ HWY_EXPORT(search);
 StageForLanes::StageForLanes(const lens::StageNumbers<double>& stage)
     : numerator_count(stage.numerator.size()),
       denominator_count(stage.denominator.size()),
+      before_count(stage.before.size()),
       p1(stage.p1),
       p2(stage.p2),
       s1(stage.s1),
@@ -173,6 +188,7 @@ StageForLanes::StageForLanes(const lens::StageNumbers<double>& stage)
       s4(stage.s4) {
   std::ranges::copy(stage.numerator, numerator.begin());
   std::ranges::copy(stage.denominator, denominator.begin());
+  std::ranges::copy(stage.before, before.begin());
 }
 
 void search_block(const StageForLanes& stage, const PlaneForLanes& plane, double first_column,

@@ -12,9 +12,9 @@ namespace fathom::fast {
 struct StageForLanes {
   explicit StageForLanes(const lens::StageNumbers<double>& stage);
 
-  static constexpr std::size_t most = 5;
-  std::array<double, most> numerator{}, denominator{};
-  std::size_t numerator_count, denominator_count;
+  static constexpr std::size_t most = 7;
+  std::array<double, most> numerator{}, denominator{}, before{};
+  std::size_t numerator_count, denominator_count, before_count;
   double p1, p2, s1, s2, s3, s4;
 };
 
