@@ -126,6 +126,8 @@ std::vector<NamedLens> lenses() {
       {"double sphere", {LensModel::double_sphere, {-0.25, 0.6}}},
       {"omnidirectional", {LensModel::omni, {0.875}}},
       {"mirror", {LensModel::omni, {1.5}}},
+      {"omnidirectional and bent", {LensModel::omni, {0.875, -0.05, 0.01, 0.002, -0.003}}},
+      {"bent mirror that ends", {LensModel::omni, {1.5, 0.05, 0, 0.01, 0.02}, 1.25}},
       {"equirectangular", {LensModel::equirectangular}},
       {"equirectangular that ends", {LensModel::equirectangular, {}, 1.25}},
       {"cylindrical", {LensModel::cylindrical}},

@@ -45,6 +45,8 @@ std::vector<NamedLens> lenses() {
       {"unified", {LensModel::eucm, {0.75, 0.5}}},
       {"double sphere", {LensModel::double_sphere, {-0.25, 0.625}}},
       {"omnidirectional", {LensModel::omni, {0.75}}},
+      {"omnidirectional and bent",
+       {LensModel::omni, {0.75, -0.0625, 0.015625, 0.0078125, -0.015625}}},
       {"equirectangular", {LensModel::equirectangular}},
       {"cylindrical", {LensModel::cylindrical}}};
 }
@@ -123,6 +125,8 @@ TEST(LensLaws, AModelGivesTheMapOfTheModelThatContainsIt) {
       {{LensModel::pinhole}, {LensModel::ucm, {0}}},
       {{LensModel::pinhole}, {LensModel::eucm, {0, 3}}},
       {{LensModel::pinhole}, {LensModel::omni, {0}}},
+      {{LensModel::opencv, {-0.25, 0.125, 0.01, 0.02}},
+       {LensModel::omni, {0, -0.25, 0.125, 0.01, 0.02}}},
       {{LensModel::ucm, {0.625}}, {LensModel::eucm, {0.625, 1}}},
       {{LensModel::fisheye_stereographic}, {LensModel::ucm, {0.5}}},
       {{LensModel::division, {-0.125}}, {LensModel::eucm, {0.5, 0.5}}},

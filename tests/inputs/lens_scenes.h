@@ -142,6 +142,11 @@ class LensCaseMaker {
       case LensModel::omni:
         n.root = oracle::LensNumbers::Root::omnidirectional;
         lens.distortion[0] = n.xi = below(13) / 8.0;
+        if (below(2) == 0) break;
+        lens.distortion[1] = n.above[0] = term();
+        lens.distortion[2] = n.above[1] = term() / 4;
+        lens.distortion[3] = n.p1 = small_term();
+        lens.distortion[4] = n.p2 = small_term();
         break;
       default:
         break;

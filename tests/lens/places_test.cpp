@@ -117,7 +117,10 @@ INSTANTIATE_TEST_SUITE_P(
                       NamedLens{"extended", {LensModel::eucm, {0.4, 7}, 2.5}},
                       NamedLens{"double_sphere", {LensModel::double_sphere, {-0.25, 0.6}}},
                       NamedLens{"omnidirectional", {LensModel::omni, {0.875}}},
-                      NamedLens{"mirror", {LensModel::omni, {1.5}}}),
+                      NamedLens{"mirror", {LensModel::omni, {1.5}}},
+                      NamedLens{"bent_mirror", {LensModel::omni, {1.5, 0.05, 0.01, 0.01, 0.02}}},
+                      NamedLens{"omnidirectional_and_bent",
+                                {LensModel::omni, {0.75, -0.02, 0.004, 0.002, -0.003}, 2}}),
     [](const auto& lens) { return std::string(lens.param.name); });
 
 }  // namespace

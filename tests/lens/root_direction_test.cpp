@@ -183,6 +183,50 @@ TEST_P(Roots, SeeWhatTheForwardModelShows) {
   }
 }
 
+TEST(OmniWithDistortion, SeesWhatTheOracleSees) {
+  int found = 0, beyond_90_degrees = 0;
+  for (std::uint64_t seed = 0; seed < 30 / testing::effort + 2; ++seed) {
+    std::mt19937_64 random(seed);
+    Lens lens = oracle::random_lens(random, LensModel::omni, std::array{0.02, 0.1, 0.3}[seed % 3]);
+    lens.distortion[0] = std::uniform_real_distribution<double>(0, 1.5)(random);
+    Projection camera = oracle::random_camera(random);
+    camera.fx /= 2;
+    camera.fy /= 2;
+    const Preimages preimages(camera, lens);
+    for (const auto& [u, v] :
+         {std::pair{640.5, 360.5}, {300.5, 200.25}, {100.25, 600.75}, {900.5, 12.5}}) {
+      const auto d = preimages.of(u, v);
+      const auto m =
+          oracle::preimage(camera, oracle::NamedParameters(lens), u, v, preimages.disc());
+      ASSERT_EQ(d.has_value(), m.has_value()) << seed << ' ' << u << ' ' << v;
+      if (!d) continue;
+      ++found;
+      const Direction exact = direction_of(lens, *m);
+      beyond_90_degrees += exact[2].sign() < 0 ? 1 : 0;
+      for (const long bits : {30L, 100L, 300L})
+        EXPECT_TRUE(may_contain(hull_of(d->enclosure(bits)), exact)) << bits;
+      EXPECT_TRUE(may_contain(hull_of(d->box()), exact));
+      for (const int offset : {4, 40, 100, 250, 380})
+        oracle::expect_signs_of_oracle(*d, exact, offset, random);
+    }
+  }
+  EXPECT_GT(found, 0);
+  if (testing::effort == 1) {
+    EXPECT_GT(beyond_90_degrees, 0);
+  }
+}
+
+// (ξ² − 1)·|m|² < 1; without distortion the same is asked of the sample.
+TEST(OmniWithDistortion, EndsWithTheRoot) {
+  const Lens lens{LensModel::omni, {1.25, 0.25}};
+  const double q = Preimages({}, lens).disc();
+  EXPECT_LT(Dyadic(0.5625) * Dyadic(q), Dyadic(1.0));
+  EXPECT_GE(Dyadic(0.5625) * Dyadic(std::nextafter(q, 2)), Dyadic(1.0));
+  const double r = std::sqrt(q) * (1 + 0.25 * q);
+  EXPECT_TRUE(Preimages({}, lens).of(r * (1 - 1e-15), 0.0).has_value());
+  EXPECT_FALSE(Preimages({}, lens).of(r * (1 + 1e-15), 0.0).has_value());
+}
+
 /// A sample at (u/f, v/f), whose direction is a positive multiple of integers.
 struct RationalRay {
   Lens lens;
@@ -206,6 +250,9 @@ const RationalRay rational_rays[] = {
     {{LensModel::omni, {0}}, 3, 1, 2, {1, 2, 3}},
     {{LensModel::omni, {0.5}}, 1, 2, 0, {1, 0, 0}},
     {{LensModel::omni, {1}}, 1, 1, 2, {1, 2, -2}},
+    {{LensModel::omni, {0, 0.125}}, 1, 1.625, 3.25, {1, 2, 1}},
+    {{LensModel::omni, {1, 0.125}}, 1, 1.625, 3.25, {1, 2, -2}},
+    {{LensModel::omni, {0.5, 0.0625, 0, 0.015625}}, 1, 2.5, 0.0625, {1, 0, 0}},
 };
 
 TEST(RationalRoots, TiesAreExact) {

@@ -138,6 +138,8 @@ TEST(WithoutRay, IsTheAreaBeyondTheEndOfARoot) {
   expect_share({LensModel::eucm, {1, 4}}, 30, Reason::end_of_model);
   expect_share({LensModel::double_sphere, {0.25, 0.75}}, 12, Reason::end_of_model);
   expect_share({LensModel::omni, {1.25}}, 12, Reason::end_of_model);
+  expect_share({LensModel::omni, {1.25, 0.1, 0, 0.01, 0.02}}, 11, Reason::end_of_model);
+  expect_share({LensModel::omni, {1.25, -0.4, 0, 0.01, 0.02}}, 25, Reason::fold);
   expect_share({LensModel::fisheye_orthographic, {}, 1.6}, 15, Reason::end_of_model);
 }
 
@@ -148,6 +150,7 @@ TEST(WithoutRay, IsTheAreaBeyondMaxRadiusOfARoot) {
   expect_share({LensModel::eucm, {0.75, 0.5}, 1.25}, 14, Reason::max_radius);
   expect_share({LensModel::double_sphere, {-0.25, 0.6}, 0.75}, 22, Reason::max_radius);
   expect_share({LensModel::omni, {0.75}, 1.25}, 25, Reason::max_radius);
+  expect_share({LensModel::omni, {0.75, 0.1, 0, 0.01, 0.02}, 1}, 28, Reason::max_radius);
 }
 
 TEST(WithoutRay, IsNoneWhereAllSamplesHaveARay) {

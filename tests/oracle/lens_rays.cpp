@@ -245,6 +245,10 @@ std::optional<Vector> bent_by_polynomial(const LensNumbers& lens, const Q& x, co
   return Vector{settled(m.x), settled(m.y), 1};
 }
 
+bool is_bent(const LensNumbers& lens) {
+  return lens.above != std::array<double, 4>{} || lens.p1 != 0 || lens.p2 != 0;
+}
+
 }  // namespace
 
 std::function<std::optional<Vector>(const Q& u, const Q& v)> lens_rays(const RayCamera& camera,
@@ -254,6 +258,10 @@ std::function<std::optional<Vector>(const Q& u, const Q& v)> lens_rays(const Ray
     const Q shift = camera.pixel_centre - Q(1, 2);
     const Q y = (v + shift - camera.cy) / camera.fy;
     const Q x = (u + shift - camera.cx - camera.skew * y) / camera.fx;
+    if (lens.root == LensNumbers::Root::omnidirectional && is_bent(lens)) {
+      const auto m = bent_by_polynomial(lens, x, y, greatest_q);
+      return m ? bent_by_root(lens, (*m)[0], (*m)[1]) : m;
+    }
     if (lens.root != LensNumbers::Root::none) return bent_by_root(lens, x, y);
     if (lens.omega) return in_field_of_view(*lens.omega, x, y);
     if (lens.panorama != LensNumbers::Panorama::none) return turned(lens.panorama, x, y);

@@ -20,7 +20,8 @@ struct LensNumbers {
   std::optional<double> division;
   /// The point m that the lens takes to the sample lies at the angle |m| from the axis.
   bool is_angle = false;
-  /// A formula with a square root instead, and its numbers.
+  /// A formula with a square root instead, and its numbers; of the omnidirectional model, at the
+  /// point that the lens takes to the sample.
   Root root = Root::none;
   double alpha = 0, beta = 1, xi = 0;
   /// The ω of FOV instead.

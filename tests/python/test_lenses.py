@@ -132,14 +132,15 @@ def test_models_with_a_formula_show_points_where_their_publications_do(model, nu
     check(fathom.Camera(*size, pixel_centre=0.5, world_to_camera=pose, model=model, params=params), project, 0.5)
 
 
-@pytest.mark.parametrize("xi", [0.25, 1.5])
-def test_opencv_takes_the_points_of_an_omnidirectional_camera_back_to_its_pixels(xi):
-    camera = fathom.Camera(*size, pixel_centre=0, world_to_camera=pose, model="OMNI", params=[60, 62, 32.5, 23.25, xi])
+@pytest.mark.parametrize("xi, distortion", [(0.25, []), (1.5, []), (1.1, [-0.1, 0.05, 0.002, -0.003])])
+def test_opencv_takes_the_points_of_an_omnidirectional_camera_back_to_its_pixels(xi, distortion):
+    camera = fathom.Camera(*size, pixel_centre=0, world_to_camera=pose, model="OMNI",
+                           params=[60, 62, 32.5, 23.25, xi, *distortion])
 
     def project(points):
         return cv2.omnidir.projectPoints(points[:, None], np.zeros(3), np.zeros(3),
                                          np.array([[60.0, 0, 32.5], [0, 62.0, 23.25], [0, 0, 1]]), xi,
-                                         np.zeros((1, 4)))[0].reshape(-1, 2)
+                                         np.array([distortion or [0, 0, 0, 0]], np.float64))[0].reshape(-1, 2)
     check(camera, project, 0)
 
 

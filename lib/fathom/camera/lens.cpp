@@ -42,7 +42,8 @@ constexpr std::array<Name, 12> of_rad_tan{"k0", "k1", "k2", "k3", "k4", "k5",
 // UCM has the first.
 constexpr std::array<Name, 2> of_eucm{"alpha", "beta"};
 constexpr std::array<Name, 2> of_double_sphere{"xi", "alpha"};
-constexpr std::array<Name, 1> of_omni{"xi"};
+constexpr std::array<Name, 5> of_omni{"xi", "k1", "k2", "p1", "p2"};
+constexpr std::array<std::size_t, 1> without_distortion{1};
 
 constexpr auto plane = RayFormula::plane, angle = RayFormula::angle, with_root = RayFormula::root,
                turn = RayFormula::turn, direct = RayFormula::direct,
@@ -93,7 +94,7 @@ constexpr std::array<LensModelEntry, 28> table{{
     {LensModel::ucm, "UCM", with_root, two_focal_lengths, std::span(of_eucm).first(1), {}},
     {LensModel::eucm, "EUCM", with_root, two_focal_lengths, of_eucm, {}},
     {LensModel::double_sphere, "DOUBLE_SPHERE", with_root, two_focal_lengths, of_double_sphere, {}},
-    {LensModel::omni, "OMNI", with_root, two_focal_lengths, of_omni, {}},
+    {LensModel::omni, "OMNI", with_root, two_focal_lengths, of_omni, without_distortion},
     {LensModel::equirectangular, "EQUIRECTANGULAR", turn, of_equirectangular, {}, {}},
     {LensModel::cylindrical, "CYLINDRICAL", turn, of_cylinder, {}, {}},
     {LensModel::table, "TABLE", direct, {}, {}, {}},
@@ -124,6 +125,12 @@ bool is_plane(LensModel model) {
 bool has_stage(LensModel model) {
   const RayFormula formula = entry_of(model).formula;
   return formula == RayFormula::plane || formula == RayFormula::angle;
+}
+
+bool has_stage_before_root(const Lens& lens) {
+  const auto is_not_zero = [](double value) { return value != 0; };
+  return lens.model == LensModel::omni &&
+         std::any_of(lens.distortion.begin() + 1, lens.distortion.end(), is_not_zero);
 }
 
 bool has_one_focal_length(const LensModelEntry& model) {

@@ -77,6 +77,8 @@ struct LensModelEntry {
   std::span<const std::size_t> shorter_lists;
 };
 
+struct Lens;
+
 /// All models, in the order of LensModel.
 std::span<const LensModelEntry> lens_models();
 const LensModelEntry& entry_of(LensModel model);
@@ -87,6 +89,8 @@ std::optional<LensModel> lens_model_named(std::string_view name);
 bool is_plane(LensModel model);
 /// Whether the model has a stage, and a point m before it.
 bool has_stage(LensModel model);
+/// Whether the lens has a stage before a formula with a root: OMNI with distortion.
+bool has_stage_before_root(const Lens& lens);
 /// Whether the model has f in the place of fx and fy, and no skew.
 bool has_one_focal_length(const LensModelEntry& model);
 /// Whether the model has fx and fy, and skew.

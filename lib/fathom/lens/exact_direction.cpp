@@ -16,6 +16,8 @@ ExactDirection::ExactDirection(OneRootDirection direction) : direction_(std::mov
 
 ExactDirection::ExactDirection(NestedRootDirection direction) : direction_(std::move(direction)) {}
 
+ExactDirection::ExactDirection(BentRootDirection direction) : direction_(std::move(direction)) {}
+
 ExactDirection::ExactDirection(TurnDirection direction) : direction_(std::move(direction)) {}
 
 const std::array<Interval, 3>& ExactDirection::box() const {

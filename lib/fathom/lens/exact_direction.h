@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "fathom/lens/angle_direction.h"
+#include "fathom/lens/bent_root_direction.h"
 #include "fathom/lens/direction_words.h"
 #include "fathom/lens/plane_direction.h"
 #include "fathom/lens/root_direction.h"
@@ -32,6 +33,7 @@ class ExactDirection {
   explicit ExactDirection(AngleDirection direction);
   explicit ExactDirection(OneRootDirection direction);
   explicit ExactDirection(NestedRootDirection direction);
+  explicit ExactDirection(BentRootDirection direction);
   explicit ExactDirection(TurnDirection direction);
 
   /// Binary64 intervals that contain d: the filter that should be asked first. d has z = 1 for
@@ -57,7 +59,7 @@ class ExactDirection {
 
  private:
   std::variant<RationalDirection, PolynomialDirection, AngleDirection, OneRootDirection,
-               NestedRootDirection, TurnDirection>
+               NestedRootDirection, BentRootDirection, TurnDirection>
       direction_;
 };
 

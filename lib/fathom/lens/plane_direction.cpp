@@ -134,12 +134,15 @@ struct Polynomials {
   ExactPolynomial f, h;
 };
 
-template <class Form>
-Polynomials polynomials_of(const ExactStage& stage, const DistortedPoint& y, const Form& form) {
+Elimination<ExactPolynomial> eliminate_exactly(const ExactStage& stage, const DistortedPoint& y) {
   const auto constant = [](const Dyadic& x) { return ExactPolynomial(x); };
-  const Elimination<ExactPolynomial> e =
-      eliminate(as_polynomials(stage), y.in(constant), ExactPolynomial::variable());
-  return {primitive(e.f), primitive(form_at(converted(form, constant), e.direction))};
+  return eliminate(as_polynomials(stage), y.in(constant), ExactPolynomial::variable());
+}
+
+Polynomials polynomials_of(const ExactStage& stage, const DistortedPoint& y,
+                           const DirectionPolynomial& polynomial) {
+  const Elimination<ExactPolynomial> e = eliminate_exactly(stage, y);
+  return {primitive(e.f), primitive(polynomial.at(e.direction))};
 }
 
 /// Narrows (0, limit] to an interval whose ends differ by the factor 2 at most. nullopt if F is
@@ -150,7 +153,7 @@ std::optional<DyadicInterval> isolate_root(const PolynomialStage& stage, const D
   };
   Dyadic high = stage.limit.value_or(1.0);
   if (!stage.limit) {
-    const ExactPolynomial f = polynomials_of(stage.exact, y, ExactVector3{}).f;
+    const ExactPolynomial f = eliminate_exactly(stage.exact, y).f;
     if (f.sign_at_infinity() == Sign::negative) return std::nullopt;
     while (!is_beyond(high)) high = high.scaled(1);
   } else if (!is_beyond(high)) {
@@ -223,17 +226,32 @@ bool has_no_z(const std::array<Dyadic, 6>& form) {
   return form[2].is_zero() && form[4].is_zero() && form[5].is_zero();
 }
 
-/// The sign of a form at the direction whose root lies in q.
+/// A linear or quadratic form.
 template <class Form>
+class FormPolynomial : public DirectionPolynomial {
+ public:
+  explicit FormPolynomial(const Form& form) : form_(form) {}
+
+  [[nodiscard]] BigInterval at(const std::array<BigInterval, 3>& d, long bits) const override {
+    return form_at(converted(form_, to_bits(bits)), d);
+  }
+  [[nodiscard]] ExactPolynomial at(const std::array<ExactPolynomial, 3>& d) const override {
+    return form_at(converted(form_, [](const Dyadic& x) { return ExactPolynomial(x); }), d);
+  }
+
+ private:
+  const Form& form_;
+};
+
+/// The sign of a polynomial at the direction whose root lies in q.
 Sign sign_at_root(const ExactStage& stage, const DistortedPoint& y, DyadicInterval q,
-                  const Form& form) {
+                  const DirectionPolynomial& polynomial) {
   q = RootNarrowing(stage, y, q).to(first_bits);
-  const auto enclosed = converted(form, to_bits(first_bits));
   const EnclosedElimination elimination(stage, y, first_bits + spare_bits);
-  const Sign sign = form_at(enclosed, elimination.at(q).direction).sign();
+  const Sign sign = polynomial.at(elimination.at(q).direction, first_bits + spare_bits).sign();
   if (sign != Sign::zero) return sign;
 
-  const auto [f, h] = polynomials_of(stage, y, form);
+  const auto [f, h] = polynomials_of(stage, y, polynomial);
   if (h.is_zero()) return Sign::zero;
   const long bound = zero_bound_bits(f, h);
   for (long bits = 2 * first_bits;; bits *= 2) {
@@ -246,14 +264,19 @@ Sign sign_at_root(const ExactStage& stage, const DistortedPoint& y, DyadicInterv
 
 }  // namespace
 
+Sign PolynomialDirection::sign_of(const DirectionPolynomial& polynomial) const {
+  return sign_at_root(stage_->exact, y_, q_, polynomial);
+}
+
 // A first stage moves m along its direction from 0: the point before the second stage has the signs
 // of forms without z, and is the root of a polynomial of degree 8, not of more than 100.
 template <class Form>
 Sign PolynomialDirection::sign_of_form(const Form& form) const {
   const ExactStage& exact = stage_->exact;
-  if (!exact.is_double() || !has_no_z(form)) return sign_at_root(exact, y_, q_, form);
+  const FormPolynomial polynomial(form);
+  if (!exact.is_double() || !has_no_z(form)) return sign_of(polynomial);
   const DyadicInterval image{image_of_circle(exact, q_.low), image_of_circle(exact, q_.high)};
-  return sign_at_root(second_stage(exact), y_, image, form);
+  return sign_at_root(second_stage(exact), y_, image, polynomial);
 }
 
 Sign PolynomialDirection::sign_of(const ExactVector3& form) const {

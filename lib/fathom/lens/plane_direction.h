@@ -11,6 +11,10 @@
 #include "fathom/numeric/dyadic.h"
 #include "fathom/numeric/exact_polynomial.h"
 
+namespace fathom {
+class BigInterval;
+}
+
 /// Directions (m, 1) of points m of the plane z = 1 that are rational, or roots of a polynomial.
 namespace fathom::lens {
 
@@ -38,6 +42,16 @@ class RationalDirection {
   std::array<Interval, 3> box_;
 };
 
+/// A homogeneous polynomial in the components of a direction, in the arithmetics that show its
+/// sign.
+class DirectionPolynomial {
+ public:
+  virtual ~DirectionPolynomial() = default;
+  /// In intervals of so many bits.
+  [[nodiscard]] virtual BigInterval at(const std::array<BigInterval, 3>& d, long bits) const = 0;
+  [[nodiscard]] virtual ExactPolynomial at(const std::array<ExactPolynomial, 3>& d) const = 0;
+};
+
 /// The preimage m of a point under a stage, as the direction (m, 1). |m|² is the root of a
 /// polynomial (elimination.h), and a form at the direction is the value of another polynomial
 /// there.
@@ -53,6 +67,7 @@ class PolynomialDirection {
 
   [[nodiscard]] Sign sign_of(const ExactVector3& form) const;
   [[nodiscard]] Sign sign_of(const QuadraticForm& form) const;
+  [[nodiscard]] Sign sign_of(const DirectionPolynomial& polynomial) const;
   /// Encloses (m, 1) with a relative precision of about `bits`; m relative to |m|.
   [[nodiscard]] std::array<DyadicInterval, 3> enclosure(long bits) const;
   /// (m, 1) times a positive number, in double-words; nullopt if their bounds are too wide.

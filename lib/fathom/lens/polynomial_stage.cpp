@@ -127,8 +127,16 @@ double greatest_disc(const StageNumbers<double>& numbers) {
 
 namespace {
 
+/// Of OMNI: the greatest binary64 number q such that (ξ² − 1)·q < 1; +∞ if there is no bound.
+double disc_of_root(double xi) {
+  const Dyadic slope = Dyadic(xi) * Dyadic(xi) - Dyadic(1.0);
+  if (slope.sign() != Sign::positive) return infinity;
+  return greatest_before_positive_root(ExactPolynomial({Dyadic(1.0), -slope})).value_or(infinity);
+}
+
 double disc_of(const Lens& lens, const StageNumbers<double>& stage) {
   const double of_stage = greatest_disc(stage);
+  if (lens.model == LensModel::omni) return std::min(of_stage, disc_of_root(lens.distortion[0]));
   return is_plane(lens.model) ? of_stage : std::min(of_stage, end_of_angles);
 }
 
@@ -142,7 +150,7 @@ PolynomialStage::PolynomialStage(const Lens& lens)
       exact(numbers.in([](double x) { return Dyadic(x); })),
       disc(disc_of(lens, numbers)) {
   if (std::isfinite(disc)) limit = disc;
-  if (!std::isfinite(lens.max_radius)) return;
+  if (!std::isfinite(lens.max_radius) || lens.model == LensModel::omni) return;
   const Dyadic square = Dyadic(lens.max_radius) * Dyadic(lens.max_radius);
   if (!limit || square < *limit) limit = square;
 }

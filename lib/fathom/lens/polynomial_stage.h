@@ -24,7 +24,7 @@ inline constexpr double end_of_angles = 0x1.3bd3cc9be45dep3;
 
 /// A stage and the disc on which it is used, prepared for preimages.
 struct PolynomialStage {
-  /// Of a model that has a stage.
+  /// Of a lens that has a stage.
   explicit PolynomialStage(const Lens& lens);
 
   StageNumbers<double> numbers;

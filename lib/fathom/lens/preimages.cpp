@@ -61,7 +61,7 @@ bool is_straight(const AnyRootFormula<Dyadic>& formula) {
 }
 
 PolynomialStage prepared_stage(const Lens& lens) {
-  return PolynomialStage(has_stage(lens.model) ? lens : Lens());
+  return PolynomialStage(has_stage(lens.model) || has_stage_before_root(lens) ? lens : Lens());
 }
 
 }  // namespace
@@ -92,6 +92,7 @@ std::optional<ExactDirection> Preimages::of(const Dyadic& u, const Dyadic& v) co
   if (lens_.directions) {
     throw UsageError("the lens TABLE: has directions of the centres of its pixels only");
   }
+  if (has_stage_before_root(lens_)) return by_root_before_stage(u, v);
   if (roots_) return by_root(plane_.at(u, v));
   if (is_panorama(lens_.model)) return by_turns(plane_.at(u, v));
   if (lens_.model == LensModel::fov) return by_field_of_view(plane_.at(u, v));
@@ -117,6 +118,18 @@ std::optional<ExactDirection> Preimages::by_root(const DistortedPoint& y) const 
         return kept_within(lens_.max_radius, RootDirection(std::move(d)));
       },
       *roots_);
+}
+
+// The axis is rational.
+std::optional<ExactDirection> Preimages::by_root_before_stage(const Dyadic& u,
+                                                              const Dyadic& v) const {
+  std::optional<PlaneDirection> m = find_before_stage(u, v);
+  if (!m) return std::nullopt;
+  if (auto* const axis = std::get_if<RationalDirection>(&*m))
+    return kept_within(lens_.max_radius, std::move(*axis));
+  return kept_within(lens_.max_radius,
+                     BentRootDirection(std::get<PolynomialDirection>(std::move(*m)),
+                                       std::get<RootFormula<Dyadic>>(*roots_)));
 }
 
 namespace {

@@ -44,14 +44,14 @@ class Preimages {
 
   [[nodiscard]] const Lens& lens() const { return lens_; }
 
-  /// The stage S and its disc, of a model that has one; nullptr of other models. A sample sees by
+  /// The stage S and its disc, of a lens that has one; nullptr of other lenses. A sample sees by
   /// the m in the disc with S(m) = y, where y is the point that plane_map() makes of the sample.
   [[nodiscard]] const PolynomialStage* stage() const {
-    return has_stage(lens_.model) ? &stage_ : nullptr;
+    return has_stage(lens_.model) || has_stage_before_root(lens_) ? &stage_ : nullptr;
   }
   /// (m, 1) with that m, of a sample as of() takes it; nullopt if there is none in the disc. It is
   /// the direction itself of a model of the plane; of a fisheye, |m| is the angle to the z axis.
-  /// Needs    a model that has a stage.
+  /// Needs    a lens that has a stage.
   [[nodiscard]] std::optional<ExactDirection> before_stage(const Dyadic& u, const Dyadic& v) const;
   /// The rows of the matrix that takes (u, v, 1) to a positive multiple of (y, 1), exactly; where
   /// the third component is not positive, the sample sees nothing.
@@ -70,6 +70,8 @@ class Preimages {
                                                                 const Dyadic& v) const;
   [[nodiscard]] ExactDirection lifted(PlaneDirection m) const;
   [[nodiscard]] std::optional<ExactDirection> by_root(const DistortedPoint& y) const;
+  [[nodiscard]] std::optional<ExactDirection> by_root_before_stage(const Dyadic& u,
+                                                                   const Dyadic& v) const;
   [[nodiscard]] std::optional<ExactDirection> by_field_of_view(const DistortedPoint& y) const;
   [[nodiscard]] std::optional<ExactDirection> by_turns(const DistortedPoint& sample) const;
 

@@ -60,6 +60,8 @@ StageNumbers<double> stage_of(const Lens& lens) {
       return {polynomial({d[0], d[1], d[2], d[3]}), {1}, 0, 0, 0, 0, 0, 0};
     case LensModel::thin_prism_fisheye:
       return {polynomial({d[0], d[1], d[4], d[5]}), {1}, d[2], d[3], d[6], 0, d[7], 0};
+    case LensModel::omni:
+      return {polynomial({d[1], d[2]}), {1}, d[3], d[4], 0, 0, 0, 0};
     case LensModel::rad_tan_thin_prism_fisheye:
       return in_two_stages(d);
     case LensModel::fov:
@@ -73,7 +75,6 @@ StageNumbers<double> stage_of(const Lens& lens) {
     case LensModel::ucm:
     case LensModel::eucm:
     case LensModel::double_sphere:
-    case LensModel::omni:
     case LensModel::table:
       break;
   }

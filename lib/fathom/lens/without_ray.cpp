@@ -109,6 +109,17 @@ std::optional<Rim> rim_of_division(const Lens& lens) {
   return std::isfinite(end) ? std::optional(Rim{Reason::end_of_model, end}) : std::nullopt;
 }
 
+/// The radius is that of m.
+std::optional<Rim> rim_of_stage_before_root(const StageNumbers<double>& stage,
+                                            const RootProfile& profile, double farthest,
+                                            const Lens& lens) {
+  constexpr double far = 0x1p40;
+  const std::optional<double> radius = profile.radius_at(lens.max_radius, far);
+  std::optional<Rim> rim = rim_of(stage, farthest, radius.value_or(profile.end()));
+  if (rim && rim->reason == Reason::max_radius && !radius) rim->reason = Reason::end_of_model;
+  return rim;
+}
+
 // At the angle θ from the axis tan θ = tan(ωr)/(2·tan(ω/2)); ωr < π/2.
 std::optional<Rim> rim_of_field_of_view(const Lens& lens) {
   const double omega = std::abs(lens.distortion[0]);
@@ -279,7 +290,8 @@ std::optional<WithoutRay> find_samples_without_ray(const Projection& projection,
   if (projection.lens->directions) return of_table(*projection.lens->directions);
   if (is_panorama(projection.lens->model)) return of_panorama(projection, width, height);
   const Lens& lens = *projection.lens;
-  const bool is_by_stage = has_stage(lens.model);
+  const bool is_before_root = has_stage_before_root(lens);
+  const bool is_by_stage = has_stage(lens.model) || is_before_root;
   const StageNumbers<double> stage = stage_of(is_by_stage ? lens : Lens());
   const Forward forward(projection, is_by_stage ? &stage : nullptr);
   double farthest = 0;
@@ -287,9 +299,10 @@ std::optional<WithoutRay> find_samples_without_ray(const Projection& projection,
     for (const double v : {0.0, static_cast<double>(height)})
       farthest = std::max(farthest, forward.distance_from_axis(u, v));
   const auto rim = [&] {
+    const auto roots = root_formula(lens);
+    if (is_before_root) return rim_of_stage_before_root(stage, RootProfile(*roots), farthest, lens);
     if (is_by_stage) return rim_of_stage(stage, farthest, lens);
     if (lens.model == LensModel::fov) return rim_of_field_of_view(lens);
-    const auto roots = root_formula(lens);
     return roots ? rim_of_root(RootProfile(*roots), farthest, lens) : rim_of_division(lens);
   }();
   if (!rim) return std::nullopt;
@@ -320,7 +333,7 @@ std::string why_no_ray(const Projection& projection, std::uint32_t column, std::
   if (preimages.of_pixel(column, row)) return "it is beyond max_radius";
   if (endless.directions) return "the table has no direction for this pixel";
   if (is_panorama(endless.model)) return "it is beyond a pole, 90 degrees above or below";
-  if (!has_stage(endless.model)) return "the model ends nearer to its axis";
+  if (preimages.stage() == nullptr) return "the model ends nearer to its axis";
   if (is_behind_sensor(preimages, column, row)) return "it is behind the tilted sensor";
   const bool is_last_angle = !is_plane(endless.model) && preimages.disc() == end_of_angles;
   return is_last_angle ? "it is 180 degrees or more from the axis"

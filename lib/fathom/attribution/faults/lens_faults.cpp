@@ -62,7 +62,8 @@ class ForwardLens {
  public:
   explicit ForwardLens(const Camera& camera)
       : lens_(*camera.projection.lens),
-        stage_(lens::stage_of(has_stage(lens_.model) ? lens_ : Lens())),
+        stage_(lens::stage_of(has_stage(lens_.model) || has_stage_before_root(lens_) ? lens_
+                                                                                     : Lens())),
         disc_(lens::Preimages(camera.projection, lens_).disc()) {
     if (const auto formula = lens::root_formula(lens_)) roots_.emplace(*formula);
   }
@@ -110,7 +111,11 @@ class ForwardLens {
     if (size == 0) return Point{0, 0};
     const std::optional<double> radius = roots_->radius_at(std::atan(size), farthest);
     if (!radius) return std::nullopt;
-    return Point{x / size * *radius, y / size * *radius};
+    const Point m{x / size * *radius, y / size * *radius};
+    if (!has_stage_before_root(lens_)) return m;
+    if (*radius * *radius > disc_) return std::nullopt;
+    const auto [x_d, y_d] = lens::stage_value<double>(stage_, m[0], m[1]);
+    return Point{x_d, y_d};
   }
 
   const Lens& lens_;

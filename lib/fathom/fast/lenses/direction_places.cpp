@@ -90,7 +90,7 @@ DirectionModel::DirectionModel(const lens::Preimages& the_preimages, const Proje
                  ? CertifiedPlane()
                  : CertifiedPlane(the_preimages, projection, grid.width, grid.height)),
       limit_{the_preimages.cosine_of_end()} {
-  if (the_preimages.stage() != nullptr) angles_.emplace(the_preimages, projection, grid);
+  if (the_preimages.stage() != nullptr) before_stage_.emplace(the_preimages, projection, grid);
   if (const auto exact = lens::root_formula(*projection.lens))
     roots_ = lens::converted(*exact, [](const Dyadic& x) { return to_certified(enclose(x)); });
   if (model_ != LensModel::fov) return;
@@ -115,26 +115,30 @@ std::vector<DirectionModel::Sample> DirectionModel::collected(std::uint32_t tile
 }
 
 std::vector<DirectionModel::Sample> DirectionModel::of_tile(std::uint32_t tile) const {
-  if (angles_) return fisheye_tile(tile);
+  if (before_stage_) return tile_by_stage(tile);
   return collected(tile, [this](std::uint32_t column, std::uint32_t row) {
     if (table_ != nullptr) return in_table(column, row);
     if (is_panorama(model_)) return turned(column, row);
     if (model_ == LensModel::fov) return in_field_of_view(column, row);
-    return roots_ ? by_root(column, row) : divided(column, row);
+    if (!roots_) return divided(column, row);
+    return by_root(plane_.at(column + 0.5, row + 0.5), plane_.error(), column, row);
   });
 }
 
-// A step of m moves d by at most its length, because sin θ/θ ≤ 1; both components of m err.
-std::vector<DirectionModel::Sample> DirectionModel::fisheye_tile(std::uint32_t tile) const {
+// A step of m moves the d of a fisheye by at most its length, because sin θ/θ ≤ 1; both components
+// of m err.
+std::vector<DirectionModel::Sample> DirectionModel::tile_by_stage(std::uint32_t tile) const {
   std::vector<double> x(TileShape::samples), y(TileShape::samples);
-  const double of_m = std::numbers::sqrt2 * up * angles_->find(tile, {x, y}).error;
+  const double of_m = before_stage_->find(tile, {x, y}).error;
+  const double of_angle = std::numbers::sqrt2 * up * of_m;
   const PixelBox area = grid_.area(tile);
   return collected(tile, [&](std::uint32_t column, std::uint32_t row) {
     const std::size_t i = TileShape::index(column - area.first_column, row - area.first_row);
     if (!(x[i] == x[i])) return std::optional<ApproximateDirection>();
+    if (roots_) return by_root({x[i], y[i]}, of_m, column, row);
     if (!(x[i] * x[i] + y[i] * y[i] < end_of_series)) return exactly_at(column, row);
     const ApproximateDirection d = lifted(x[i], y[i]);
-    return std::optional(ApproximateDirection{d.d, (d.error + of_m) * up});
+    return std::optional(ApproximateDirection{d.d, (d.error + of_angle) * up});
   });
 }
 
@@ -218,11 +222,11 @@ SineAndCosine of_turns(double turns) {
 }  // namespace
 
 // There is a ray where s > 0. Each operation carries the bound of its operands.
-std::optional<ApproximateDirection> DirectionModel::by_root(std::uint32_t column,
+std::optional<ApproximateDirection> DirectionModel::by_root(const std::array<double, 2>& point,
+                                                            double error, std::uint32_t column,
                                                             std::uint32_t row) const {
-  const auto [x, y] = plane_.at(column + 0.5, row + 0.5);
-  const double e = plane_.error();
-  const std::optional<Bounded> bounded = bounded_direction(*roots_, {{x, e}, {y, e}, {1, 0}});
+  const std::optional<Bounded> bounded =
+      bounded_direction(*roots_, {{point[0], error}, {point[1], error}, {1, 0}});
   if (!bounded) return std::nullopt;
   return kept(*bounded, column, row);
 }

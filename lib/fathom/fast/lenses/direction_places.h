@@ -61,7 +61,10 @@ class DirectionModel {
                                                              std::uint32_t row) const;
   [[nodiscard]] std::optional<ApproximateDirection> divided(std::uint32_t column,
                                                             std::uint32_t row) const;
-  [[nodiscard]] std::optional<ApproximateDirection> by_root(std::uint32_t column,
+  /// Of the point at which the formula is used, before a stage, with a bound on the errors of its
+  /// coordinates.
+  [[nodiscard]] std::optional<ApproximateDirection> by_root(const std::array<double, 2>& point,
+                                                            double error, std::uint32_t column,
                                                             std::uint32_t row) const;
   [[nodiscard]] std::optional<ApproximateDirection> in_field_of_view(std::uint32_t column,
                                                                      std::uint32_t row) const;
@@ -77,7 +80,8 @@ class DirectionModel {
   [[nodiscard]] std::optional<ApproximateDirection> kept(const ApproximateDirection& direction,
                                                          std::uint32_t column,
                                                          std::uint32_t row) const;
-  [[nodiscard]] std::vector<Sample> fisheye_tile(std::uint32_t tile) const;
+  /// Of a fisheye, or of a lens with a stage before the root.
+  [[nodiscard]] std::vector<Sample> tile_by_stage(std::uint32_t tile) const;
   template <class DirectionAt>
   [[nodiscard]] std::vector<Sample> collected(std::uint32_t tile, const DirectionAt& at) const;
 
@@ -93,8 +97,8 @@ class DirectionModel {
   /// Of a model of division or with a root, or FOV: the map to (x_d, y_d).
   CertifiedPlane plane_;
   AngleLimit limit_;
-  /// Of a fisheye: the points whose |m| is the angle.
-  std::optional<PlanePlaces> angles_;
+  /// Of a lens with a stage: the points before it. Of a fisheye, |m| is the angle.
+  std::optional<PlanePlaces> before_stage_;
 };
 
 /// The places of a tile in one view.
