@@ -362,7 +362,8 @@ TEST(CameraJson, LensesAreWrittenAsTheyAreRead) {
     Camera camera = with("");
     camera.projection.fy = camera.projection.fx;
     Lens& lens = camera.projection.lens.emplace(Lens{model.model});
-    const double least = model.formula == RayFormula::root ? 0.1 : -0.6;
+    const bool has_ranges = model.formula == RayFormula::root || model.model == LensModel::ftheta;
+    const double least = has_ranges ? 0.1 : -0.6;
     for (std::size_t i = 0; i < model.distortion.size(); ++i)
       lens.distortion[i] = least + 0.1 * static_cast<double>(i);
     const auto again = [&] { return read(to_json(camera)).at(0).projection; };

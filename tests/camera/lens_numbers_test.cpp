@@ -45,7 +45,7 @@ TEST(LensNumbers, EveryModelTakesItsOwnCount) {
 
 // As the specification has them; files, importers and C take keys and lists from the same table.
 TEST(LensModels, HaveTheirParametersInOrder) {
-  const std::array<std::string, 28> rows{
+  const std::array<std::string, 29> rows{
       "SIMPLE_PINHOLE f cx cy",
       "PINHOLE fx fy cx cy",
       "SIMPLE_RADIAL f cx cy k",
@@ -71,6 +71,7 @@ TEST(LensModels, HaveTheirParametersInOrder) {
       "EUCM fx fy cx cy alpha beta",
       "DOUBLE_SPHERE fx fy cx cy xi alpha",
       "OMNI fx fy cx cy xi k1 k2 p1 p2",
+      "FTHETA fx fy cx cy p0 p1 p2 p3 p4 p5",
       "EQUIRECTANGULAR w h cx cy",
       "CYLINDRICAL w fy cx cy",
       "TABLE"};
@@ -114,6 +115,11 @@ TEST(LensNumbers, FaultsAreNamed) {
   EXPECT_EQ(fault("FOV", {std::nextafter(-3.141592653589793, -4)}),
             "omega is not between -pi and pi");
   EXPECT_EQ(fault("FOV", {3.141592653589793}), "none");
+  EXPECT_EQ(fault("FTHETA", {-3.5, 1, 0, 0, 0, 0}), "p0 is not between -pi and pi");
+  for (const std::vector<double>& falls :
+       {std::vector<double>{0, 0, 0, 0, 0, 0}, {1, -1, 1, 1, 1, 1}, {0, 0, 0, -1e-300, 1, 0}})
+    EXPECT_EQ(fault("FTHETA", falls), "the angle does not grow with the distance from the axis");
+  EXPECT_EQ(fault("FTHETA", {0, 0, 0, 1e-300, -1, 0}), "none");
   EXPECT_EQ(fault("UCM", {-1e-300}), "alpha is not between 0 and 1");
   EXPECT_EQ(fault("EUCM", {std::nextafter(1.0, 2.0), 1}), "alpha is not between 0 and 1");
   EXPECT_EQ(fault("EUCM", {1, 0}), "beta is not greater than 0");

@@ -54,7 +54,8 @@ TEST_P(LensAdversaries, AreTheSame) {
   EXPECT_GT(sum.exact_setups, often);
   // Random edges pass through no sample of a fisheye, and few of a model with a root.
   const RayFormula formula = entry_of(model).formula;
-  if (formula != RayFormula::angle && formula != RayFormula::root) {
+  if (formula != RayFormula::angle && formula != RayFormula::angle_of_sample &&
+      formula != RayFormula::root) {
     EXPECT_GT(sum.edges.exact, often);
   }
   EXPECT_GT(sum.rounding.interval, 5U);
@@ -128,6 +129,8 @@ std::vector<NamedLens> lenses() {
       {"mirror", {LensModel::omni, {1.5}}},
       {"omnidirectional and bent", {LensModel::omni, {0.875, -0.05, 0.01, 0.002, -0.003}}},
       {"bent mirror that ends", {LensModel::omni, {1.5, 0.05, 0, 0.01, 0.02}, 1.25}},
+      {"angle by a polynomial", {LensModel::ftheta, {0, 1, 0.125, -0.25, 0.0625, -0.01}}},
+      {"angle on both sides that ends", {LensModel::ftheta, {-0.25, 1.25, 0.1}, 1.25}},
       {"equirectangular", {LensModel::equirectangular}},
       {"equirectangular that ends", {LensModel::equirectangular, {}, 1.25}},
       {"cylindrical", {LensModel::cylindrical}},

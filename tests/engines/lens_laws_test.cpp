@@ -47,6 +47,7 @@ std::vector<NamedLens> lenses() {
       {"omnidirectional", {LensModel::omni, {0.75}}},
       {"omnidirectional and bent",
        {LensModel::omni, {0.75, -0.0625, 0.015625, 0.0078125, -0.015625}}},
+      {"angle by a polynomial", {LensModel::ftheta, {-0.0625, 1, 0.125, -0.03125}}},
       {"equirectangular", {LensModel::equirectangular}},
       {"cylindrical", {LensModel::cylindrical}}};
 }
@@ -122,6 +123,7 @@ TEST(LensLaws, AModelGivesTheMapOfTheModelThatContainsIt) {
        {LensModel::rad_tan_thin_prism_fisheye, {-0.05, 0.01, 0.002, -0.001}}},
       {{LensModel::thin_prism_fisheye, {0, 0, 0.01, 0.02, 0, 0, 0.03, -0.01}},
        {LensModel::rad_tan_thin_prism_fisheye, {0, 0, 0, 0, 0, 0, 0.02, 0.01, 0.03, 0, -0.01}}},
+      {{LensModel::fisheye}, {LensModel::ftheta, {0, 1}}},
       {{LensModel::pinhole}, {LensModel::ucm, {0}}},
       {{LensModel::pinhole}, {LensModel::eucm, {0, 3}}},
       {{LensModel::pinhole}, {LensModel::omni, {0}}},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -87,6 +88,16 @@ class LensCaseMaker {
       case LensModel::fov:
         n.omega = lens.distortion[0] = (below(2) == 0 ? 1 : -1) * (1 + below(20)) / 8.0;
         break;
+      case LensModel::ftheta: {
+        n.angle = {below(2) == 0 ? 0 : -below(3) / 4.0,
+                   0.5 + below(5) / 4.0,
+                   term() / 2,
+                   term() / 4,
+                   term() / 8,
+                   term() / 16};
+        std::copy(n.angle->begin(), n.angle->end(), lens.distortion.begin());
+        break;
+      }
       case LensModel::simple_division:
       case LensModel::division:
         lens.distortion[0] = term();
@@ -195,7 +206,7 @@ class LensCaseMaker {
     // Corners of few bits lie on no ray of a fisheye but the axis, and on few of FOV and of a model
     // with a root. Edges in the plane of the ray and the axis meet it.
     const bool is_meridian =
-        (n.is_angle || n.omega || n.root != oracle::LensNumbers::Root::none) && q > 0;
+        (n.is_angle || n.omega || n.angle || n.root != oracle::LensNumbers::Root::none) && q > 0;
     p.skew = 0;
     p.pixel_centre = 0.5;
     p.cx = this->below(6) + 0.5 - p.fx * gx;

@@ -111,6 +111,8 @@ INSTANTIATE_TEST_SUITE_P(
                                 {LensModel::rad_tan_thin_prism_fisheye,
                                  {0.02, -0.005, 0.001, -0.0005, 0.0001, -0.00002, 0.003, -0.002,
                                   0.002, -0.001, 0.003, 0.001}}},
+                      NamedLens{"ftheta", {LensModel::ftheta, {0, 1, 0.1, -0.05, 0.01, -0.001}}},
+                      NamedLens{"ftheta_on_both_sides", {LensModel::ftheta, {-0.5, 1.5}, 1.5}},
                       NamedLens{"orthographic", {LensModel::fisheye_orthographic}},
                       NamedLens{"equisolid", {LensModel::fisheye_equisolid}},
                       NamedLens{"unified", {LensModel::ucm, {0.625}}},

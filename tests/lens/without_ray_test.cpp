@@ -131,6 +131,12 @@ TEST(WithoutRay, IsTheAreaOfAFieldOfViewBeyondItsEnds) {
   expect_share({LensModel::fov, {0}, 0.5}, 40, Reason::max_radius);
 }
 
+TEST(WithoutRay, IsTheAreaWhereAnAngleEnds) {
+  expect_share({LensModel::ftheta, {0, 1, -0.375}}, 17, Reason::end_of_model);
+  expect_share({LensModel::ftheta, {0.25, 1.5}}, 12, Reason::end_of_model);
+  expect_share({LensModel::ftheta, {-0.25, 1, 0.125}, 0.75}, 25, Reason::max_radius);
+}
+
 TEST(WithoutRay, IsTheAreaBeyondTheEndOfARoot) {
   expect_share({LensModel::fisheye_orthographic}, 15, Reason::end_of_model);
   expect_share({LensModel::fisheye_equisolid}, 8, Reason::end_of_model);

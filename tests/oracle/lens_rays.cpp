@@ -227,6 +227,24 @@ std::optional<Vector> in_field_of_view(double signed_omega, const Q& x, const Q&
   return Vector{x * aside, y * aside, 2 * of_half.sine / of_half.cosine * of_ray.cosine};
 }
 
+/// FTHETA, as the specification has it. That the angle grows is tried at 1000 places.
+std::optional<Vector> at_angle(const std::array<double, 6>& p, const Q& x, const Q& y) {
+  const F r(sqrt(F(x * x + y * y, bits)));
+  F angle = number(0);
+  for (std::size_t i = p.size(); i-- > 0;) angle = angle * r + number(p[i]);
+  if (r == 0) return p[0] == 0 ? std::optional(Vector{0, 0, 1}) : std::nullopt;
+  for (int i = 1; i <= 1000; ++i) {
+    const double s = r.get_d() * i / 1000;
+    double slope = 0;
+    for (std::size_t k = p.size(); k-- > 1;) slope = slope * s + static_cast<double>(k) * p[k];
+    if (!(slope > 0)) return std::nullopt;
+  }
+  if (abs(angle) >= pi()) return std::nullopt;
+  const SineAndCosine of_ray = of_angle(angle);
+  const Q aside = of_ray.sine / rational(r);
+  return Vector{x * aside, y * aside, of_ray.cosine};
+}
+
 std::optional<Vector> turned(LensNumbers::Panorama panorama, const Q& x, const Q& y) {
   const SineAndCosine around = of_turns(x);
   if (panorama == LensNumbers::Panorama::cylinder) return Vector{around.sine, y, around.cosine};
@@ -263,6 +281,7 @@ std::function<std::optional<Vector>(const Q& u, const Q& v)> lens_rays(const Ray
       return m ? bent_by_root(lens, (*m)[0], (*m)[1]) : m;
     }
     if (lens.root != LensNumbers::Root::none) return bent_by_root(lens, x, y);
+    if (lens.angle) return at_angle(*lens.angle, x, y);
     if (lens.omega) return in_field_of_view(*lens.omega, x, y);
     if (lens.panorama != LensNumbers::Panorama::none) return turned(lens.panorama, x, y);
     if (!lens.division) {

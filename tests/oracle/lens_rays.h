@@ -26,12 +26,14 @@ struct LensNumbers {
   double alpha = 0, beta = 1, xi = 0;
   /// The ω of FOV instead.
   std::optional<double> omega;
+  /// The coefficients of FTHETA instead.
+  std::optional<std::array<double, 6>> angle;
   /// A panorama instead: fx is the width of a turn, fy the height of half a turn (sphere) or of 1.
   enum class Panorama { none, sphere, cylinder } panorama = Panorama::none;
 
   /// Whether rays go to all sides, so that near and far bound the distance.
   [[nodiscard]] bool counts_distance() const {
-    return division || is_angle || root != Root::none || panorama != Panorama::none;
+    return division || is_angle || angle || root != Root::none || panorama != Panorama::none;
   }
 };
 

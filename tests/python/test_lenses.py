@@ -132,6 +132,17 @@ def test_models_with_a_formula_show_points_where_their_publications_do(model, nu
     check(fathom.Camera(*size, pixel_centre=0.5, world_to_camera=pose, model=model, params=params), project, 0.5)
 
 
+def test_a_polynomial_is_the_angle_to_the_axis():
+    p = [0, 0.9, 0.1, -0.05, 0.02, 0.01]
+    camera = fathom.Camera(*size, pixel_centre=0.5, world_to_camera=pose, model="FTHETA", params=[50, 50, 32, 24, *p])
+    points, pixels = shown_points(camera)
+    distorted = (pixels + 0.5 - (32, 24)) / 50
+    aside = np.linalg.norm(points[:, :2], axis=1)
+    angle = np.polynomial.polynomial.polyval(np.linalg.norm(distorted, axis=1), p)
+    np.testing.assert_allclose(np.arctan2(aside, points[:, 2]), angle, atol=1e-6)
+    np.testing.assert_allclose(points[:, 0] * distorted[:, 1], points[:, 1] * distorted[:, 0], atol=1e-5)
+
+
 @pytest.mark.parametrize("xi, distortion", [(0.25, []), (1.5, []), (1.1, [-0.1, 0.05, 0.002, -0.003])])
 def test_opencv_takes_the_points_of_an_omnidirectional_camera_back_to_its_pixels(xi, distortion):
     camera = fathom.Camera(*size, pixel_centre=0, world_to_camera=pose, model="OMNI",

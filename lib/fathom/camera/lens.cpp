@@ -44,12 +44,14 @@ constexpr std::array<Name, 2> of_eucm{"alpha", "beta"};
 constexpr std::array<Name, 2> of_double_sphere{"xi", "alpha"};
 constexpr std::array<Name, 5> of_omni{"xi", "k1", "k2", "p1", "p2"};
 constexpr std::array<std::size_t, 1> without_distortion{1};
+constexpr std::array<Name, 6> of_ftheta{"p0", "p1", "p2", "p3", "p4", "p5"};
 
 constexpr auto plane = RayFormula::plane, angle = RayFormula::angle, with_root = RayFormula::root,
                turn = RayFormula::turn, direct = RayFormula::direct,
-               field_of_view = RayFormula::field_of_view;
+               field_of_view = RayFormula::field_of_view,
+               angle_of_sample = RayFormula::angle_of_sample;
 
-constexpr std::array<LensModelEntry, 28> table{{
+constexpr std::array<LensModelEntry, 29> table{{
     {LensModel::simple_pinhole, "SIMPLE_PINHOLE", plane, one_focal_length, {}, {}},
     {LensModel::pinhole, "PINHOLE", plane, two_focal_lengths, {}, {}},
     {LensModel::simple_radial, "SIMPLE_RADIAL", plane, one_focal_length, of_one_term, {}},
@@ -95,6 +97,7 @@ constexpr std::array<LensModelEntry, 28> table{{
     {LensModel::eucm, "EUCM", with_root, two_focal_lengths, of_eucm, {}},
     {LensModel::double_sphere, "DOUBLE_SPHERE", with_root, two_focal_lengths, of_double_sphere, {}},
     {LensModel::omni, "OMNI", with_root, two_focal_lengths, of_omni, without_distortion},
+    {LensModel::ftheta, "FTHETA", angle_of_sample, two_focal_lengths, of_ftheta, {}},
     {LensModel::equirectangular, "EQUIRECTANGULAR", turn, of_equirectangular, {}, {}},
     {LensModel::cylindrical, "CYLINDRICAL", turn, of_cylinder, {}, {}},
     {LensModel::table, "TABLE", direct, {}, {}, {}},
@@ -147,7 +150,8 @@ bool is_panorama(LensModel model) {
 
 bool has_pinhole_part(LensModel model) {
   const RayFormula formula = entry_of(model).formula;
-  return formula != RayFormula::angle && formula != RayFormula::turn;
+  return formula != RayFormula::angle && formula != RayFormula::angle_of_sample &&
+         formula != RayFormula::turn;
 }
 
 std::string_view name_of(LensModel model) {
@@ -169,8 +173,8 @@ std::optional<std::string> range_fault(LensModel model, std::string_view paramet
   const bool is_tilt = parameter == "tauX" || parameter == "tauY";
   if (is_tilt && std::abs(value) > std::numbers::pi / 2)
     return name + " is not between -pi/2 and pi/2";
-  if (parameter == "omega" && std::abs(value) > std::numbers::pi)
-    return name + " is not between -pi and pi";
+  const bool is_angle = parameter == "omega" || (model == LensModel::ftheta && parameter == "p0");
+  if (is_angle && std::abs(value) > std::numbers::pi) return name + " is not between -pi and pi";
   if (parameter == "alpha" && !(value >= 0 && value <= 1)) return name + " is not between 0 and 1";
   if (parameter == "beta" && !(value > 0)) return name + " is not greater than 0";
   if (parameter != "xi") return std::nullopt;
@@ -178,6 +182,14 @@ std::optional<std::string> range_fault(LensModel model, std::string_view paramet
     return "xi is not between -1 and 1";
   if (model == LensModel::omni && !(value >= 0)) return "xi is less than 0";
   return std::nullopt;
+}
+
+/// Whether the first coefficient of FTHETA after p0 that is not 0 is positive.
+bool grows(const Lens& lens) {
+  const auto is_not_zero = [](double p) { return p != 0; };
+  const auto* const first =
+      std::find_if(lens.distortion.begin() + 1, lens.distortion.end(), is_not_zero);
+  return first != lens.distortion.end() && *first > 0;
 }
 
 bool are_same(const std::shared_ptr<const DirectionTable>& a,
@@ -204,6 +216,8 @@ std::optional<std::string> find_fault(const Lens& lens) {
     }
     if (auto fault = range_fault(lens.model, names[i], value)) return fault;
   }
+  if (lens.model == LensModel::ftheta && !grows(lens))
+    return "the angle does not grow with the distance from the axis";
   if (!(lens.max_radius > 0)) return "max_radius is not greater than 0";
   if (lens.model == LensModel::table && !lens.directions) return "TABLE has no table of directions";
   if (lens.model != LensModel::table && lens.directions)

@@ -42,6 +42,7 @@ enum class LensModel : std::uint8_t {
   eucm,
   double_sphere,
   omni,
+  ftheta,
   equirectangular,
   cylindrical,
   table,
@@ -58,6 +59,8 @@ enum class RayFormula : std::uint8_t {
   field_of_view,
   /// A formula with a square root gives the ray.
   root,
+  /// A polynomial of the distance of the sample from the axis is the angle of the ray to the axis.
+  angle_of_sample,
   /// A rational formula or a table gives the ray.
   direct,
   /// A panorama: the horizontal position of the sample is an angle, in parts of a turn.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "fathom/lens/form_values.h"
 #include "fathom/numeric/big_interval.h"
@@ -26,15 +27,16 @@ BigInterval stretch_in_bits(double omega, long bits) {
   return sinc(half) / cos(half);
 }
 
-/// m, sin θ/θ and t·cos θ in intervals of so many bits.
+/// m, sin θ/θ (of FTHETA sin θ/|m|) and t·cos θ in intervals of so many bits.
 struct Lifted {
-  Lifted(const std::array<DyadicInterval, 3>& m, const std::optional<double>& omega, long the_bits)
+  Lifted(const std::array<DyadicInterval, 3>& m, const AngleFormula& formula, long the_bits)
       : bits(the_bits),
         x(m[0], bits),
         y(m[1], bits),
-        angle(times_omega(sqrt(square(x) + square(y)), omega)),
-        aside(sinc(angle)),
-        ahead(times_t(cos(angle), omega)) {}
+        radius(sqrt(square(x) + square(y))),
+        angle(angle_of(formula)),
+        aside(aside_of(formula)),
+        ahead(ahead_of(formula)) {}
 
   [[nodiscard]] BigInterval number(const Dyadic& value) const { return {value, bits}; }
   [[nodiscard]] std::array<BigInterval, 3> direction() const {
@@ -53,16 +55,23 @@ struct Lifted {
   }
 
   long bits;
-  BigInterval x, y, angle, aside, ahead;
+  BigInterval x, y, radius, angle, aside, ahead;
 
  private:
-  [[nodiscard]] BigInterval times_omega(const BigInterval& value,
-                                        const std::optional<double>& omega) const {
-    return omega ? value * number(*omega) : value;
+  [[nodiscard]] BigInterval angle_of(const AngleFormula& formula) const {
+    if (formula.omega) return radius * number(*formula.omega);
+    if (formula.polynomial.empty()) return radius;
+    std::vector<BigInterval> coefficients;
+    for (const Dyadic& p : formula.polynomial) coefficients.push_back(number(p));
+    return horner(coefficients, radius);
   }
-  [[nodiscard]] BigInterval times_t(const BigInterval& value,
-                                    const std::optional<double>& omega) const {
-    return omega ? value * stretch_in_bits(*omega, bits) : value;
+  [[nodiscard]] BigInterval aside_of(const AngleFormula& formula) const {
+    if (formula.polynomial.empty()) return sinc(angle);
+    return sinc(abs(angle)) * angle / radius;
+  }
+  [[nodiscard]] BigInterval ahead_of(const AngleFormula& formula) const {
+    const BigInterval cosine = cos(formula.polynomial.empty() ? angle : abs(angle));
+    return formula.omega ? cosine * stretch_in_bits(*formula.omega, bits) : cosine;
   }
 };
 
@@ -101,14 +110,19 @@ Interval stretch_of_field(double omega) {
 
 AngleDirection::AngleDirection(PlaneDirection m)
     : m_(std::move(m)),
-      box_(enclose_each(ends_of(Lifted(finite_box(m_), omega_, bits_of_box).direction()))) {}
+      box_(enclose_each(ends_of(Lifted(finite_box(m_), formula_, bits_of_box).direction()))) {}
 
 AngleDirection::AngleDirection(RationalDirection m, double omega)
-    : m_(std::move(m)), omega_(omega), box_(enclose_each(enclosure(bits_of_box))) {}
+    : m_(std::move(m)), formula_{.omega = omega}, box_(enclose_each(enclosure(bits_of_box))) {}
+
+AngleDirection::AngleDirection(RationalDirection m, std::span<const Dyadic> polynomial)
+    : m_(std::move(m)),
+      formula_{.polynomial = {polynomial.begin(), polynomial.end()}},
+      box_(enclose_each(enclosure(bits_of_box))) {}
 
 template <class Form>
 Sign AngleDirection::sign_in_bits(const Form& form, long bits) const {
-  return Lifted(enclosure_of(m_, bits), omega_, bits + bits_to_lose).at(form).sign();
+  return Lifted(enclosure_of(m_, bits), formula_, bits + bits_to_lose).at(form).sign();
 }
 
 template <class Form>
@@ -131,7 +145,7 @@ Sign AngleDirection::sign_of(const QuadraticForm& form) const {
 
 std::array<DyadicInterval, 3> AngleDirection::enclosure(long bits) const {
   for (long precision = bits + bits_to_lose;; precision *= 2) {
-    auto d = ends_of(Lifted(enclosure_of(m_, precision), omega_, precision).direction());
+    auto d = ends_of(Lifted(enclosure_of(m_, precision), formula_, precision).direction());
     if (is_narrow(d, bits, std::max({size_of(d[0]), size_of(d[1]), size_of(d[2])}))) return d;
   }
 }

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "fathom/lens/plane_direction.h"
 #include "fathom/numeric/certified.h"
@@ -13,15 +15,25 @@ namespace fathom::lens {
 /// An interval that contains tan(ω/2)/(ω/2), of FOV; 0 ≤ ω < π.
 Interval stretch_of_field(double omega);
 
+/// What the angle of a ray is made of, beside |m|.
+struct AngleFormula {
+  /// Of FOV.
+  std::optional<double> omega{};
+  /// Of FTHETA; empty otherwise.
+  std::vector<Dyadic> polynomial{};
+};
+
 /// The direction of a ray whose angle θ to the z axis follows from a point m of the plane:
 ///   fisheyes  d = (m·sin θ/θ, cos θ) with θ = |m| < π, of unit length
 ///   FOV       d = (m·sin θ/θ, t·cos θ) with θ = ω|m| < π/2 and t = tan(ω/2)/(ω/2), 0 < ω < π
+///   FTHETA    d = (m·sin θ/|m|, cos θ) with θ = Σ pᵢ·|m|ⁱ, |θ| < π, of unit length
 ///
 /// Exact    a linear form at d is (l_x·m_x + l_y·m_y)·sin θ/θ + l_z·t·cos θ (t = 1 of fisheyes); a
 ///          quadratic form is a polynomial of degree 2 in sin θ/θ and t·cos θ. Both are 0 only if
 ///          all their coefficients are. The coefficients are forms at (m, 1), whose signs are
 ///          known. All other signs are found in intervals of more and more bits.
-///            Of fisheyes, m and θ ≠ 0 are algebraic: tan θ is transcendental (Lindemann).
+///            Of fisheyes and FTHETA, m and θ ≠ 0 are algebraic: tan θ is transcendental
+///          (Lindemann).
 ///            Of FOV, r = |m| is algebraic and ω rational. A linear form has the sign of
 ///          (a + l_z)·sin ω(r + ½) + (a − l_z)·sin ω(r − ½) with a = (l_x·m_x + l_y·m_y)/2r. The
 ///          exponents ±iω(r ± ½) are algebraic, and differ because r is neither 0 nor ½: a + l_z
@@ -38,6 +50,9 @@ class AngleDirection {
   /// Of FOV.
   /// Needs    0 < ω < π, and a rational m with 0 < ω|m| < π/2 and |m| ≠ ½.
   AngleDirection(RationalDirection m, double omega);
+  /// Of FTHETA, with its coefficients p.
+  /// Needs    a rational m ≠ 0 with θ ≠ 0 and |θ| < π.
+  AngleDirection(RationalDirection m, std::span<const Dyadic> polynomial);
 
   [[nodiscard]] Sign sign_of(const ExactVector3& form) const;
   [[nodiscard]] Sign sign_of(const QuadraticForm& form) const;
@@ -55,8 +70,7 @@ class AngleDirection {
   [[nodiscard]] Sign sign_of_nonzero(const Form& form, long bits) const;
 
   PlaneDirection m_;
-  /// Of FOV.
-  std::optional<double> omega_;
+  AngleFormula formula_;
   std::array<Interval, 3> box_;
 };
 

@@ -85,7 +85,10 @@ Preimages::Preimages(const Projection& projection, const Lens& lens)
       lens_(lens),
       tilt_(Tilt::of(lens)),
       stage_(prepared_stage(lens)),
-      roots_(root_formula(lens)) {}
+      roots_(root_formula(lens)) {
+  const StandardArithmetic standard;
+  if (lens.model == LensModel::ftheta) angle_.emplace(lens);
+}
 
 std::optional<ExactDirection> Preimages::of(const Dyadic& u, const Dyadic& v) const {
   const StandardArithmetic standard;
@@ -95,6 +98,7 @@ std::optional<ExactDirection> Preimages::of(const Dyadic& u, const Dyadic& v) co
   if (has_stage_before_root(lens_)) return by_root_before_stage(u, v);
   if (roots_) return by_root(plane_.at(u, v));
   if (is_panorama(lens_.model)) return by_turns(plane_.at(u, v));
+  if (angle_) return by_angle(plane_.at(u, v));
   if (lens_.model == LensModel::fov) return by_field_of_view(plane_.at(u, v));
   if (!has_stage(lens_.model)) {
     std::optional<RationalDirection> d = divide(plane_.at(u, v), division_term(lens_));
@@ -155,6 +159,22 @@ std::optional<ExactDirection> Preimages::by_field_of_view(const DistortedPoint& 
     return kept_within(lens_.max_radius, std::move(straight));
   if (!is_before_right_angle(y, omega)) return std::nullopt;
   return kept_within(lens_.max_radius, AngleDirection(std::move(straight), omega));
+}
+
+// Where θ = 0 the ray is the axis. θ is algebraic and not π, and it may be max_radius.
+std::optional<ExactDirection> Preimages::by_angle(const DistortedPoint& y) const {
+  const Dyadic square = y.a * y.a + y.b * y.b, end = Dyadic(angle_->end()) * y.c;
+  const RationalDirection axis({Dyadic(0.0), Dyadic(0.0), Dyadic(1.0)});
+  if (square.is_zero())
+    return angle_->coefficients()[0].is_zero() ? std::optional(ExactDirection(axis)) : std::nullopt;
+  if (square > end * end) return std::nullopt;
+  if (!is_beyond_every_angle(lens_.max_radius)) {
+    if (angle_->compare(y, lens_.max_radius) == Sign::positive) return std::nullopt;
+    if (angle_->compare(y, -lens_.max_radius) == Sign::negative) return std::nullopt;
+  }
+  if (angle_->compare(y, 0.0) == Sign::zero) return ExactDirection(axis);
+  return ExactDirection(
+      AngleDirection(RationalDirection({y.a, y.b, y.c}, y.c), angle_->coefficients()));
 }
 
 // At a pole, ½ of half a turn, the cosine is 0: d = (0, ±1, 0).

@@ -6,6 +6,7 @@
 
 #include "fathom/camera/lens.h"
 #include "fathom/geometry/frames.h"
+#include "fathom/lens/angle_polynomial.h"
 #include "fathom/lens/exact_direction.h"
 #include "fathom/lens/sample_plane.h"
 
@@ -57,6 +58,9 @@ class Preimages {
   /// the third component is not positive, the sample sees nothing.
   [[nodiscard]] std::array<ExactVector3, 3> plane_map() const;
 
+  /// The angle of FTHETA; nullptr of other models.
+  [[nodiscard]] const AnglePolynomial* angle() const { return angle_ ? &*angle_ : nullptr; }
+
   /// An interval that contains cos(max_radius), of a model whose max_radius is an angle that leaves
   /// rays out.
   [[nodiscard]] std::optional<Interval> cosine_of_end() const;
@@ -73,6 +77,7 @@ class Preimages {
   [[nodiscard]] std::optional<ExactDirection> by_root_before_stage(const Dyadic& u,
                                                                    const Dyadic& v) const;
   [[nodiscard]] std::optional<ExactDirection> by_field_of_view(const DistortedPoint& y) const;
+  [[nodiscard]] std::optional<ExactDirection> by_angle(const DistortedPoint& y) const;
   [[nodiscard]] std::optional<ExactDirection> by_turns(const DistortedPoint& sample) const;
 
   SamplePlane plane_;
@@ -80,6 +85,7 @@ class Preimages {
   std::optional<Tilt> tilt_;
   PolynomialStage stage_;
   std::optional<AnyRootFormula<Dyadic>> roots_;
+  std::optional<AnglePolynomial> angle_;
 };
 
 }  // namespace fathom::lens

@@ -158,11 +158,7 @@ RootNumber product(const RootNumber& x, const RootNumber& y, const Dyadic& s) {
 
 /// The sign of a number, s > 0.
 Sign sign_of_number(const RootNumber& x, const Dyadic& s) {
-  if (x.p.sign() == x.q.sign() || x.q.is_zero()) return x.p.sign();
-  if (x.p.is_zero()) return x.q.sign();
-  const int greater = compare(x.p * x.p, x.q * x.q * s);
-  if (greater == 0) return Sign::zero;
-  return greater > 0 ? x.p.sign() : x.q.sign();
+  return sign_with_root(x.p, x.q, s);
 }
 
 /// The sign of x + y·√t, t > 0.
@@ -208,6 +204,14 @@ Sign sign_at(const QuadraticForm& form, const NestedRootVector<Dyadic>& d) {
 }
 
 }  // namespace
+
+Sign sign_with_root(const Dyadic& p, const Dyadic& q, const Dyadic& s) {
+  if (p.sign() == q.sign() || q.is_zero()) return p.sign();
+  if (p.is_zero()) return q.sign();
+  const int greater = compare(p * p, q * q * s);
+  if (greater == 0) return Sign::zero;
+  return greater > 0 ? p.sign() : q.sign();
+}
 
 template <class Vector>
 RootDirection<Vector>::RootDirection(Vector d) : d_(scaled_to_about_one(std::move(d))) {

@@ -147,6 +147,9 @@ class RootProfile {
   double end_;
 };
 
+/// The sign of p + q·√s; s > 0.
+Sign sign_with_root(const Dyadic& p, const Dyadic& q, const Dyadic& s);
+
 /// The direction d of a ray of such a lens, a RootVector<Dyadic> or a NestedRootVector<Dyadic>.
 ///
 /// Exact    a form at a + b·√s is p + q·√s, and so is a quadratic form; squares show its sign.

@@ -68,6 +68,7 @@ StageNumbers<double> stage_of(const Lens& lens) {
     case LensModel::simple_division:
     case LensModel::division:
     case LensModel::fisheye_stereographic:
+    case LensModel::ftheta:
     case LensModel::equirectangular:
     case LensModel::cylindrical:
     case LensModel::fisheye_orthographic:

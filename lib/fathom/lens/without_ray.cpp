@@ -133,6 +133,13 @@ std::optional<Rim> rim_of_field_of_view(const Lens& lens) {
   return omega == 0 ? std::nullopt : std::optional(Rim{Reason::end_of_model, right_angle / omega});
 }
 
+std::optional<Rim> rim_of_angle(const Lens& lens) {
+  const AnglePolynomial angle(lens);
+  const double radius = angle.radius_at(lens.max_radius);
+  if (radius < angle.end()) return Rim{Reason::max_radius, radius};
+  return Rim{Reason::end_of_model, radius};
+}
+
 std::optional<Rim> rim_of_root(const RootProfile& profile, double farthest, const Lens& lens) {
   if (const auto radius = profile.radius_at(lens.max_radius, farthest))
     return Rim{Reason::max_radius, *radius};
@@ -303,6 +310,7 @@ std::optional<WithoutRay> find_samples_without_ray(const Projection& projection,
     if (is_before_root) return rim_of_stage_before_root(stage, RootProfile(*roots), farthest, lens);
     if (is_by_stage) return rim_of_stage(stage, farthest, lens);
     if (lens.model == LensModel::fov) return rim_of_field_of_view(lens);
+    if (lens.model == LensModel::ftheta) return rim_of_angle(lens);
     return roots ? rim_of_root(RootProfile(*roots), farthest, lens) : rim_of_division(lens);
   }();
   if (!rim) return std::nullopt;

@@ -15,7 +15,8 @@ struct WithoutRay {
     fold,
     max_radius,
     /// Beyond 1 + k·r² = 2 (DIVISION), beyond the root of 0 (models with a root), 90° (FOV) or
-    /// 180° (fisheyes) from the axis, or beyond a pole (EQUIRECTANGULAR).
+    /// 180° (fisheyes) from the axis, where the angle ceases to grow (FTHETA), or beyond a pole
+    /// (EQUIRECTANGULAR).
     end_of_model,
     /// Pixels without a direction (TABLE).
     table

@@ -83,6 +83,7 @@ class ForwardLens {
       return Point{x_d, y_d};
     }
     if (roots_) return by_root(x, y);
+    if (lens_.model == LensModel::ftheta) return by_angle(x, y);
     if (lens_.model == LensModel::fov) return in_field_of_view(x, y);
     if (is_panorama(lens_.model)) {
       const double down = y / std::sqrt(1 + x * x);
@@ -104,6 +105,14 @@ class ForwardLens {
     if (omega == 0 || size == 0) return {x, y};
     const double factor = std::atan(2 * std::tan(omega / 2) * size) / (omega * size);
     return {factor * x, factor * y};
+  }
+  [[nodiscard]] std::optional<Point> by_angle(double x, double y) const {
+    const double size = std::hypot(x, y);
+    if (size == 0) return Point{0, 0};
+    const lens::AnglePolynomial angle(lens_);
+    const double radius = angle.radius_at(std::atan(size));
+    if (!(radius < angle.end())) return std::nullopt;
+    return Point{x / size * radius, y / size * radius};
   }
   [[nodiscard]] std::optional<Point> by_root(double x, double y) const {
     constexpr double farthest = 0x1p40;

@@ -120,6 +120,7 @@ std::vector<DirectionModel::Sample> DirectionModel::of_tile(std::uint32_t tile) 
     if (table_ != nullptr) return in_table(column, row);
     if (is_panorama(model_)) return turned(column, row);
     if (model_ == LensModel::fov) return in_field_of_view(column, row);
+    if (model_ == LensModel::ftheta) return by_angle(column, row);
     if (!roots_) return divided(column, row);
     return by_root(plane_.at(column + 0.5, row + 0.5), plane_.error(), column, row);
   });
@@ -247,9 +248,42 @@ std::optional<ApproximateDirection> DirectionModel::kept(const Bounded& bounded,
   return kept(direction, column, row);
 }
 
-// With θ = ω|y| and q = θ², the derivatives of cos √q and sin √q/√q by q are at most ½ and ⅙. What
-// lens_sine proves of x·sin θ/θ for x = 2, whose product is exact, holds for sin θ/θ, too. There is
-// a ray where θ < π/2: end_of_angles is the greatest number below π².
+namespace {
+
+struct BoundedSineAndCosine {
+  Certified<double> sine_over_angle, cosine;
+};
+
+/// sin √q/√q and cos √q, q < end_of_series. The derivatives by q are at most ⅙ and ½. What
+/// lens_sine proves of x·sin θ/θ for x = 2, whose product is exact, holds for sin θ/θ, too.
+BoundedSineAndCosine of_square(const Certified<double>& q) {
+  return {{alternating_series<1>(q.value), (lift_rounding + q.error / 6) * up},
+          {alternating_series<0>(q.value), (lift_rounding + q.error / 2) * up}};
+}
+
+}  // namespace
+
+// There is a ray where r ≤ R. At r = 0 the quotient has no bound.
+std::optional<ApproximateDirection> DirectionModel::by_angle(std::uint32_t column,
+                                                             std::uint32_t row) const {
+  const lens::AnglePolynomial& polynomial = *preimages_.angle();
+  const auto [x_value, y_value] = plane_.at(column + 0.5, row + 0.5);
+  const Certified<double> x{x_value, plane_.error()}, y{y_value, plane_.error()};
+  const Certified<double> r = sqrt(x * x + y * y);
+  const Interval enclosed = enclose(r);
+  if (enclosed.lower > polynomial.end()) return std::nullopt;
+  if (!(enclosed.upper <= polynomial.end())) return exactly_at(column, row);
+  Certified<double> angle{0, 0};
+  for (std::size_t i = polynomial.coefficients().size(); i-- > 0;)
+    angle = angle * r + to_certified(enclose(polynomial.coefficients()[i]));
+  const Certified<double> q = angle * angle;
+  if (!(q.value < end_of_series)) return exactly_at(column, row);
+  const auto [sine_over_angle, cosine] = of_square(q);
+  const Certified<double> aside = sine_over_angle * angle / r;
+  return kept(Bounded{x * aside, y * aside, cosine}, column, row);
+}
+
+// θ = ω|y|. There is a ray where θ < π/2: end_of_angles is the greatest number below π².
 std::optional<ApproximateDirection> DirectionModel::in_field_of_view(std::uint32_t column,
                                                                      std::uint32_t row) const {
   constexpr double right_angle_squared = lens::end_of_angles / 4;
@@ -261,10 +295,7 @@ std::optional<ApproximateDirection> DirectionModel::in_field_of_view(std::uint32
   const Interval enclosed = enclose(q);
   if (enclosed.lower > right_angle_squared) return std::nullopt;
   if (!(enclosed.upper <= right_angle_squared)) return exactly_at(column, row);
-  const Certified<double> sine_over_angle{alternating_series<1>(q.value),
-                                          (lift_rounding + q.error / 6) * up};
-  const Certified<double> cosine{alternating_series<0>(q.value),
-                                 (lift_rounding + q.error / 2) * up};
+  const auto [sine_over_angle, cosine] = of_square(q);
   return kept(Bounded{x * sine_over_angle, y * sine_over_angle, stretch_ * cosine}, column, row);
 }
 

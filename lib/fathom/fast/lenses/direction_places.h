@@ -68,6 +68,8 @@ class DirectionModel {
                                                             std::uint32_t row) const;
   [[nodiscard]] std::optional<ApproximateDirection> in_field_of_view(std::uint32_t column,
                                                                      std::uint32_t row) const;
+  [[nodiscard]] std::optional<ApproximateDirection> by_angle(std::uint32_t column,
+                                                             std::uint32_t row) const;
   [[nodiscard]] std::optional<ApproximateDirection> turned(std::uint32_t column,
                                                            std::uint32_t row) const;
   /// The direction with these components if all of them are known; otherwise from the exact
