@@ -55,6 +55,7 @@ class Formulas {
       case RayFormula::angle:
         return by_stage(y, start);
       case RayFormula::root:
+        if (has_stage_before_root(lens_)) return std::nullopt;
         return as_pairs(
             std::visit([&](const auto& formula) { return formula.at(y).components(); }, *roots_));
       case RayFormula::turn:
@@ -63,6 +64,8 @@ class Formulas {
         return as_pairs(in_field(y));
       case RayFormula::direct:
         return as_pairs(divided(y));
+      case RayFormula::angle_of_sample:
+        return std::nullopt;
     }
     return std::nullopt;
   }
@@ -127,6 +130,7 @@ class Formulas {
 
   [[nodiscard]] std::optional<DirectionWords> by_stage(const HomogeneousPoint<Word>& y,
                                                        const StageStart& start) const {
+    if (numbers_->is_double()) return std::nullopt;
     const auto m = preimage(y, start);
     if (!m) return std::nullopt;
     return as_pairs(is_plane(lens_.model) ? Direction{(*m)[0], (*m)[1], exactly(1)} : lifted(*m));

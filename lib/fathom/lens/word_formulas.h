@@ -31,7 +31,7 @@ class WordFormulas {
   explicit WordFormulas(const Preimages& preimages);
 
   /// A positive multiple of the direction that a pixel's sample sees; nullopt if its bounds are too
-  /// wide, and of models without a formula.
+  /// wide, and of lenses without a formula: two stages, a stage before a root, FTHETA.
   /// Needs    a sample that has a ray.
   [[nodiscard]] std::optional<DirectionWords> of_pixel(std::uint32_t column, std::uint32_t row,
                                                        const StageStart& start) const {
