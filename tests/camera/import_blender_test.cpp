@@ -264,7 +264,8 @@ TEST(ImportBlender, FaultsAreNamed) {
               HasSubstr("matrix_world: the matrix is singular"));
   EXPECT_THAT(fault({{"matrix_world", json::array({json::array({1, 0, 0, 0})})}}),
               HasSubstr("matrix_world: expected a 4×4 matrix, found 1 row"));
-  EXPECT_THAT(fault({{"clip_start", "nan"}}), HasSubstr("clip_start: expected a number"));
+  EXPECT_THAT(fault({{"clip_start", "nan"}}),
+              HasSubstr("clip_start: is a string, expected a number"));
   EXPECT_THAT(fault(panorama("FISHEYE_EQUIDISTANT", {{"fisheye_fov", 400}})),
               HasSubstr("fisheye_fov: expected an angle of at most 360 degrees"));
   EXPECT_THAT(fault(panorama("EQUIRECTANGULAR", {{"longitude_min", 180}})),

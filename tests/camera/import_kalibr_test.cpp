@@ -238,7 +238,7 @@ TEST(ImportKalibr, FaultsAreNamed) {
   EXPECT_THAT(fault(cam("pinhole", K, "radtan", "0, 0, 0")),
               HasSubstr("cam0.distortion_coeffs: expected"));
   EXPECT_THAT(fault(cam("pinhole", R"(5, 6, 3.25, ".nan")", "none", "")),
-              HasSubstr("cam0.intrinsics[3]: expected a number"));
+              HasSubstr("cam0.intrinsics[3]: is a string, expected a number"));
   EXPECT_THAT(fault(cam("eucm", "1.5, 1, " + K, "none", "")),
               HasSubstr("camchain.yaml: cam0: alpha is not between 0 and 1"));
   EXPECT_THAT(fault("{}"), HasSubstr("camchain.yaml: cam0: the key"));

@@ -118,7 +118,7 @@ TEST(ImportKitti360, FaultsAreNamed) {
   EXPECT_THAT(import(mei(R"("k1": 0)")).fault,
               HasSubstr("image_02.yaml: distortion_parameters: the key \"k2\" is missing"));
   EXPECT_THAT(import(mei(R"("k1": 0, "k2": 0, "p1": 0, "p2": ".nan")")).fault,
-              HasSubstr("distortion_parameters.p2: expected a number"));
+              HasSubstr("distortion_parameters.p2: is a string, expected a number"));
   EXPECT_EQ(import(mei(R"("k1": 0, "k2": 0, "p1": 0, "p2": 0)", R"("xi": -1)")).fault,
             "image_02.yaml: xi is less than 0");
   const auto fault = [](const auto& run) { return message_of<InputError>(run); };
