@@ -44,9 +44,12 @@ std::string list_of_studies() {
   return text;
 }
 
-/// The only camera of the file.
-Camera read_camera(const std::string& file, const Console& console) {
-  const std::vector<Camera> cameras = read_camera_file(file, console);
+/// The only camera of the file. The study `lens` refuses lenses itself, if it must.
+Camera read_camera(const StudyArguments& arguments, const Console& console) {
+  const std::string& file = arguments.camera;
+  const std::vector<Camera> cameras =
+      arguments.name == "lens" ? read_cameras_with_lenses(file, arguments.limits, console)
+                               : read_camera_file(file, console);
   if (cameras.size() != 1) {
     throw InputError(
         fmt::format("{}: {} cameras; a study takes a single one", file, cameras.size()));
@@ -70,7 +73,7 @@ studies::SceneView read_view(const StudyArguments& arguments, const Console& con
   }
   view.camera = arguments.camera.empty()
                     ? frame_scene(view.scene, {}, {.width = 640, .height = 360})
-                    : read_camera(arguments.camera, console);
+                    : read_camera(arguments, console);
   return view;
 }
 
