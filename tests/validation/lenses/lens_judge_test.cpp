@@ -54,7 +54,9 @@ TEST(LensJudge, ExplainsPerfectAnswersThroughEveryLens) {
       const JudgedLens judged = judge.judge(perfect_answers(given, judge.rays()));
       EXPECT_EQ(judged.unexplained(), 0U) << lens.name << ' ' << scene;
       EXPECT_EQ(judged.missed, 0U);
-      if (scene == std::string("slivers")) EXPECT_GT(surfaces(given), 20U) << lens.name;
+      if (scene == std::string("slivers")) {
+        EXPECT_GT(surfaces(given), 20U) << lens.name;
+      }
       // Only rounded rays show another triangle.
       EXPECT_EQ(judged.by_rounded_rays, judged.attribution.count(PixelClass::edge) +
                                             judged.attribution.count(PixelClass::z_fight) +
