@@ -36,7 +36,7 @@ inline void expect_encloses(const lens::ExactDirection& direction, const Directi
   for (std::size_t k = 0; k < 3; ++k) {
     const Interval& box = direction.box()[k];
     EXPECT_TRUE(ArbBall::hull(box.lower, box.upper).meets(exact[k]));
-    EXPECT_LT(box.upper - box.lower, 0x1p-40);
+    EXPECT_LT(box.upper - box.lower, 0x1p-39);
   }
 }
 

@@ -261,7 +261,8 @@ TEST(RationalRoots, TiesAreExact) {
     SCOPED_TRACE(std::string(name_of(lens.model)) + ' ' + std::to_string(u));
     Projection camera;
     camera.fx = camera.fy = f;
-    const auto ray = Preimages(camera, lens).of(u, v);
+    const Preimages preimages(camera, lens);
+    const auto ray = preimages.of(u, v);
     ASSERT_TRUE(ray.has_value());
     const ExactVector3 exact{d[0], d[1], d[2]};
     const ExactVector3 others[] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};

@@ -67,10 +67,10 @@ struct Lifted {
   }
   [[nodiscard]] BigInterval aside_of(const AngleFormula& formula) const {
     if (formula.polynomial.empty()) return sinc(angle);
-    return sinc(abs(angle)) * angle / radius;
+    return sinc(angle) * angle / radius;
   }
   [[nodiscard]] BigInterval ahead_of(const AngleFormula& formula) const {
-    const BigInterval cosine = cos(formula.polynomial.empty() ? angle : abs(angle));
+    const BigInterval cosine = cos(angle);
     return formula.omega ? cosine * stretch_in_bits(*formula.omega, bits) : cosine;
   }
 };

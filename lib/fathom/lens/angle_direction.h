@@ -26,7 +26,7 @@ struct AngleFormula {
 /// The direction of a ray whose angle θ to the z axis follows from a point m of the plane:
 ///   fisheyes  d = (m·sin θ/θ, cos θ) with θ = |m| < π, of unit length
 ///   FOV       d = (m·sin θ/θ, t·cos θ) with θ = ω|m| < π/2 and t = tan(ω/2)/(ω/2), 0 < ω < π
-///   FTHETA    d = (m·sin θ/|m|, cos θ) with θ = Σ pᵢ·|m|ⁱ, |θ| < π, of unit length
+///   FTHETA    d = (m·sin θ/|m|, cos θ) with 0 < θ = Σ pᵢ·|m|ⁱ < π, of unit length
 ///
 /// Exact    a linear form at d is (l_x·m_x + l_y·m_y)·sin θ/θ + l_z·t·cos θ (t = 1 of fisheyes); a
 ///          quadratic form is a polynomial of degree 2 in sin θ/θ and t·cos θ. Both are 0 only if
@@ -51,7 +51,7 @@ class AngleDirection {
   /// Needs    0 < ω < π, and a rational m with 0 < ω|m| < π/2 and |m| ≠ ½.
   AngleDirection(RationalDirection m, double omega);
   /// Of FTHETA, with its coefficients p.
-  /// Needs    a rational m ≠ 0 with θ ≠ 0 and |θ| < π.
+  /// Needs    a rational m ≠ 0 with 0 < θ < π.
   AngleDirection(RationalDirection m, std::span<const Dyadic> polynomial);
 
   [[nodiscard]] Sign sign_of(const ExactVector3& form) const;

@@ -107,7 +107,9 @@ double disc_of_double(const StageNumbers<double>& numbers) {
   const double second = disc_of_single(second_stage(numbers));
   if (second == infinity) return first;
   const StageNumbers<Dyadic> exact = numbers.in([](double x) { return Dyadic(x); });
-  const auto is_within = [&](double q) { return image_of_circle(exact, Dyadic(q)) <= Dyadic(second); };
+  const auto is_within = [&](double q) {
+    return image_of_circle(exact, Dyadic(q)) <= Dyadic(second);
+  };
   const double last = std::min(first, greatest_number);
   if (is_within(last)) return first;
   auto inside = std::bit_cast<std::uint64_t>(0.0), outside = std::bit_cast<std::uint64_t>(last);

@@ -172,9 +172,15 @@ std::optional<ExactDirection> Preimages::by_angle(const DistortedPoint& y) const
     if (angle_->compare(y, lens_.max_radius) == Sign::positive) return std::nullopt;
     if (angle_->compare(y, -lens_.max_radius) == Sign::negative) return std::nullopt;
   }
-  if (angle_->compare(y, 0.0) == Sign::zero) return ExactDirection(axis);
-  return ExactDirection(
-      AngleDirection(RationalDirection({y.a, y.b, y.c}, y.c), angle_->coefficients()));
+  const Sign sign = angle_->compare(y, 0.0);
+  if (sign == Sign::zero) return ExactDirection(axis);
+  // (m·sin θ/r, cos θ) is (−m·sin(−θ)/r, cos(−θ)).
+  const bool is_across = sign == Sign::negative;
+  std::array<Dyadic, 6> polynomial = angle_->coefficients();
+  if (is_across)
+    for (Dyadic& p : polynomial) p = -p;
+  RationalDirection m({is_across ? -y.a : y.a, is_across ? -y.b : y.b, y.c}, y.c);
+  return ExactDirection(AngleDirection(std::move(m), polynomial));
 }
 
 // At a pole, ½ of half a turn, the cosine is 0: d = (0, ±1, 0).

@@ -145,15 +145,6 @@ BigInterval square(const BigInterval& x) {
   return squares;
 }
 
-BigInterval abs(const BigInterval& x) {
-  if (!is_negative(x.low_)) return x;
-  BigInterval size = -x;
-  if (is_negative(x.high_)) return size;
-  if (mpfr_cmpabs(x.high_, x.low_) > 0) mpfr_set(size.high_, x.high_, MPFR_RNDU);
-  mpfr_set_zero(size.low_, 1);
-  return size;
-}
-
 BigInterval sqrt(const BigInterval& x) {
   BigInterval root(x.bits());
   mpfr_sqrt(root.low_, x.low_, MPFR_RNDD);

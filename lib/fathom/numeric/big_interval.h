@@ -34,8 +34,6 @@ class BigInterval {
   BigInterval operator-() const;
   /// x², which is not negative.
   friend BigInterval square(const BigInterval& x);
-  /// |x|
-  friend BigInterval abs(const BigInterval& x);
   /// Needs    an x that is not negative.
   friend BigInterval sqrt(const BigInterval& x);
   /// The cosine of an angle from 0 to π.
