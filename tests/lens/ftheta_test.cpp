@@ -1,4 +1,4 @@
-// Directions of FTHETA against its formula in Arb: samples, signs of forms, ties, and where it ends.
+// Directions of FTHETA against its formula in Arb: samples, signs of forms, ties, and its end.
 #include <gtest/gtest.h>
 
 #include <cmath>
