@@ -240,10 +240,9 @@ std::vector<ImportSource> calibration_sources() {
       {"aria", "Import the cameras of a calibration of Project Aria: JSON",
        "The calibration of a device, or a line of online_calibration.jsonl",
        "  fathom camera import aria calibration.json -o cameras.json\n"
-       "  fathom camera import aria calibration.json --image camera-rgb --size 2880x2880 \\\n"
-       "    -o camera.json\n"
+       "  fathom camera import aria calibration.json --image camera-rgb -o camera.json\n"
        "\nThe frame of the device is the world, or stands at each of --poses.",
-       declare_calibration, read_aria},
+       declare_calibration, read_aria, false},
       {"kitti360", "Import cameras of KITTI-360's fisheyes: image_02.yaml, image_03.yaml",
        "The calibration of a fisheye",
        "  fathom camera import kitti360 image_02.yaml -o camera.json\n"

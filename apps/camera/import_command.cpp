@@ -127,7 +127,7 @@ void add_source(Command& parent, const ImportSource& source) {
   source.declare(command, *arguments);
   command.option("--image", "NAME", arguments->choice.image,
                  "Import only the camera of this image");
-  add_distortion_option(command, arguments->choice);
+  if (source.has_pinholes) add_distortion_option(command, arguments->choice);
   command.flag("--list", arguments->list, "Print the names of the images instead");
   add_output_option(command, "FILE", arguments->output,
                     "Write the camera file here (default: standard output)");

@@ -41,6 +41,8 @@ struct ImportSource {
   void (*declare)(Command& command, ImportArguments& arguments);
   /// Fails    as camera_import.h; UsageError if an option is missing.
   std::vector<ImportedCamera> (*read)(const ImportArguments& arguments, Warnings& warnings);
+  /// Whether a lens can be ignored; fisheyes have no pinhole part.
+  bool has_pinholes = true;
 };
 
 /// --size, for sources whose files may not have one.

@@ -85,7 +85,8 @@ LAST_WORDS = [
     ("fathom convert --to di", ["distance", "disparity"]),
     ("fathom completion ", ["bash", "zsh", "fish"]),
     ("fathom help camera ", ["look-at", "orbit", "directions", "import"]),
-    ("fathom --quiet camera import ", ["colmap", "nerf", "bop", "sfmdata", "gltf", "opengl", "opencv", "ros", "matrices", "tum",
+    ("fathom --quiet camera import ", ["colmap", "nerf", "bop", "sfmdata", "gltf", "blender", "opengl", "opencv", "ros",
+                                       "kalibr", "aria", "kitti360", "matrices", "tum",
                                        "7scenes", "scannet", "scannetpp", "replica", "kitti"]),
     ("fathom render --texture chec", ["checker"]),
 ]
