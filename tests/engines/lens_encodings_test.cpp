@@ -38,6 +38,8 @@ Lens lens_of(LensModel model) {
     case LensModel::ucm:
     case LensModel::omni:
       return {model, {0.625}};
+    case LensModel::ftheta:
+      return {model, {0, 1, 0.0625, -0.03125}};
     case LensModel::fisheye_stereographic:
     case LensModel::simple_fisheye:
     case LensModel::fisheye:
