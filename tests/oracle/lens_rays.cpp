@@ -81,6 +81,7 @@ void step(const LensNumbers& lens, T& x, T& y, const T& target_x, const T& targe
   const Image<T> i = image_of(lens, x, y, make);
   const T dx = i.x - target_x, dy = i.y - target_y;
   const T det = i.x_by_x * i.y_by_y - i.x_by_y * i.y_by_x;
+  if (det == 0) return;  // on a fold
   x = x - (i.y_by_y * dx - i.x_by_y * dy) / det;
   y = y - (i.x_by_x * dy - i.y_by_x * dx) / det;
 }
@@ -119,15 +120,21 @@ Q rational(const F& x) {
   return q;
 }
 
-/// The dyadic number of few bits that x is but for its error, or x.
-Q settled(const F& x) {
-  Q q = rational(x), shifted = q;
+/// The multiple of 2^−300 nearest to x.
+Q of_few_bits(const Q& x) {
+  Q shifted = x;
   mpq_mul_2exp(shifted.get_mpq_t(), shifted.get_mpq_t(), 300);
   mpz_class floor;
   mpz_fdiv_q(floor.get_mpz_t(), Q(shifted + Q(1, 2)).get_num_mpz_t(),
              Q(shifted + Q(1, 2)).get_den_mpz_t());
   Q few(floor);
   mpq_div_2exp(few.get_mpq_t(), few.get_mpq_t(), 300);
+  return few;
+}
+
+/// The dyadic number of few bits that x is but for its error, or x.
+Q settled(const F& x) {
+  const Q q = rational(x), few = of_few_bits(q);
   return abs(few - q) < power_of_two_below(zero_bits) ? few : q;
 }
 
@@ -253,14 +260,33 @@ std::optional<Vector> turned(LensNumbers::Panorama panorama, const Q& x, const Q
   return Vector{down.cosine * around.sine, down.sine, down.cosine * around.cosine};
 }
 
+/// At a fold each step of Newton's method only halves the error: a point of few bits is it if its
+/// image is exactly the target.
+std::optional<std::array<Q, 2>> at_fold(const LensNumbers& lens, Point m, const Q& x, const Q& y) {
+  const F target_x(x, bits), target_y(y, bits);
+  for (int i = 0; i < 1000; ++i) step(lens, m.x, m.y, target_x, target_y, number);
+  const Q few_x = of_few_bits(rational(m.x)), few_y = of_few_bits(rational(m.y));
+  const Image<Q> image = image_of(lens, few_x, few_y, [](double v) { return Q(v); });
+  if (image.x != x || image.y != y) return std::nullopt;
+  return std::array{few_x, few_y};
+}
+
 std::optional<Vector> bent_by_polynomial(const LensNumbers& lens, const Q& x, const Q& y,
                                          double greatest_q) {
   const auto start = search(lens, x.get_d(), y.get_d(), greatest_q);
   if (!start) return std::nullopt;
   const F target_x(x, bits), target_y(y, bits);
-  Point m{number((*start)[0]), number((*start)[1])};
-  for (int i = 0; i < 8; ++i) step(lens, m.x, m.y, target_x, target_y, number);
-  return Vector{settled(m.x), settled(m.y), 1};
+  Point m{number((*start)[0]), number((*start)[1])}, before = m;
+  for (int i = 0; i < 8; ++i) {
+    before = m;
+    step(lens, m.x, m.y, target_x, target_y, number);
+  }
+  std::array<Q, 2> found{settled(m.x), settled(m.y)};
+  const Q last_step = abs(rational(m.x - before.x)) + abs(rational(m.y - before.y));
+  if (last_step > power_of_two_below(zero_bits)) found = at_fold(lens, m, x, y).value_or(found);
+  const Q q = found[0] * found[0] + found[1] * found[1];
+  if (std::isfinite(greatest_q) && q > Q(greatest_q)) return std::nullopt;
+  return Vector{found[0], found[1], 1};
 }
 
 bool is_bent(const LensNumbers& lens) {
