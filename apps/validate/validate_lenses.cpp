@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,7 +13,6 @@
 
 #include "apps/shell/console.h"
 #include "apps/shell/failures.h"
-#include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/validate/validate_arguments.h"
 #include "fathom/attribution/attribution.h"
@@ -261,18 +259,12 @@ Json as_json(const TriedLens& t) {
 
 int validate_lenses(const ValidateArguments& arguments, const Console& console) {
   require_options_of_lenses(arguments);
-  prepare_answer(arguments.output);
-  std::optional<OutputFile> file;
-  if (!arguments.output.empty())
-    file.emplace(std::filesystem::path(arguments.output) / "lenses.json");
+  ResultsFile file(arguments.output, "lenses.json");
   const std::vector<TriedLens> tried = try_all(arguments, console);
   print(table_of(tried));
-  if (file) {
-    Json results = Json::array();
-    for (const TriedLens& t : tried) results.push_back(as_json(t));
-    file->write(json_answer({{"results", results}}));
-    file->commit();
-  }
+  Json results = Json::array();
+  for (const TriedLens& t : tried) results.push_back(as_json(t));
+  file.write(results);
   const bool is_wrong =
       std::ranges::any_of(tried, [](const TriedLens& t) { return t.judged.unexplained() > 0; });
   const bool is_missing =

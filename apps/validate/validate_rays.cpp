@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/shell/console.h"
 #include "apps/shell/failures.h"
-#include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/validate/validate_arguments.h"
 #include "apps/validate/validate_report.h"
@@ -160,19 +157,13 @@ Json as_json(const Tried& t) {
 
 int validate_rays(const ValidateArguments& arguments, const Console& console) {
   require_options_of_rays(arguments);
-  prepare_answer(arguments.output);
-  std::optional<OutputFile> file;
-  if (!arguments.output.empty())
-    file.emplace(std::filesystem::path(arguments.output) / "rays.json");
+  ResultsFile file(arguments.output, "rays.json");
   const std::vector<RayCase> cases = cases_of(arguments, console);
   const std::vector<Tried> tried = try_all(cases, arguments, console);
   print(table_of(tried));
-  if (file) {
-    Json results = Json::array();
-    for (const Tried& t : tried) results.push_back(as_json(t));
-    file->write(json_answer({{"results", results}}));
-    file->commit();
-  }
+  Json results = Json::array();
+  for (const Tried& t : tried) results.push_back(as_json(t));
+  file.write(results);
   const bool is_wrong = std::ranges::any_of(tried, [](const Tried& t) {
     return t.judged.faults() + t.judged.counts_too_low + t.judged.counts_too_high > 0;
   });

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "apps/shell/failures.h"
 #include "apps/shell/known_files.h"
@@ -127,6 +128,17 @@ void prepare_answer(const std::string& out) {
   if (::access(out.c_str(), W_OK) != 0) {
     throw OutputError(fmt::format("{}: cannot write here: {}", out, std::strerror(errno)));
   }
+}
+
+ResultsFile::ResultsFile(const std::string& out, const char* name) {
+  prepare_answer(out);
+  if (!out.empty()) file_.emplace(std::filesystem::path(out) / name);
+}
+
+void ResultsFile::write(const nlohmann::ordered_json& results) {
+  if (!file_) return;
+  file_->write(json_answer({{"results", results}}));
+  file_->commit();
 }
 
 ValidationReport::ValidationReport(const ValidateArguments& arguments)

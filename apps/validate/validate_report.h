@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,21 @@ namespace fathom::app {
 /// below.
 /// Fails    OutputError if standard output or the folder cannot be written.
 void prepare_answer(const std::string& out);
+
+/// "results" of a validation as JSON, in a file of the requested folder. Constructed before the
+/// work, so that an unwritable file is reported at once.
+class ResultsFile {
+ public:
+  /// No folder: nothing is written.
+  /// Fails    OutputError
+  ResultsFile(const std::string& out, const char* name);
+
+  /// Puts the file in its place. `results` is an array.
+  void write(const nlohmann::ordered_json& results);
+
+ private:
+  std::optional<OutputFile> file_;
+};
 
 /// Answer of a validation: lines on standard output, and the requested files. Constructed before
 /// the work, so that unwritable files and an unreadable baseline are reported at once.
