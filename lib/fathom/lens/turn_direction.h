@@ -11,6 +11,27 @@
 
 namespace fathom::lens {
 
+template <class T>
+struct SineAndCosine {
+  T sine, cosine;
+};
+
+/// Those of an angle and so many quarters of a turn.
+template <class T>
+SineAndCosine<T> after_quarters(long quarters, const SineAndCosine<T>& of_angle) {
+  const auto& [sine, cosine] = of_angle;
+  switch (quarters & 3) {
+    case 0:
+      return {sine, cosine};
+    case 1:
+      return {cosine, -sine};
+    case 2:
+      return {-sine, -cosine};
+    default:
+      return {-cosine, sine};
+  }
+}
+
 /// The direction of a panorama. With the sample at (x, y), x in turns:
 /// equirectangular, y in half turns and |y| ≤ ½:  d = (cos πy·sin 2πx, sin πy, cos πy·cos 2πx)
 /// cylindrical:                                   d = (sin 2πx, y, cos 2πx)

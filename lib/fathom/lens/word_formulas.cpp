@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "fathom/lens/turn_direction.h"
 #include "fathom/numeric/big_interval.h"
 #include "fathom/numeric/certified_value.h"
 #include "fathom/numeric/fused_multiply_add.h"
@@ -191,26 +192,14 @@ class Formulas {
     return {m[0] * sine_over_angle, m[1] * sine_over_angle, alternating(cosine_, q)};
   }
 
-  struct SineAndCosine {
-    Word sine, cosine;
-  };
   /// Of 2π·turns: of the rest after whole quarters, which are subtracted exactly.
-  [[nodiscard]] SineAndCosine of_turns(const Word& turns) const {
+  [[nodiscard]] SineAndCosine<Word> of_turns(const Word& turns) const {
     const double quarters = std::nearbyint(4 * turns.value.hi);
     if (!(std::abs(quarters) < 0x1p40)) return {};
     const Word angle = (turns - exactly(quarters / 4)) * two_pi_;
     const Word q = angle * angle;
-    const Word sine = angle * alternating(sine_, q), cosine = alternating(cosine_, q);
-    switch (static_cast<long>(quarters) & 3) {
-      case 0:
-        return {sine, cosine};
-      case 1:
-        return {cosine, -sine};
-      case 2:
-        return {-sine, -cosine};
-      default:
-        return {-cosine, sine};
-    }
+    return after_quarters<Word>(static_cast<long>(quarters),
+                                {angle * alternating(sine_, q), alternating(cosine_, q)});
   }
 
   // Equirectangular: y in half turns.

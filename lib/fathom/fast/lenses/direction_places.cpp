@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "fathom/fast/lenses/plane_places.h"
+#include "fathom/lens/turn_direction.h"
 #include "fathom/numeric/certified.h"
 #include "fathom/numeric/dyadic.h"
 
@@ -193,31 +194,18 @@ std::optional<Bounded> bounded_direction(const lens::AnyRootFormula<Certified<do
       formula);
 }
 
-struct SineAndCosine {
-  double sine, cosine;
-};
-
 /// Of 2π·turns; each errs by at most turn_rounding.
 ///
 /// The rest r after whole quarters, |r| ≤ ⅛, is exact. θ = 2πr errs by 2u of it, and θ² by 5u. In
 /// the series (lifted()), with q = θ² < 0.62, r_1·s_2 errs by 0.31·3.2u, and the difference by u/2:
 /// cos θ by less than 1.5u + ½·5u·0.62 < 3.1u. Likewise sin θ/θ errs by less than 0.9u + 5u·0.62/6
 /// < 1.5u, and its product with θ < 0.79 by less than 0.79·(1.5u + 2u) + u/2 < 3.3u.
-SineAndCosine of_turns(double turns) {
+lens::SineAndCosine<double> of_turns(double turns) {
   const double quarters = std::nearbyint(4 * turns);
   const double angle = (turns - quarters / 4) * (2 * std::numbers::pi);
   const double sine = angle * alternating_series<1>(angle * angle);
   const double cosine = alternating_series<0>(angle * angle);
-  switch (static_cast<long>(quarters) & 3) {
-    case 0:
-      return {sine, cosine};
-    case 1:
-      return {cosine, -sine};
-    case 2:
-      return {-sine, -cosine};
-    default:
-      return {-cosine, sine};
-  }
+  return lens::after_quarters<double>(static_cast<long>(quarters), {sine, cosine});
 }
 
 }  // namespace
