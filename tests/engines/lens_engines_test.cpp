@@ -23,6 +23,7 @@ using testing::expect_same_map;
 using testing::Kind;
 using testing::LensCase;
 using testing::LensCaseMaker;
+using testing::NamedLens;
 
 std::vector<Channel> lens_channels(const std::vector<Channel>& channels) {
   std::vector<Channel> with_valid = channels;
@@ -73,12 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Fast, LensAdversaries,
                                                               Kind::huge, Kind::tiny)),
                          name_of_case);
 
-/// A lens that is used far beyond where it folds, in most of them.
-struct NamedLens {
-  const char* name;
-  Lens lens;
-};
-
+/// Most are used far beyond where they fold.
 std::vector<NamedLens> lenses() {
   const auto opencv = [](std::array<double, 14> distortion) {
     return Lens{LensModel::opencv_14, distortion};

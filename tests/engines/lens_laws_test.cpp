@@ -7,6 +7,7 @@
 #include "tests/effort.h"
 #include "tests/engines/expect_same_map.h"
 #include "tests/engines/tested_engine.h"
+#include "tests/inputs/lens_scenes.h"
 #include "tests/inputs/scene_building.h"
 #include "tests/inputs/soup.h"
 
@@ -14,15 +15,11 @@ namespace fathom {
 namespace {
 
 using testing::expect_same_map;
+using testing::NamedLens;
 using testing::render_tested;
 using testing::soup_around_eye;
 
 constexpr std::uint32_t width = 24, height = 20;
-
-struct NamedLens {
-  const char* name;
-  Lens lens;
-};
 
 /// Lenses of few bits, so that samples have edges on their rays; most fold within the image.
 std::vector<NamedLens> lenses() {

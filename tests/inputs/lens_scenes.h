@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <ostream>
 #include <random>
 #include <vector>
 
@@ -22,6 +23,15 @@ inline std::vector<LensModel> bending_models() {
       models.push_back(model);
   }
   return models;
+}
+
+/// A lens that tests list, and are named after.
+struct NamedLens {
+  const char* name;
+  Lens lens;
+};
+inline void PrintTo(const NamedLens& named, std::ostream* out) {
+  *out << named.name;
 }
 
 struct LensCase {

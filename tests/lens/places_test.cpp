@@ -6,21 +6,14 @@
 #include <cmath>
 #include <memory>
 
+#include "tests/inputs/lens_scenes.h"
 #include "tests/lens/lens_oracle.h"
 
 namespace fathom::fast {
 namespace {
 
 using oracle::ArbBall;
-
-struct NamedLens {
-  const char* name;
-  Lens lens;
-};
-
-void PrintTo(const NamedLens& named, std::ostream* out) {
-  *out << named.name;
-}
+using testing::NamedLens;
 
 constexpr std::uint32_t width = 150, height = 90;
 

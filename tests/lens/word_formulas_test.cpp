@@ -10,6 +10,7 @@
 
 #include "fathom/fast/lenses/places.h"
 #include "fathom/fast/lenses/stage_starts.h"
+#include "tests/inputs/lens_scenes.h"
 #include "tests/inputs/tables_of_directions.h"
 #include "tests/lens/arb_ball.h"
 
@@ -19,15 +20,7 @@ namespace {
 using fast::Places;
 using fast::TileShape;
 using oracle::ArbBall;
-
-struct NamedLens {
-  const char* name;
-  Lens lens;
-};
-
-void PrintTo(const NamedLens& named, std::ostream* out) {
-  *out << named.name;
-}
+using testing::NamedLens;
 
 constexpr std::uint32_t width = 90, height = 70;
 
