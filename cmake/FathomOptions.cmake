@@ -12,7 +12,7 @@ include(GNUInstallDirs)
 # checked calls of the C library, tables of addresses that are read-only before main() starts, checked
 # indices of the standard library. Sanitizers see more and have functions of their own in its place.
 option(FATHOM_HARDENING "Compile and link with the compiler's protections" ON)
-set(FATHOM_UNCHECKED "_(numeric|geometry|mesh|mesh_files|triangle|fast|area|unchecked_headers)$")
+set(FATHOM_UNCHECKED "_(numeric|geometry|mesh|triangle|fast|area|unchecked_headers)$")
 function(fathom_harden target)
   if(NOT FATHOM_HARDENING OR FATHOM_SANITIZERS)
     return()
@@ -36,20 +36,39 @@ function(fathom_harden target)
 endfunction()
 
 # The headers of the standard library that nearly all sources include, compiled once for each set of options: for the
-# libraries of this folder and its subfolders, and for those whose indices go unchecked.
+# libraries of this folder and its subfolders, for those whose indices go unchecked, and for those at -O1. GCC compiles
+# the functions of these headers with the options that the headers had, not with the library's own.
 #   fathom_precompiled_headers(PREFIX)
 function(fathom_precompiled_headers prefix)
-  foreach(kind headers unchecked_headers)
+  foreach(kind headers unchecked_headers light_headers)
     set(target ${prefix}_${kind})
     file(CONFIGURE OUTPUT ${target}.cpp CONTENT "// Carries precompiled headers.\n")
     add_library(${target} OBJECT "${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp")
+    set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
     target_compile_features(${target} PUBLIC cxx_std_20)
+    if(kind STREQUAL light_headers)
+      fathom_optimise_lightly(${target})
+    endif()
     target_precompile_headers(${target} PRIVATE
       <algorithm> <array> <bit> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory> <optional> <span>
       <string> <string_view> <utility> <variant> <vector>)
     fathom_target_options(${target})
   endforeach()
   set(FATHOM_PRECOMPILED ${prefix} PARENT_SCOPE)
+endfunction()
+
+# Compiles a target at -O1 in a release: it takes no time that a higher level would save, and much to compile at one.
+function(fathom_optimise_lightly target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  set_target_properties(${target} PROPERTIES FATHOM_LIGHT ON)
+endfunction()
+
+# Compiles sources of such a target, in which time is spent, like those of the other targets; their indices go unchecked.
+#   fathom_optimise_fully(a.cpp…)
+function(fathom_optimise_fully)
+  set_source_files_properties(${ARGN} PROPERTIES
+    COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>;-U_GLIBCXX_ASSERTIONS"
+    SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
 # Lets a library use them. Without unity builds, which tools that are not GCC ask for, each source reads its own headers.
@@ -60,7 +79,10 @@ function(fathom_precompile target)
   if(NOT FATHOM_UNITY OR NOT FATHOM_PRECOMPILED OR own OR reused OR NOT type MATCHES "STATIC|OBJECT")
     return()
   endif()
-  if(target MATCHES "${FATHOM_UNCHECKED}")
+  get_target_property(light ${target} FATHOM_LIGHT)
+  if(light)
+    target_precompile_headers(${target} REUSE_FROM ${FATHOM_PRECOMPILED}_light_headers)
+  elseif(target MATCHES "${FATHOM_UNCHECKED}")
     target_precompile_headers(${target} REUSE_FROM ${FATHOM_PRECOMPILED}_unchecked_headers)
   else()
     target_precompile_headers(${target} REUSE_FROM ${FATHOM_PRECOMPILED}_headers)
@@ -123,13 +145,13 @@ function(fathom_embed_texts output header namespace)
 endfunction()
 
 # A room of the library, lib/fathom/ROOM: fathom_ROOM, exported as fathom::ROOM.
-#   fathom_room(ROOM HEADERS a.h… SOURCES b.cpp… [STAGES folder…] [USES room…] [PUBLIC|PRIVATE library…])
+#   fathom_room(ROOM HEADERS a.h… SOURCES b.cpp… [LIGHT] [STAGES folder…] [USES room…] [PUBLIC|PRIVATE library…])
 # HEADERS are what users may include; they are installed. USES names the rooms, defined before, that
 # may be included and are linked: the build fails where a file of the room includes another. STAGES
 # names the folders of the room from the lowest on: it fails, too, where a file of one includes one of a
-# later folder, or of the room's own, which may include all.
+# later folder, or of the room's own, which may include all. LIGHT: see fathom_optimise_lightly.
 function(fathom_room room)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;HEADERS;STAGES;USES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ROOM "LIGHT" "" "SOURCES;HEADERS;STAGES;USES;PUBLIC;PRIVATE" ${ARGN})
   string(REPLACE "/" "_" name "${room}")
   set(used ${ROOM_USES})
   list(TRANSFORM used REPLACE "/" "_")
@@ -146,6 +168,9 @@ function(fathom_room room)
   target_include_directories(fathom_${name} PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/lib>"
                                                    "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
   target_link_libraries(fathom_${name} PUBLIC ${used} ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE})
+  if(ROOM_LIGHT)
+    fathom_optimise_lightly(fathom_${name})
+  endif()
   fathom_target_options(fathom_${name})
   install(TARGETS fathom_${name} EXPORT FathomTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
   foreach(header ${ROOM_HEADERS})
