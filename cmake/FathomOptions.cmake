@@ -30,8 +30,11 @@ function(fathom_harden target)
     target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS)
   endif()
   # The C library checks nothing without optimisation, and says so with a warning.
-  target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE>
-                                           $<$<NOT:$<CONFIG:Debug>>:-D_FORTIFY_SOURCE=2>)
+  get_target_property(unoptimised ${target} FATHOM_UNOPTIMISED)
+  if(NOT unoptimised)
+    target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE>
+                                             $<$<NOT:$<CONFIG:Debug>>:-D_FORTIFY_SOURCE=2>)
+  endif()
   target_link_options(${target} PRIVATE -Wl,-z,relro,-z,now)
 endfunction()
 
@@ -63,7 +66,13 @@ function(fathom_optimise_lightly target)
   set_target_properties(${target} PROPERTIES FATHOM_LIGHT ON)
 endfunction()
 
-# Compiles sources of such a target, in which time is spent, like those of the other targets; their indices go unchecked.
+# Compiles a target at -O0: what it does itself takes less time than a higher level needs.
+function(fathom_optimise_not target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O0>)
+  set_target_properties(${target} PROPERTIES FATHOM_UNOPTIMISED ON)
+endfunction()
+
+# Compiles sources of a light target, in which time is spent, like those of the other targets; their indices go unchecked.
 #   fathom_optimise_fully(a.cpp…)
 function(fathom_optimise_fully)
   set_source_files_properties(${ARGN} PROPERTIES
