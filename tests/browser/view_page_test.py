@@ -479,6 +479,8 @@ class ViewPage(PageCase):
         self.open(page=self.viewed("hd.exr"))
         self.assertLess((self.folder / "hd.html").stat().st_size, 5e5)
         self.assertEqual(self.driver.execute_script("return performance.getEntriesByType('resource').length"), 0)
+        self.wait_for(lambda: self.driver.execute_script("return performance.getEntriesByType('mark').length === 2"),
+                      "the times that scripts/dev/measure-view reads")
 
     def test_it_fits_narrow_windows(self):
         for width in (1280, 400):

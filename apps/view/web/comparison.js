@@ -15,25 +15,29 @@ function sourcesOf(state) {
   return [["A", first], ["B", channelOf(b, state.channel)]].map(([name, source]) => ({ name: `${name}: ${state.channel}`, source }));
 }
 
-function rangeOf(state, source, statistics) {
-  if (!statistics) return { low: 0, high: 1 };
-  const end = source.isDifference ? endOfDifferences(statistics) : 0;
-  const [low, high] = source.isDifference ? [-end, end] : [statistics.low, statistics.high];
-  return { low: state.low ?? low, high: state.high ?? high };
+/// The ends of the colours, unless the user chose them: those of all values, which the page knows without their pixels.
+function endsOf(sources) {
+  if (sources[0].source.kind === "colour") return [0, 1];
+  const ranges = sources.map(({ source }) => source.range ?? [Infinity, -Infinity]);
+  return [Math.min(...ranges.map(([low]) => low)), Math.max(...ranges.map(([, high]) => high))];
 }
+const rangeOf = (state, [low, high]) => ({ low: state.low ?? low, high: state.high ?? high });
 
-/// { layers, sources, source, statistics, shading }: what the picture, the reading and the histogram show.
+/// { layers, sources, source, counting, shading }: what the picture, the reading and the histogram show. `counting` is a
+/// promise of the statistics: they need all tiles, and the colours do so only if the values settle them.
 export async function shownBy(state) {
   const sources = sourcesOf(state);
   if (state.mode === "difference" && sources.length > 1 && sources[0].source.kind !== "colour") {
     const source = new Difference(maps[state.map], sources[0].source, sources[1].source, state.measure);
-    const statistics = await statisticsOf(source), shading = new Shading(source, { ...state, ...rangeOf(state, source, statistics) }, statistics.sorted);
-    return { layers: [{ source, shading }], sources: [...sources, { name: source.label, source }], source, statistics, shading };
+    const statistics = await statisticsOf(source), end = endOfDifferences(statistics);
+    const shading = new Shading(source, { ...state, ...rangeOf(state, [-end, end]) }, statistics.sorted);
+    return { layers: [{ source, shading }], sources: [...sources, { name: source.label, source }], source, counting: statistics, shading };
   }
-  const { source } = sources[0], statistics = together(await Promise.all(sources.map((each) => statisticsOf(each.source))));
-  const settings = { ...state, scale: scaleOf(state), ...rangeOf(state, source, statistics) };
-  const layers = sources.map((each) => ({ source: each.source, shading: new Shading(each.source, settings, statistics?.sorted) }));
-  return { layers, sources, source, statistics, shading: layers[0].shading };
+  const { source } = sources[0], counting = Promise.all(sources.map((each) => statisticsOf(each.source))).then(together);
+  const settings = { ...state, scale: scaleOf(state), ...rangeOf(state, endsOf(sources)) };
+  const sorted = settings.scale === "equalised" ? (await counting)?.sorted : null;
+  const layers = sources.map((each) => ({ source: each.source, shading: new Shading(each.source, settings, sorted) }));
+  return { layers, sources, source, counting, shading: layers[0].shading };
 }
 
 /// Shows A and B in turns; by hand only where the user wants no motion.

@@ -74,6 +74,7 @@ export class Picture {
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     if (!layers.length || !this.centre) return;
     const view = this.view(), border = this.split === null ? null : Math.round(this.split * this.width);
+    let isWhole = true;
     layers.forEach((layer, k) => {
       context.save();
       if (border !== null) {
@@ -81,7 +82,10 @@ export class Picture {
         context.rect(k ? border : 0, 0, k ? this.width - border : border, this.height);
         context.clip();
       }
-      paintTiles(context, view, layer, (promise) => promise.then(() => this.draw()));
+      paintTiles(context, view, layer, (promise) => {
+        isWhole = false;
+        promise.then(() => this.draw());
+      });
       paintNumbers(context, view, layer);
       context.restore();
     });
@@ -89,6 +93,8 @@ export class Picture {
     if (border !== null) paintDivider(context, border, this.height);
     if (this.line) paintLine(context, view, this.line);
     if (this.selected) paintMark(context, view, this.selected);
+    if (isWhole && !this.wasWhole) performance.mark("picture"); // for scripts/dev/measure-view
+    this.wasWhole ||= isWhole;
   }
   resized() {
     if (this.isFitted) this.fit(); else this.draw();

@@ -35,6 +35,11 @@ function unpackedThird(bytes, columns, [x, y]) {
 
 const largestSingle = (2 - 2 ** -23) * 2 ** 127, isDepth = (z) => z > 0 && z <= largestSingle;
 
+/// The numbers of a plane with the normal (a, b, c) along a ray: height = slope · depth + offset. Functions of their own: if
+/// every call of unpackedDepths() made new ones, the browser would compile it again for the second tile.
+const slope = (orthographic, a, b, c, u, v) => orthographic ? c : a * u + b * v + c;
+const offset = (orthographic, a, b, u, v) => orthographic ? a * u + b * v : 0;
+
 /// Depths of known planes, as words of 32 bits (apps/view/plane_prediction.h). The tile begins at the pixel (left, top) and
 /// has every `step`-th one. Of this row and of the upper one, between columns of NaN, are kept: the normals in the frame of
 /// the camera, the rays, the depths, and the heights of the planes.
@@ -42,7 +47,6 @@ function unpackedDepths(bytes, columns, { normals: [xs, ys, zs], camera, left, t
   const count = (bytes.length - 1) / 4, depths = new Float32Array(count), words = new Uint32Array(depths.buffer);
   const { orthographic, fx, fy, cx, cy, skew, pixelCentre, worldFromCamera: [p, q, r] } = camera;
   const [nx, ny, nz, us, known, heights] = Array.from({ length: 6 }, () => new Float64Array(2 * columns + 4).fill(NaN));
-  const slope = (a, b, c, u, v) => orthographic ? c : a * u + b * v + c, offset = (a, b, u, v) => orthographic ? a * u + b * v : 0;
   let next = 1, end = 1 + count; // places in `bytes`: of pixels on known planes, and of the other pixels
   for (let first = 0, here = 1, above = columns + 3, v = 0, upperV = 0; first < count; first += columns) {
     v = (top + first / columns * step - cy + pixelCentre) / fy;
@@ -53,7 +57,7 @@ function unpackedDepths(bytes, columns, { normals: [xs, ys, zs], camera, left, t
       const b = ny[at] = isAsLeft ? ny[at - 1] : p[1] * x + q[1] * y + r[1] * z;
       const c = nz[at] = isAsLeft ? nz[at - 1] : p[2] * x + q[2] * y + r[2] * z;
       const u = us[at] = (left + column * step - cx + pixelCentre - skew * v) / fx;
-      const ownSlope = slope(a, b, c, u, v), ownOffset = offset(a, b, u, v);
+      const ownSlope = slope(orthographic, a, b, c, u, v), ownOffset = offset(orthographic, a, b, u, v);
       let sum = 0, added = 0, found = 0, place = 0;
       if (nx[at - 1] === a && ny[at - 1] === b && nz[at - 1] === c) { sum += heights[at - 1]; ++added; }
       if (nx[upper] === a && ny[upper] === b && nz[upper] === c) { sum += heights[upper]; ++added; }
@@ -65,8 +69,9 @@ function unpackedDepths(bytes, columns, { normals: [xs, ys, zs], camera, left, t
       } else {
         place = --end;
         for (let from = at - 1, fromV = v, side = 0; side < 2; from = upper, fromV = upperV, ++side) {
-          const height = slope(a, b, c, us[from], fromV) * known[from] + offset(a, b, us[from], fromV);
-          const theirs = (heights[from] - offset(nx[from], ny[from], u, v)) / slope(nx[from], ny[from], nz[from], u, v);
+          const height = slope(orthographic, a, b, c, us[from], fromV) * known[from] + offset(orthographic, a, b, us[from], fromV);
+          const theirSlope = slope(orthographic, nx[from], ny[from], nz[from], u, v);
+          const theirs = (heights[from] - offset(orthographic, nx[from], ny[from], u, v)) / theirSlope;
           const mean = ((height - ownOffset) / ownSlope + theirs) / 2;
           if (isDepth(mean)) { sum += mean; ++added; }
         }

@@ -72,7 +72,7 @@ async function showAll() {
   const next = await shownBy(state);
   if (mine !== turns) return;
   shown = next;
-  const { source, statistics, shading, sources } = shown;
+  const { source, counting, shading, sources } = shown;
   picture.selected = state.pixel;
   picture.line = state.line;
   if (state.mode === "flicker") { if (!flicker.isRunning) flicker.start(); } else flicker.stop();
@@ -81,7 +81,10 @@ async function showAll() {
   fillRange(state, shading);
   read();
   profile.show(state.line, sources);
+  const statistics = await counting;
+  if (mine !== turns) return;
   await histogram.show(source, statistics, shading, scaleOf(state));
+  if (mine === 1) performance.mark("histogram"); // for scripts/dev/measure-view
   document.documentElement.dataset.ready = mine; // for tests
 }
 
