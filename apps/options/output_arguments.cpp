@@ -34,7 +34,9 @@ Contents parse_contents(const std::string& list) {
   contents.channels = parse_distinct(list, [&](const std::string& name) {
     const Channel channel = channel_of(name);
     if (is_mask(name) && name != list) {
-      throw UsageError("'" + name + "' needs a separate file: -o " + name + "=FILE.png");
+      throw UsageError("'" + name +
+                       "' needs a separate file: leave it out of the list, and add -o " + name +
+                       "=FILE.png");
     }
     return channel;
   });
