@@ -1,4 +1,4 @@
-// fathom cast SCENE… --rays FILE
+// fathom cast SCENE… --rays FILE, or --lidar FILE
 
 #include <limits>
 #include <memory>
@@ -6,6 +6,7 @@
 #include "apps/commands.h"
 #include "apps/options/scene_options.h"
 #include "apps/rays/columns.h"
+#include "apps/rays/lidar_options.h"
 #include "apps/rays/ray_file.h"
 #include "apps/shell/console.h"
 #include "apps/shell/failures.h"
@@ -21,6 +22,7 @@ enum class RayQuestion { nearest, all, count, any };
 struct CastArguments {
   SceneOptions scene;
   std::string rays;
+  LidarOptions lidar;
   RayQuestion mode = RayQuestion::nearest;
   RaySegment segment;
   Cull cull = Cull::none;
@@ -103,9 +105,22 @@ std::vector<Column> columns_about_rays(RayQuestion mode, const RayScene& scene,
   return columns;
 }
 
+/// Writes the points or the range image of a lidar.
+int run_scan(const CastArguments& a, ScanFile file, const Console& console) {
+  if (a.mode != RayQuestion::nearest)
+    throw UsageError("-o: points and range images are for --mode nearest");
+  OutputFile output(a.output);
+  const LidarScan lidar(a.lidar, a.scene.threads);
+  const Scene scene = a.scene.read(console);
+  lidar.write(RayScene(scene, a.scene.threads), {a.segment, a.cull, a.scene.threads}, file, output);
+  output.commit();
+  return done;
+}
+
 int run_cast(const CastArguments& a, const Console& console) {
   ColumnOutput table(a.output);
-  const std::vector<Ray> rays = read_rays(a.rays);
+  const std::vector<Ray> rays =
+      a.lidar.sensor.empty() ? read_rays(a.rays) : LidarScan(a.lidar, a.scene.threads).rays();
   const Scene scene = a.scene.read(console);
   const RayScene prepared(scene, a.scene.threads);
   const CastOptions options{a.segment, a.cull, a.scene.threads};
@@ -123,13 +138,14 @@ void add_cast(Command& program) {
       program.command("cast", "Find the triangles that rays meet, exactly",
                       "  fathom cast room.json --rays rays.csv -o hits.csv\n"
                       "  fathom cast room.json --rays rays.npy --channels t,id,P,N -o hits.npz\n"
-                      "  fathom cast room.json --rays rays.csv --mode any --segment 0:50");
+                      "  fathom cast room.json --rays rays.csv --mode any --segment 0:50\n"
+                      "  fathom cast room.json --lidar sensor.json --poses path.txt -o scan.bin");
   arguments->scene.add_to(command);
-  command
-      .option("--rays", "FILE", arguments->rays,
-              "CSV file with the columns x, y, z, dx, dy and dz (origin and direction of each ray; "
-              "t counts lengths of the direction), or NPY file with an array of shape N×6")
-      .required();
+  Option rays = command.option(
+      "--rays", "FILE", arguments->rays,
+      "CSV file with the columns x, y, z, dx, dy and dz (origin and direction of each ray; "
+      "t counts lengths of the direction), or NPY file with an array of shape N×6");
+  rays.excludes(arguments->lidar.add_to(command));
   command.option("--mode", "NAME", into(arguments->mode, parse_question),
                  "Find the nearest hit (default) or all hits, count them, or report whether there "
                  "is any: nearest, all, count or any");
@@ -147,7 +163,13 @@ void add_cast(Command& program) {
   command.runs([arguments, channels](const Console& console) {
     if (channels.is_given() && !arguments->is_about_hits())
       throw UsageError("--channels is for --mode nearest and all");
-    return run_cast(*arguments, console);
+    if (arguments->rays.empty() && arguments->lidar.sensor.empty())
+      throw UsageError("--rays or --lidar is required");
+    arguments->lidar.require_lidar();
+    const std::optional<ScanFile> file = scan_file_of(arguments->output);
+    if (arguments->lidar.sensor.empty() || !file) return run_cast(*arguments, console);
+    if (channels.is_given()) throw UsageError("--channels is for tables, .csv and .npz");
+    return run_scan(*arguments, *file, console);
   });
 }
 

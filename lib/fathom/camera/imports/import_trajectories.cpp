@@ -47,28 +47,12 @@ struct TimedPose {
   std::string fault;
 };
 
-double read_time(Line& line, std::string& text) {
-  text = read_word(line, "a time in seconds");
-  const double time = number_of(text, line.where);
-  if (!std::isfinite(time)) refuse(line, "a time in seconds", text);
-  return time;
-}
-
 TimedPose read_timed_pose(Line& line) {
-  TimedPose result;
-  result.where = line.where;
-  result.time = read_time(line, result.name);
-  const std::vector<double> numbers = rest_of(line);
-  if (numbers.size() != 7)
-    throw InputError(line.where + ": expected time tx ty tz qx qy qz qw, 8 numbers, found " +
-                     std::to_string(numbers.size() + 1));
-  if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }))
-    result.fault = line.where + ": the pose has a number that is not finite";
-  else if (std::all_of(numbers.begin() + 3, numbers.end(), [](double x) { return x == 0; }))
-    result.fault = line.where + ": the quaternion is zero";
-  else
-    result.world_to_camera = view_from({numbers[0], numbers[1], numbers[2]},
-                                       {numbers[6], numbers[3], numbers[4], numbers[5]});
+  const TumPose given = read_tum_pose(line);
+  TimedPose result{given.time, given.time_text, {}, line.where, given.fault};
+  if (result.fault.empty())
+    result.world_to_camera =
+        view_from({given.position[0], given.position[1], given.position[2]}, given.quaternion);
   return result;
 }
 

@@ -72,6 +72,29 @@ std::vector<double> rest_of(Line& line) {
   return numbers;
 }
 
+double read_time(Line& line, std::string& text) {
+  text = read_word(line, "a time in seconds");
+  const double time = number_of(text, line.where);
+  if (!std::isfinite(time)) refuse(line, "a time in seconds", text);
+  return time;
+}
+
+TumPose read_tum_pose(Line& line) {
+  TumPose pose;
+  pose.time = read_time(line, pose.time_text);
+  const std::vector<double> n = rest_of(line);
+  if (n.size() != 7)
+    throw InputError(line.where + ": expected time tx ty tz qx qy qz qw, 8 numbers, found " +
+                     std::to_string(n.size() + 1));
+  pose.position = {n[0], n[1], n[2]};
+  pose.quaternion = {n[6], n[3], n[4], n[5]};
+  if (!std::ranges::all_of(n, [](double x) { return std::isfinite(x); }))
+    pose.fault = line.where + ": the pose has a number that is not finite";
+  else if (std::all_of(n.begin() + 3, n.end(), [](double x) { return x == 0; }))
+    pose.fault = line.where + ": the quaternion is zero";
+  return pose;
+}
+
 void set_intrinsics(Projection& projection, const IntrinsicMatrix& K, const std::string& where) {
   if (K[3] != 0 || K[6] != 0 || K[7] != 0 || K[8] != 1)
     throw InputError(where + ": expected fx s cx, 0 fy cy, 0 0 1");

@@ -50,6 +50,21 @@ double number_of(const std::string& word, const std::string& where);
 /// The numbers that are left on a line, as number_of().
 std::vector<double> rest_of(Line& line);
 
+/// A word that is a time in seconds; `text` is the word.
+double read_time(Line& line, std::string& text);
+
+/// A line of a trajectory of TUM: time tx ty tz qx qy qz qw.
+struct TumPose {
+  double time = 0;
+  std::string time_text;
+  std::array<double, 3> position{};
+  /// w, x, y, z
+  std::array<double, 4> quaternion{};
+  /// Why the numbers are not a pose: "FILE: line N: …"; empty if they are.
+  std::string fault;
+};
+TumPose read_tum_pose(Line& line);
+
 /// Fails    InputError, beginning with `where`.
 
 /// fx s cx, 0 fy cy, 0 0 1.

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/rays/scan_files.h"
+#include "apps/shell/command.h"
+#include "fathom/camera/lidar_sensor.h"
+#include "fathom/rays/cast.h"
+
+namespace fathom::app {
+
+/// Where the points of a scan are.
+enum class ScanFrame { world, sensor };
+
+/// `--lidar --poses --start --frame --destagger --write-rays` of `fathom cast`.
+struct LidarOptions {
+  std::string sensor;
+
+  /// Returns --lidar.
+  Option add_to(Command& command);
+  /// Fails    UsageError for an option of lidars without --lidar.
+  void require_lidar() const;
+
+  std::string poses;
+  std::optional<double> start;
+  std::optional<ScanFrame> frame;
+  bool destagger = false;
+  std::string rays_output;
+};
+
+/// The rays of a turn of a lidar, and the file of what they meet.
+class LidarScan {
+ public:
+  /// Reads the sensor and the poses, and writes the rays if they were asked for.
+  LidarScan(const LidarOptions& options, int threads);
+
+  /// In the world; ray row·columns + column.
+  [[nodiscard]] const std::vector<Ray>& rays() const { return rays_; }
+  /// Casts the rays and writes points or an image.
+  void write(const RayScene& scene, const CastOptions& options, ScanFile file,
+             const OutputFile& output) const;
+
+ private:
+  template <class Real>
+  [[nodiscard]] Scan<Real> scan(const RayScene& scene, const CastOptions& options,
+                                ScanFrame frame) const;
+
+  LidarSensor sensor_;
+  std::vector<Ray> rays_;
+  /// The rays in the sensor's frame; empty if that is the world's.
+  std::vector<Ray> rays_of_sensor_;
+  std::optional<ScanFrame> frame_;
+  bool destagger_;
+};
+
+}  // namespace fathom::app
