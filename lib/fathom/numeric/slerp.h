@@ -18,7 +18,7 @@ namespace fathom {
 ///          the same rotation. Otherwise each component is computed with 320 bits and rounded to
 ///          binary64 once: it is the exact one rounded, unless the exact one lies within 2⁻²⁹⁰ of a
 ///          boundary of rounding.
-/// Source   Shoemake, Animating rotation with quaternion curves, SIGGRAPH 1985.
+/// Source   [Sho85]
 std::array<double, 4> slerp(const std::array<double, 4>& from, const std::array<double, 4>& to,
                             const Ratio& share);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "fathom/camera/rounded_angles.h"
 #include "fathom/failures/errors.h"
@@ -42,6 +43,16 @@ Placement placement_at(const LidarSensor& sensor, const Trajectory* path, double
   return path->at(Ratio(Dyadic(start)) + Ratio(static_cast<double>(column), columns_per_second));
 }
 
+/// Of the altitudes of all beams.
+using Altitudes = std::vector<camera::SineCosine>;
+
+Altitudes altitudes_of(const LidarSensor& sensor) {
+  Altitudes altitudes;
+  for (const double degrees : sensor.altitudes)
+    altitudes.push_back(camera::sine_and_cosine(degrees));
+  return altitudes;
+}
+
 /// The rays of a sensor in one placement.
 class Column {
  public:
@@ -59,9 +70,9 @@ class Column {
       origin_[i] = round_to_binary64(Ratio(origin[i] + motion_.position[i] * scale, scale));
   }
 
-  [[nodiscard]] Ray ray(std::size_t row) const {
+  [[nodiscard]] Ray ray(std::size_t row, const camera::SineCosine& altitude) const {
     const auto [sine, cosine] = camera::sine_and_cosine(angle(sensor_.azimuths[row]));
-    const auto [up, level] = camera::sine_and_cosine(sensor_.altitudes[row]);
+    const auto& [up, level] = altitude;
     const ExactVector3 direction = turned(in_sensor(
         {camera::rounded_product(cosine, level), camera::rounded_product(-sine, level), up.rounded},
         0.0));
@@ -116,11 +127,13 @@ std::vector<Ray> lidar_rays(const LidarSensor& sensor, const Trajectory* path, d
   // The ends first: a path that is too short is refused before any work, with the same message by
   // any number of threads.
   for (const std::size_t v : {std::size_t{0}, columns - 1}) placement_at(sensor, path, start, v);
+  const Altitudes altitudes = altitudes_of(sensor);
   std::vector<Ray> rays(sensor.rows * columns);
   with_threads(threads, [&] {
     parallel_for(std::size_t{0}, columns, [&](std::size_t v) {
       const Column column(sensor, v, placement_at(sensor, path, start, v));
-      for (std::size_t i = 0; i < sensor.rows; ++i) rays[i * columns + v] = column.ray(i);
+      for (std::size_t i = 0; i < sensor.rows; ++i)
+        rays[i * columns + v] = column.ray(i, altitudes[i]);
     });
   });
   for (std::size_t k = 0; k < rays.size(); ++k)
