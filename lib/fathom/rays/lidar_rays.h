@@ -19,9 +19,9 @@
 /// matrix, the change from millimetres to metres, and the placement. The rounded numbers *are* the
 /// ray.
 ///
-/// Source   `ouster-lidar/ouster-sdk`: make_xyz_lut() of xyzlut.cpp (BSD), where a range r means the
-///          point origin + (r − n)·direction, n being the distance of the origin from the lidar's
-///          zero.
+/// Source   `ouster-lidar/ouster-sdk`: make_xyz_lut() of xyzlut.cpp (BSD). A range r there means
+///          the point origin + (r − n)·direction, n being the distance of the origin from the
+///          lidar's zero.
 namespace fathom {
 
 /// The rays of a turn, in metres: ray i·columns + v is of beam i in column v.
