@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "apps/commands.h"
 #include "apps/options/scene_options.h"
@@ -113,20 +114,24 @@ int run_scan(const CastArguments& a, ScanFile file, const Console& console) {
   const LidarScan lidar(a.lidar, a.scene.threads);
   const Scene scene = a.scene.read(console);
   lidar.write(RayScene(scene, a.scene.threads), {a.segment, a.cull, a.scene.threads}, file, output);
+  lidar.write_rays();
   output.commit();
   return done;
 }
 
 int run_cast(const CastArguments& a, const Console& console) {
   ColumnOutput table(a.output);
-  const std::vector<Ray> rays =
-      a.lidar.sensor.empty() ? read_rays(a.rays) : LidarScan(a.lidar, a.scene.threads).rays();
+  std::optional<LidarScan> lidar;
+  if (!a.lidar.sensor.empty()) lidar.emplace(a.lidar, a.scene.threads);
+  const std::vector<Ray> rays = lidar ? lidar->rays() : read_rays(a.rays);
   const Scene scene = a.scene.read(console);
   const RayScene prepared(scene, a.scene.threads);
   const CastOptions options{a.segment, a.cull, a.scene.threads};
-  table.finish(a.is_about_hits()
-                   ? columns_about_hits(a, prepared, rays, options, table.is_archive())
-                   : columns_about_rays(a.mode, prepared, rays, options));
+  const std::vector<Column> columns =
+      a.is_about_hits() ? columns_about_hits(a, prepared, rays, options, table.is_archive())
+                        : columns_about_rays(a.mode, prepared, rays, options);
+  if (lidar) lidar->write_rays();
+  table.finish(columns);
   return done;
 }
 

@@ -18,16 +18,6 @@ ScanFrame parse_frame(const std::string& text) {
   return parse_word<ScanFrame>(text, {{"world", ScanFrame::world}, {"sensor", ScanFrame::sensor}});
 }
 
-void write_rays(const std::string& name, const std::vector<Ray>& rays) {
-  OutputFile output(name);
-  files::Bytes bytes = image::npy_header("<f8", std::to_string(rays.size()) + ", 6");
-  for (const Ray& ray : rays)
-    for (const auto& numbers : {ray.origin, ray.direction})
-      for (const double x : numbers) put(bytes, x);
-  output.write(bytes);
-  output.commit();
-}
-
 template <class Real>
 Real rounded(const Dyadic& x) {
   if constexpr (std::is_same_v<Real, float>) return round_to_binary32(Ratio(x));
@@ -66,7 +56,8 @@ void LidarOptions::require_lidar() const {
 LidarScan::LidarScan(const LidarOptions& options, int threads)
     : sensor_(read_ouster_sensor(options.sensor)),
       frame_(options.frame),
-      destagger_(options.destagger) {
+      destagger_(options.destagger),
+      rays_output_(options.rays_output) {
   if (destagger_ && sensor_.shifts.empty())
     throw InputError(sensor_.name + ": 'pixel_shift_by_row' is missing, which --destagger needs");
   if (options.poses.empty()) {
@@ -76,7 +67,17 @@ LidarScan::LidarScan(const LidarOptions& options, int threads)
     rays_ = lidar_rays(sensor_, &path, options.start.value_or(path.first_time()), threads);
     rays_of_sensor_ = lidar_rays(sensor_, nullptr, 0, threads);
   }
-  if (!options.rays_output.empty()) write_rays(options.rays_output, rays_);
+}
+
+void LidarScan::write_rays() const {
+  if (rays_output_.empty()) return;
+  OutputFile output(rays_output_);
+  files::Bytes bytes = image::npy_header("<f8", std::to_string(rays_.size()) + ", 6");
+  for (const Ray& ray : rays_)
+    for (const auto& numbers : {ray.origin, ray.direction})
+      for (const double x : numbers) put(bytes, x);
+  output.write(bytes);
+  output.commit();
 }
 
 template <class Real>

@@ -33,11 +33,13 @@ struct LidarOptions {
 /// The rays of a turn of a lidar, and the file of what they meet.
 class LidarScan {
  public:
-  /// Reads the sensor and the poses, and writes the rays if they were asked for.
+  /// Reads the sensor and the poses.
   LidarScan(const LidarOptions& options, int threads);
 
   /// In the world; ray row·columns + column.
   [[nodiscard]] const std::vector<Ray>& rays() const { return rays_; }
+  /// Writes the rays if they were asked for.
+  void write_rays() const;
   /// Casts the rays and writes points or an image.
   void write(const RayScene& scene, const CastOptions& options, ScanFile file,
              const OutputFile& output) const;
@@ -53,6 +55,7 @@ class LidarScan {
   std::vector<Ray> rays_of_sensor_;
   std::optional<ScanFrame> frame_;
   bool destagger_;
+  std::string rays_output_;
 };
 
 }  // namespace fathom::app

@@ -260,6 +260,11 @@ def test_written_rays_have_the_same_hits(folder):
     assert (folder / "a.npz").read_bytes() == (folder / "b.npz").read_bytes()
 
 
+def test_a_failure_leaves_no_rays(folder):
+    ran = run("missing.obj", "--lidar", "sensor.json", "--write-rays", "rays.npy", check=False, cwd=folder)
+    assert ran.returncode == 3 and not (folder / "rays.npy").exists()
+
+
 def test_old_metadata_without_groups(folder):
     old = {**sensor["beam_intrinsics"], **sensor["lidar_intrinsics"], "data_format": sensor["lidar_data_format"],
            "lidar_mode": "16x16"}
