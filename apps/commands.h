@@ -32,6 +32,9 @@ void add_cast(Command& program);
 /// `fathom sees`: which points see each other.
 void add_sees(Command& program);
 
+/// `fathom doctor`: faults of the cameras and depth images of a mesh.
+void add_doctor(Command& program);
+
 /// `fathom depth encode | decode | resolution | codes`: depth formats as a calculator.
 void add_depth(Command& program);
 

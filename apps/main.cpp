@@ -27,6 +27,8 @@ std::vector<Companion> companions() {
        "Find visible surfaces that coincide or nearly coincide, where z-buffers fight"},
       {"cast", "fathom-surfaces", "Find the triangles that rays meet, exactly"},
       {"sees", "fathom-surfaces", "Decide which points see each other, exactly"},
+      {"doctor", "fathom-surfaces",
+       "Find what is wrong with the cameras and depth images of a mesh"},
       {"clip", "fathom-textbook", "Clip polygons and segments given as JSON lines"},
       {"scan", "fathom-textbook", "Rasterize lines, polygons and triangles given as JSON lines"},
       {"pipeline", "fathom-textbook",

@@ -1,0 +1,203 @@
+// fathom doctor SCENE… --camera FILE --depth FILES
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "apps/commands.h"
+#include "apps/doctor/correction.h"
+#include "apps/doctor/data_set.h"
+#include "apps/doctor/diagnosis.h"
+#include "apps/doctor/doctor_report.h"
+#include "apps/options/camera_options.h"
+#include "apps/options/map_arguments.h"
+#include "apps/options/output_arguments.h"
+#include "apps/options/scene_options.h"
+#include "apps/shell/command.h"
+#include "apps/shell/console.h"
+#include "apps/shell/failures.h"
+#include "apps/shell/output_file.h"
+#include "apps/shell/standard_streams.h"
+#include "apps/shell/values.h"
+#include "fathom/camera/camera_files.h"
+#include "fathom/failures/errors.h"
+#include "fathom/image/map_files.h"
+
+namespace fathom::app {
+namespace {
+
+using doctor::DataSet;
+using doctor::Diagnosis;
+using doctor::View;
+
+struct DoctorArguments {
+  SceneOptions scene;
+  std::string camera, output;
+  std::vector<std::string> depth;
+  std::optional<double> png_scale;
+  std::uint32_t images = 8;
+  bool json = false;
+};
+
+/// A file for each camera, or a camera for each file.
+struct Inputs {
+  std::vector<Camera> cameras;
+  std::vector<std::string> files;
+};
+
+bool is_pattern(const std::vector<std::string>& depth) {
+  return depth.size() == 1 && depth.front().find('{') != std::string::npos;
+}
+
+Inputs inputs_of(const DoctorArguments& arguments, const Console& console) {
+  Inputs inputs{read_cameras_with_lenses(arguments.camera, arguments.scene.limits, console), {}};
+  if (is_pattern(arguments.depth)) {
+    inputs.files = names_of_outputs("--depth", arguments.depth.front(), inputs.cameras);
+  } else {
+    inputs.files = arguments.depth;
+    inputs.cameras =
+        about_option("--camera", [&] { return cameras_of_maps(inputs.files, inputs.cameras); });
+  }
+  return inputs;
+}
+
+View read_view(const Inputs& inputs, std::size_t i, const DoctorArguments& arguments) {
+  constexpr double millimetres = 1000;
+  DepthMap map = read_map_argument(inputs.files[i]);
+  const double scale = arguments.png_scale.value_or(map.png_scale.value_or(millimetres));
+  return {inputs.cameras[i], doctor::depth_image(std::move(map), inputs.files[i], scale)};
+}
+
+/// At most this many of `count`, at equal distances.
+std::vector<std::size_t> spread(std::size_t count, std::size_t most) {
+  std::vector<std::size_t> chosen;
+  const std::size_t size = std::min(count, most);
+  for (std::size_t i = 0; i < size; ++i) chosen.push_back(i * count / size);
+  return chosen;
+}
+
+/// Writes the corrected files; they appear together.
+void write_corrected(const Inputs& inputs, const DataSet& data, const Diagnosis& found,
+                     const DoctorArguments& arguments) {
+  const std::filesystem::path folder = arguments.output;
+  const bool is_named = std::ranges::none_of(
+      inputs.cameras, [](const Camera& camera) { return camera.name.empty(); });
+  const std::vector<std::string> names = names_of_outputs(
+      "-o", is_named ? "depth/{stem}.exr" : "depth/{index:06}.exr", inputs.cameras);
+  std::vector<Camera> cameras;
+  std::vector<std::unique_ptr<OutputFile>> files;
+  for (std::size_t i = 0; i < inputs.cameras.size(); ++i) {
+    const View view = read_view(inputs, i, arguments);
+    cameras.push_back(doctor::corrected_camera(view, found));
+    const std::string name = (folder / names[i]).string();
+    files.push_back(std::make_unique<OutputFile>(name));
+    files.back()->write(encode_map(doctor::corrected_map(data, view, found), name, MapFormat::exr));
+  }
+  files.push_back(std::make_unique<OutputFile>(folder / "cameras.json"));
+  files.back()->write(to_json(cameras) + "\n");
+  std::vector<OutputFile*> outputs;
+  for (const auto& file : files) outputs.push_back(file.get());
+  OutputFile::commit_together(outputs);
+}
+
+/// A word of a command for a shell.
+std::string quoted(const std::string& word) {
+  const bool is_plain = !word.empty() && std::ranges::all_of(word, [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string_view("_-./,:=+%@").find(char(c)) != std::string_view::npos;
+  });
+  if (is_plain) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+/// The command that corrects the faults: this one, with -o.
+std::string cure_of(const DoctorArguments& arguments, const Diagnosis& found) {
+  if (found.verdict != doctor::Verdict::faulty) return {};
+  std::string text = "fathom doctor";
+  for (const std::string& file : arguments.scene.files) text += " " + quoted(file);
+  text += " --camera " + quoted(arguments.camera) + " --depth";
+  for (const std::string& file : arguments.depth) text += " " + quoted(file);
+  if (arguments.png_scale) text += fmt::format(" --png-scale {}", *arguments.png_scale);
+  return text + " -o corrected";
+}
+
+int run_doctor(const DoctorArguments& arguments, const Console& console) {
+  const Inputs inputs = inputs_of(arguments, console);
+  const Scene scene = arguments.scene.read(console);
+  std::vector<View> views;
+  for (const std::size_t i : spread(inputs.files.size(), arguments.images))
+    views.push_back(read_view(inputs, i, arguments));
+  const bool has_depths = std::ranges::any_of(views, [](const View& view) {
+    return std::ranges::any_of(view.image.depths, [](double d) { return std::isfinite(d); });
+  });
+  if (!has_depths)
+    throw InputError(inputs.files.front() + ": no pixel has a depth, expected depth images");
+  const DataSet data(scene, std::move(views), arguments.scene.threads);
+  Diagnosis found;
+  {
+    Progress progress(console, "comparing");
+    found = doctor::diagnose(data, progress.reporter());
+  }
+  const std::string cure = cure_of(arguments, found);
+  if (!arguments.output.empty()) {
+    if (found.verdict != doctor::Verdict::faulty && found.verdict != doctor::Verdict::well)
+      throw InputError(
+          fmt::format("{}: not written: the faults are not certain; without -o the "
+                      "command shows the explanations",
+                      arguments.output));
+    write_corrected(inputs, data, found, arguments);
+  }
+  print(arguments.json ? doctor::to_json(found, cure) : doctor::to_text(found, cure));
+  return found.verdict == doctor::Verdict::well ? done : answer_is_no;
+}
+
+}  // namespace
+
+void add_doctor(Command& program) {
+  const auto arguments = std::make_shared<DoctorArguments>();
+  Command& command = program.command(
+      "doctor", "Find what is wrong with the cameras and depth images of a mesh",
+      "  fathom doctor room.ply --camera cameras.json --depth 'depth/{stem}.png'\n"
+      "  fathom doctor room.ply --camera camera.json --depth a.png --png-scale 5000\n"
+      "  fathom doctor room.ply --camera cameras.json --depth 'depth/{stem}.png' \\\n"
+      "    -o corrected\n"
+      "\nFinds axes, matrices, units, image sizes, mirrored images, lenses, ray distances, half "
+      "pixels, clipped and truncated codes, and two such faults together, by rendering the mesh as "
+      "each would have it.\n"
+      "Exit status 1 unless all is well; see doctor.md in the documentation.");
+  arguments->scene.add_to(command);
+  command
+      .option("--camera", "FILE", arguments->camera, "Camera file with the cameras of the images")
+      .required();
+  command
+      .option_with_values("--depth", "FILE", arguments->depth,
+                          "Depth images, one for each camera or named like the cameras; or a "
+                          "pattern: {index:04} is the camera's number, {name} its name, {stem} its "
+                          "name without folders and suffix")
+      .required();
+  command.option(
+      "--png-scale", "N",
+      [arguments](const std::string& text) { arguments->png_scale = parse_scale(text); },
+      "Codes per unit of a PNG (default: as in the file, or 1000)");
+  command.option("--images", "N", into(arguments->images, parse_positive),
+                 "Number of images to read and look at, at equal distances (default 8)");
+  command.flag("--json", arguments->json, "Print JSON");
+  add_output_option(command, "DIR", arguments->output,
+                    "Write cameras.json and depth/*.exr without the faults that were found to this "
+                    "folder");
+  command.answers_on_standard_output();
+  command.runs([arguments](const Console& console) { return run_doctor(*arguments, console); });
+}
+
+}  // namespace fathom::app

@@ -1,0 +1,90 @@
+#include "apps/doctor/doctor_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/shell/standard_streams.h"
+#include "fathom/text/counted.h"
+
+namespace fathom::doctor {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A share in percent, rounded down, so that only all pixels are 100 %.
+std::string percent(double share) {
+  return fmt::format("{:.1f} %", static_cast<int>(share * 1000) / 10.0);
+}
+
+std::string figures(const Agreement& a) {
+  return fmt::format("{:>7} of {} explained, residual {:.3g} (median), {:.3g} (largest)",
+                     percent(a.share), text::counted(a.pixels, "pixel"), a.median, a.largest);
+}
+
+Json as_json(const Agreement& a) {
+  return {{"pixels", a.pixels},
+          {"explained", a.share},
+          {"silhouettes", a.silhouettes},
+          {"median_residual", a.median},
+          {"largest_residual", a.largest}};
+}
+
+std::string verdict_text(const Diagnosis& found) {
+  switch (found.verdict) {
+    case Verdict::well:
+      return "all is well";
+    case Verdict::faulty:
+      return text::counted(found.faults.size(), "fault");
+    case Verdict::unclear:
+      return "cannot tell: several explanations fit equally well";
+    case Verdict::unknown:
+      break;
+  }
+  return "no known fault explains the depth images";
+}
+
+}  // namespace
+
+std::string to_text(const Diagnosis& found, const std::string& cure) {
+  std::string text = fmt::format("{}\n  as given  {}\n", verdict_text(found), figures(found.given));
+  if (!found.faults.empty()) text += fmt::format("  corrected {}\n", figures(found.corrected));
+  text += fmt::format(
+      "  {} looked at; a pixel is explained if its depth differs by at most {:.2g} % or half a "
+      "code; residuals in scene units\n",
+      text::counted(found.images, "image"), 100 * found.tolerance);
+  for (const FoundFault& fault : found.faults) {
+    text += fmt::format("{}: {}\n", fault.name, fault.text);
+    if (fault.evidence.after.pixels > 0)
+      text += fmt::format("  before    {}\n  after     {}\n", figures(fault.evidence.before),
+                          figures(fault.evidence.after));
+    for (const std::string& other : fault.alternatives)
+      text += fmt::format("  or        {}\n", other);
+  }
+  for (const std::string& note : found.notes) text += "note: " + note + "\n";
+  if (!cure.empty()) text += "to correct cameras and depth images:\n  " + cure + "\n";
+  return text;
+}
+
+std::string to_json(const Diagnosis& found, const std::string& cure) {
+  Json faults = Json::array();
+  for (const FoundFault& fault : found.faults) {
+    Json one{{"name", fault.name},
+             {"text", fault.text},
+             {"before", as_json(fault.evidence.before)},
+             {"after", as_json(fault.evidence.after)}};
+    if (!fault.alternatives.empty()) one["alternatives"] = fault.alternatives;
+    faults.push_back(one);
+  }
+  const Json answer{{"verdict", name_of(found.verdict)},
+                    {"images", found.images},
+                    {"tolerance", found.tolerance},
+                    {"given", as_json(found.given)},
+                    {"corrected", as_json(found.corrected)},
+                    {"faults", faults},
+                    {"notes", found.notes},
+                    {"command", cure.empty() ? Json(nullptr) : Json(cure)}};
+  return app::json_answer(answer);
+}
+
+}  // namespace fathom::doctor
