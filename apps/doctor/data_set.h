@@ -109,7 +109,7 @@ struct Agreement {
 /// Differences that count as near: a part of the depth, a part of the range of depths, and half a
 /// code.
 struct Tolerance {
-  double of_depth = 0.02, of_range = 0.05;
+  double of_depth = 0.02, of_range = 0.1;
 };
 
 /// `depth_scale`: the stored depths of a scene unit.

@@ -14,8 +14,8 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 const std::vector<std::string> companion_commands{
-    "clip",    "scan",  "pipeline", "study", "bench",    "validate", "view", "formats",
-    "visible", "areas", "sun",      "draw",  "evaluate", "coplanar", "cast", "sees"};
+    "clip",  "scan", "pipeline", "study",    "bench",    "validate", "view", "formats", "visible",
+    "areas", "sun",  "draw",     "evaluate", "coplanar", "cast",     "sees", "doctor"};
 
 /// A folder with `fathom` alone, and what stands in for other programs beside it.
 class Companions : public ::testing::Test {

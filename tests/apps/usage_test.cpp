@@ -188,7 +188,7 @@ TEST(Help, OfTheProgramNamesEveryCommand) {
   const std::string help = run_fathom({"--help"}).out;
   for (const char* name :
        {"render", "probe", "info", "preview", "compare", "convert", "camera", "visible", "areas",
-        "sun", "draw", "evaluate", "coplanar", "cast", "sees", "depth"}) {
+        "sun", "draw", "evaluate", "coplanar", "cast", "sees", "doctor", "depth"}) {
     EXPECT_THAT(help, HasSubstr(std::string("\n  ") + name));
   }
 }

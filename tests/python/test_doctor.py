@@ -1,0 +1,355 @@
+"""fathom doctor: data sets from exact depths, into which NumPy puts one fault or two; each fault is named, and the printed
+command makes cameras and depth images with which all is well. Right data sets, with noise and holes too, have no fault."""
+
+import json
+import os
+import shlex
+import struct
+import subprocess
+import zlib
+
+import fathom
+import numpy as np
+import pytest
+
+root = os.environ["FATHOM_SOURCE"]
+size = (240, 180)
+
+
+def program(*arguments, **options):
+    environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
+    return subprocess.run([os.environ["FATHOM_PROGRAM"], *map(str, arguments)], capture_output=True, text=True, timeout=300,
+                          env=environment, **options)
+
+
+def orbit(mesh, *more):
+    ran = program("camera", "orbit", os.path.join(root, mesh), "--views", 5, "--size", "{}x{}".format(*size), *more, check=True)
+    return json.loads(ran.stdout)
+
+
+def inside(*eyes):
+    """Cameras in the room that look at the animal, from different sides."""
+    cameras = []
+    for eye in eyes:
+        ran = program("camera", "look-at", "--eye", eye, "--target", "0.3,-0.2,-4", "--fov", 70, "--size",
+                      "{}x{}".format(*size), check=True)
+        cameras.append(json.loads(ran.stdout))
+    return cameras
+
+
+scenes = {
+    "spot": ("data/meshes/spot.obj", lambda: orbit("data/meshes/spot.obj", "--view", "35,25")),
+    "teapot": ("data/meshes/teapot.obj", lambda: orbit("data/meshes/teapot.obj", "--view", "10,35", "--fov", 60)),
+    "house": ("data/meshes/house.glb", lambda: orbit("data/meshes/house.glb", "--view", "20,15")),
+    "room": ("data/scenes/room.json", lambda: inside("-0.9,0.5,-1.2", "0.8,0.2,-1", "-0.4,0.7,-2", "0.6,-0.5,-1.5")),
+    "pair": ("data/scenes/pair.json", lambda: orbit("data/scenes/pair.json", "--view", "35,25")),
+}
+
+
+def png(codes):
+    """A 16-bit grey PNG."""
+    def chunk(name, data):
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+    rows = b"".join(b"\0" + row.astype(">u2").tobytes() for row in codes)
+    header = struct.pack(">IIBBBBB", codes.shape[1], codes.shape[0], 16, 0, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+
+
+def put_lens(camera, model, numbers):
+    for key in ("projection", "k1", "k2", "k3", "k4", "p1", "p2"):
+        camera.pop(key, None)
+    camera["model"] = model
+    camera.update(numbers)
+
+
+class Data:
+    """Exact depths of a scene, which faults change afterwards."""
+
+    def __init__(self, name, lens=None):
+        self.mesh = os.path.join(root, scenes[name][0])
+        self.cameras = scenes[name][1]()
+        for i, camera in enumerate(self.cameras):
+            camera["name"] = f"view{i}"
+            if lens:
+                put_lens(camera, *lens)
+        self.render()
+
+    def render(self):
+        scene = fathom.Scene.read(self.mesh)
+        maps = [scene.render(fathom.Camera.from_json(json.dumps(c)), channels=["Z", "distance"]) for c in self.cameras]
+        self.depth = [np.array(m["Z"], dtype=float) for m in maps]
+        self.distance = [np.array(m["distance"], dtype=float) for m in maps]
+        self.codes = None
+
+    def poses(self, change):
+        for camera in self.cameras:
+            matrix = np.vstack([camera["world_to_camera"], [0, 0, 0, 1]])
+            camera["world_to_camera"] = change(matrix)[:3].tolist()
+
+    def encode(self, per_unit, rounding=np.rint):
+        self.codes = [np.where(np.isfinite(d), rounding(d * per_unit), 0) for d in self.depth]
+
+    def write(self, folder):
+        (folder / "depth").mkdir()
+        (folder / "cameras.json").write_text(json.dumps(self.cameras))
+        for i, camera in enumerate(self.cameras):
+            if self.codes is None:
+                np.save(folder / "depth" / f"view{i}.npy", self.depth[i])
+            else:
+                (folder / "depth" / f"view{i}.png").write_bytes(png(self.codes[i].astype(np.uint16)))
+        suffix = "npy" if self.codes is None else "png"
+        return ["doctor", self.mesh, "--camera", "cameras.json", "--depth", f"depth/{{stem}}.{suffix}"]
+
+
+def examine(arguments, folder):
+    ran = program(*arguments, "--json", cwd=folder)
+    assert ran.returncode in (0, 1), ran.stderr
+    answer = json.loads(ran.stdout)
+    assert ran.returncode == (0 if answer["verdict"] == "well" else 1)
+    return answer
+
+
+def names(answer):
+    return [fault["name"] for fault in answer["faults"]]
+
+
+def rotation(*rows):
+    matrix = np.eye(4)
+    matrix[:3, :3] = rows
+    return matrix
+
+
+opengl = np.diag([1.0, -1, -1, 1])
+z_up = rotation((1, 0, 0), (0, 0, -1), (0, 1, 0))  # y of the mesh is z of the cameras
+
+
+# The faults. Each takes right data and makes it wrong.
+
+def camera_axes(data):
+    data.poses(lambda m: opengl @ m)
+
+
+def world_axes(data):
+    data.poses(lambda m: m @ np.linalg.inv(z_up))
+
+
+def camera_to_world(data):
+    data.poses(np.linalg.inv)
+
+
+def camera_to_world_of_opengl(data):
+    data.poses(lambda m: np.linalg.inv(opengl @ m))
+
+
+def millimetre_positions(data):
+    def scaled(m):
+        m = m.copy()
+        m[:3, 3] *= 1000
+        return m
+    data.poses(scaled)
+
+
+def units(data):
+    """Cameras and depths in millimetres, the mesh in metres."""
+    millimetre_positions(data)
+    data.depth = [1000 * d for d in data.depth]
+
+
+def depth_scale(data):
+    data.depth = [5 * d for d in data.depth]
+
+
+def ray_distance(data):
+    data.depth = data.distance
+
+
+def half_pixel(data):
+    for camera in data.cameras:
+        camera["cx"] -= 0.5
+        camera["cy"] -= 0.5
+
+
+def half_pixel_of_columns(data):
+    for camera in data.cameras:
+        camera["cx"] += 0.5
+
+
+def mirrored(data):
+    data.depth = [d[:, ::-1].copy() for d in data.depth]
+
+
+def upside_down(data):
+    data.depth = [d[::-1].copy() for d in data.depth]
+
+
+def turned(data):
+    data.depth = [np.rot90(d).copy() for d in data.depth]
+
+
+def halved_size(data):
+    """Cameras of images of twice the size."""
+    for camera in data.cameras:
+        for key in ("fx", "fy", "cx", "cy", "width", "height"):
+            camera[key] *= 2
+
+
+def middle(data):
+    for camera in data.cameras:
+        camera["width"] += 80
+        camera["height"] += 60
+        camera["cx"] += 40
+        camera["cy"] += 30
+
+
+def truncated(data):
+    data.encode(1000, np.floor)
+
+
+def clipped(data):
+    limit = np.quantile(np.concatenate([d[np.isfinite(d)] for d in data.depth]), 0.7)
+    data.depth = [np.where(np.isfinite(d), np.minimum(d, limit), d) for d in data.depth]
+
+
+def no_value(data):
+    data.encode(1000)
+    data.codes = [np.where(c == 0, 65535, c) for c in data.codes]
+
+
+single = {
+    camera_axes: "camera-axes", world_axes: "world-axes", camera_to_world: "camera-to-world",
+    millimetre_positions: "units", units: "units", depth_scale: "depth-scale", ray_distance: "ray-distance",
+    half_pixel: "half-pixel", half_pixel_of_columns: "half-pixel", mirrored: "mirrored", upside_down: "mirrored",
+    turned: "mirrored", halved_size: "image-size", middle: "image-size", truncated: "truncated-codes", clipped: "clipped",
+}
+
+
+def check(data, folder, expected):
+    arguments = data.write(folder)
+    answer = examine(arguments, folder)
+    assert sorted(names(answer)) == sorted(expected), answer
+    assert answer["verdict"] == "faulty"
+    for fault in answer["faults"]:
+        assert fault["after"]["explained"] >= fault["before"]["explained"]
+    words = shlex.split(answer["command"])
+    assert words[:2] == ["fathom", "doctor"]
+    program(*words[1:], cwd=folder)
+    right = examine(["doctor", data.mesh, "--camera", "corrected/cameras.json", "--depth", "corrected/depth/{stem}.exr"],
+                    folder)
+    assert right["verdict"] == "well" and not right["faults"], right
+    return answer
+
+
+@pytest.mark.parametrize("fault", single, ids=lambda f: f.__name__)
+@pytest.mark.parametrize("scene", ["spot", "room", "house"])
+def test_fault_is_named_and_corrected(tmp_path, scene, fault):
+    data = Data(scene)
+    fault(data)
+    check(data, tmp_path, [single[fault]])
+
+
+@pytest.mark.parametrize("first, second", [
+    (camera_axes, units), (camera_axes, depth_scale), (camera_axes, half_pixel), (camera_axes, ray_distance),
+    (camera_axes, mirrored), (camera_to_world, depth_scale), (camera_to_world, ray_distance), (world_axes, camera_axes),
+    (world_axes, millimetre_positions), (world_axes, half_pixel), (mirrored, depth_scale), (ray_distance, upside_down),
+    (ray_distance, depth_scale), (depth_scale, half_pixel), (ray_distance, half_pixel), (half_pixel, truncated),
+    (halved_size, camera_axes)], ids=lambda f: f.__name__)
+@pytest.mark.parametrize("scene", ["spot", "room"])
+def test_two_faults_are_named_and_corrected(tmp_path, scene, first, second):
+    data = Data(scene)
+    first(data)
+    second(data)
+    check(data, tmp_path, [single[first], single[second]])
+
+
+def test_inverse_of_opengl_is_two_faults(tmp_path):
+    data = Data("room")
+    camera_to_world_of_opengl(data)
+    check(data, tmp_path, ["camera-to-world", "camera-axes"])
+
+
+def test_65535_is_no_value(tmp_path):
+    data = Data("spot")
+    no_value(data)
+    check(data, tmp_path, ["no-value"])
+
+
+barrel = ("OPENCV", {"k1": -0.25, "k2": 0.08, "p1": 0.01, "p2": -0.015})
+
+
+@pytest.mark.parametrize("made_with, text", [
+    (None, "do not have the lens"),
+    (("OPENCV", {"k1": -0.25, "k2": 0.08, "p1": -0.015, "p2": 0.01}), "swapped"),
+    (("OPENCV_FISHEYE", {"k1": -0.25, "k2": 0.08, "k3": 0.01, "k4": -0.015}), "OPENCV_FISHEYE"),
+    (("FULL_OPENCV", {"k1": -0.25, "k2": 0.08, "k3": 0.01}), "k3")], ids=["ignored", "swapped", "fisheye", "k3"])
+def test_lens_is_named_and_corrected(tmp_path, made_with, text):
+    data = Data("room", made_with)
+    for camera in data.cameras:
+        put_lens(camera, *barrel)
+    assert text in check(data, tmp_path, ["lens"])["faults"][0]["text"]
+
+
+def noisy(data, of_depth, holes):
+    random = np.random.default_rng(7)
+    for i, depth in enumerate(data.depth):
+        depth = depth * (1 + of_depth * random.standard_normal(depth.shape))
+        depth[random.random(depth.shape) < holes] = np.inf
+        data.depth[i] = depth
+
+
+@pytest.mark.parametrize("scene", scenes)
+@pytest.mark.parametrize("kind", ["exact", "codes", "coarse-codes", "sensor", "bad-sensor", "lens"])
+def test_right_data_has_no_fault(tmp_path, scene, kind):
+    data = Data(scene, barrel if kind == "lens" else None)
+    if "sensor" in kind:
+        noisy(data, *((0.005, 0.1) if kind == "sensor" else (0.02, 0.4)))
+    if kind in ("codes", "sensor", "bad-sensor"):
+        data.encode(1000)
+    if kind == "coarse-codes":
+        data.encode(100)
+    arguments = data.write(tmp_path)
+    if kind == "coarse-codes":
+        arguments += ["--png-scale", "100"]
+    answer = examine(arguments, tmp_path)
+    assert not answer["faults"], answer
+    assert answer["verdict"] == "well", answer
+    assert answer["given"]["explained"] > 0.9
+
+
+@pytest.mark.parametrize("fault", [camera_axes, camera_to_world, units, ray_distance, mirrored], ids=lambda f: f.__name__)
+def test_fault_is_named_under_noise(tmp_path, fault):
+    data = Data("room")
+    fault(data)
+    noisy(data, 0.01, 0.2)
+    answer = examine(data.write(tmp_path), tmp_path)
+    assert names(answer) == [single[fault]], answer
+
+
+def test_zero_of_codes_is_a_note(tmp_path):
+    data = Data("spot")
+    data.encode(1000)
+    answer = examine(data.write(tmp_path), tmp_path)
+    zeros = sum(int((c == 0).sum()) for c in data.codes)
+    assert answer["notes"] == [f"0 stands for no value, in {zeros} pixels"]
+
+
+def test_symmetric_mesh_is_unclear(tmp_path):
+    """A cube that looks the same with several axes."""
+    data = Data("spot")
+    data.mesh = os.path.join(root, "data/meshes/cube.obj")
+    data.cameras = orbit("data/meshes/cube.obj", "--view", "35,25")
+    for i, camera in enumerate(data.cameras):
+        camera["name"] = f"view{i}"
+    data.render()
+    camera_axes(data)
+    answer = examine(data.write(tmp_path), tmp_path)
+    if answer["verdict"] == "unclear":
+        assert answer["faults"][0]["alternatives"] and answer["command"] is None
+    else:
+        assert names(answer) == ["camera-axes"]
+
+
+def test_nothing_explains_another_mesh(tmp_path):
+    data = Data("teapot")
+    data.mesh = os.path.join(root, "data/meshes/house.glb")
+    answer = examine(data.write(tmp_path), tmp_path)
+    assert answer["verdict"] == "unknown" and answer["command"] is None, answer
