@@ -256,9 +256,12 @@ std::optional<Hypothesis> next_small(const DataSet& data, const Hypothesis& h) {
   }
   std::optional<Hypothesis> best;
   double least = 1;
-  const auto consider = [&](const Hypothesis& changed) {
+  const auto consider = [&](Hypothesis changed) {
     const std::vector<Pair> pairs =
         data.pairs(data.grids(changed, fine_images, fine_pixels), changed);
+    // A scale that was estimated without the change is wrong by the mean effect of the change.
+    if (h.depth_scale != 1 && changed.depth_scale == h.depth_scale)
+      changed.depth_scale = usual_scale(median_ratio(pairs));
     const auto found = preference(now, h.depth_scale, pairs, changed.depth_scale);
     if (!found || !is_certain(*found)) return;
     const Tolerance fine{.of_depth = 3 * median_relative(pairs, changed.depth_scale)};

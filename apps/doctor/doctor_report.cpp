@@ -49,10 +49,14 @@ std::string verdict_text(const Diagnosis& found) {
 std::string to_text(const Diagnosis& found, const std::string& cure) {
   std::string text = fmt::format("{}\n  as given  {}\n", verdict_text(found), figures(found.given));
   if (!found.faults.empty()) text += fmt::format("  corrected {}\n", figures(found.corrected));
+  constexpr double visible_tolerance = 1e-6;
+  const std::string limit = found.tolerance < visible_tolerance
+                                ? std::string("the rounding of its number")
+                                : fmt::format("{:.2g} % or half a code", 100 * found.tolerance);
   text += fmt::format(
-      "  {} looked at; a pixel is explained if its depth differs by at most {:.2g} % or half a "
-      "code; residuals in scene units\n",
-      text::counted(found.images, "image"), 100 * found.tolerance);
+      "  {} looked at; a pixel is explained if its depth differs by at most {}; residuals in scene "
+      "units\n",
+      text::counted(found.images, "image"), limit);
   for (const FoundFault& fault : found.faults) {
     text += fmt::format("{}: {}\n", fault.name, fault.text);
     if (fault.evidence.after.pixels > 0)
