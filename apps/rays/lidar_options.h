@@ -6,8 +6,8 @@
 
 #include "apps/rays/scan_files.h"
 #include "apps/shell/command.h"
-#include "fathom/camera/lidar_sensor.h"
 #include "fathom/rays/cast.h"
+#include "fathom/rays/lidar_sensor.h"
 
 namespace fathom::app {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "fathom/camera/lidar_sensor.h"
 #include "fathom/camera/trajectory.h"
+#include "fathom/rays/lidar_sensor.h"
 #include "fathom/rays/ray.h"
 
 /// The rays of a lidar.

@@ -1,4 +1,4 @@
-#include "fathom/camera/lidar_sensor.h"
+#include "fathom/rays/lidar_sensor.h"
 
 #include <algorithm>
 #include <array>
