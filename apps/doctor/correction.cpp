@@ -1,11 +1,10 @@
-#include "apps/doctor/correction.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "apps/doctor/diagnosis.h"
 #include "fathom/camera_directions.h"
 #include "fathom/image/surface.h"
 

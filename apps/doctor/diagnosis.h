@@ -8,6 +8,8 @@
 
 #include "apps/doctor/data_set.h"
 #include "apps/doctor/hypothesis.h"
+#include "fathom/camera/camera.h"
+#include "fathom/image/depth_map.h"
 
 /// The search for the hypothesis that explains a data set.
 namespace fathom::doctor {
@@ -51,5 +53,18 @@ struct Diagnosis {
 /// that the cameras as given do not; then, one after the other, for small ones.
 /// `progress` is called with the share done.
 Diagnosis diagnose(const DataSet& data, const std::function<void(double)>& progress);
+
+/// The camera of a view without the faults that were found.
+Camera corrected_camera(const View& view, const Diagnosis& found);
+
+/// The depth image of a view without the faults that were found: Z in scene units, binary32, +∞
+/// where there is no value. Numbers at the ceiling of the data set become +∞ if they are clipped
+/// depths or stand for no value.
+DepthMap corrected_map(const DataSet& data, const View& view, const Diagnosis& found);
+
+/// The diagnosis for people. `cure` is the command that writes corrected files.
+std::string to_text(const Diagnosis& found, const std::string& cure);
+/// The same as JSON.
+std::string to_json(const Diagnosis& found, const std::string& cure);
 
 }  // namespace fathom::doctor

@@ -14,10 +14,8 @@
 #include <vector>
 
 #include "apps/commands.h"
-#include "apps/doctor/correction.h"
 #include "apps/doctor/data_set.h"
 #include "apps/doctor/diagnosis.h"
-#include "apps/doctor/doctor_report.h"
 #include "apps/options/camera_options.h"
 #include "apps/options/map_arguments.h"
 #include "apps/options/output_arguments.h"

@@ -1,9 +1,8 @@
-#include "apps/doctor/doctor_report.h"
-
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
+#include "apps/doctor/diagnosis.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/text/counted.h"
 
