@@ -145,7 +145,7 @@ TEST(FastLenses, TrianglesAcrossTilesOfAnyNumberOfThreads) {
   for (const NamedLens& named : lenses()) {
     SCOPED_TRACE(named.name);
     const Scene scene =
-        i % 2 == 0 ? testing::soup(random, 60, i % 4 == 0) : testing::slivers(random, 60);
+        i % 2 == 0 ? testing::soup(random, 30, i % 4 == 0) : testing::slivers(random, 30);
     Camera camera = camera_with(named.lens);
     if (i % 3 == 0) camera.far = 5;
     if (i % 3 == 1) camera.near = 2;
@@ -166,7 +166,7 @@ TEST(FastLenses, TrianglesAcrossTilesOfAnyNumberOfThreads) {
 }
 
 TEST(FastLenses, EveryChannelOfSpheres) {
-  const Scene scene = testing::two_spheres(24);
+  const Scene scene = testing::two_spheres(12);
   for (const NamedLens& named : lenses()) {
     SCOPED_TRACE(named.name);
     Camera camera = camera_with(named.lens);

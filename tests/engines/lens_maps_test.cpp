@@ -1,11 +1,12 @@
 // Maps of lenses against rays that are cast in rational numbers, every channel, over random scenes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "fathom/lens/preimages.h"
 #include "fathom/render.h"
-#include "tests/effort.h"
+#include "tests/adversaries.h"
 #include "tests/inputs/lens_scenes.h"
 #include "tests/oracle/against_oracle.h"
 
@@ -53,13 +54,14 @@ TEST_P(LensMaps, EveryChannelOfEveryPixelAgreesWithRationalRays) {
       static_cast<std::uint64_t>(100 * static_cast<int>(model)) + static_cast<std::uint64_t>(kind),
       kind);
   Tally tally;
-  for (int i = 0; i < 60 / testing::effort && !HasFailure(); ++i) {
+  const auto scenes =
+      static_cast<int>(std::min<std::uint64_t>(testing::number_of_adversaries(30), 300));
+  for (int i = 0; i < scenes && !HasFailure(); ++i) {
     SCOPED_TRACE("scene " + std::to_string(i) + " of this seed");
     check(maker.make(model), tally);
   }
   // Few samples of these cameras are in the circle of an orthographic fisheye.
-  const int least_hits = model == LensModel::fisheye_orthographic ? 20 : 60;
-  EXPECT_GT(tally.hits, least_hits / testing::effort);
+  EXPECT_GT(tally.hits, model == LensModel::fisheye_orthographic ? scenes / 3 : scenes);
   if (model == LensModel::simple_radial || model == LensModel::opencv) {
     EXPECT_GT(tally.without_ray, 0);
   }
@@ -73,7 +75,7 @@ std::string name_of_case(const ::testing::TestParamInfo<std::tuple<LensModel, Ki
   return std::string(name_of(model)) + (kind == Kind::few_bits ? "_few_bits" : "_neighbours");
 }
 
-INSTANTIATE_TEST_SUITE_P(RandomScenes, LensMaps,
+INSTANTIATE_TEST_SUITE_P(Adversaries, LensMaps,
                          ::testing::Combine(::testing::ValuesIn(testing::bending_models()),
                                             ::testing::Values(Kind::few_bits, Kind::neighbours)),
                          name_of_case);

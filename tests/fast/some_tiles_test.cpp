@@ -256,7 +256,7 @@ TEST(TilesInRounds, OfLenses) {
       camera.projection.fx = camera.projection.fy = 0x1p-660;
     }
     for (const Plan& plan : plans) {
-      const Scene scene = testing::soup(random, is_too_far ? 20 : 400 / testing::effort, false);
+      const Scene scene = testing::soup(random, is_too_far ? 20 : 120 / testing::effort, false);
       RenderOptions options = lens_channels();
       if (plan.places == 2) options.cull = Cull::back;
       expect_same_in_places(scene, camera, options, plan, render_fast(scene, camera, options),
