@@ -103,6 +103,7 @@ void write_corrected(const Inputs& inputs, const DataSet& data, const Diagnosis&
   files.push_back(std::make_unique<OutputFile>(folder / "cameras.json"));
   files.back()->write(to_json(cameras) + "\n");
   std::vector<OutputFile*> outputs;
+  outputs.reserve(files.size());
   for (const auto& file : files) outputs.push_back(file.get());
   OutputFile::commit_together(outputs);
 }
