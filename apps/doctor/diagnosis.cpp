@@ -301,7 +301,7 @@ void judge_ceiling(const DataSet& data, Diagnosis& found) {
     const double exact = pair.exact * h.depth_scale;
     if (!std::isfinite(pair.exact)) {
       ++none;
-    } else if (exact > ceiling + pair.step) {
+    } else if (exact > ceiling + std::max(double(pair.step), found.tolerance * ceiling)) {
       ++beyond;
     } else if (exact > ceiling * 0.98) {
       ++right;

@@ -62,8 +62,7 @@ Inputs inputs_of(const DoctorArguments& arguments, const Console& console) {
     inputs.files = names_of_outputs("--depth", arguments.depth.front(), inputs.cameras);
   } else {
     inputs.files = arguments.depth;
-    inputs.cameras =
-        about_option("--camera", [&] { return cameras_of_maps(inputs.files, inputs.cameras); });
+    inputs.cameras = cameras_of_maps(inputs.files, inputs.cameras);
   }
   return inputs;
 }

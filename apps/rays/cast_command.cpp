@@ -113,9 +113,13 @@ int run_scan(const CastArguments& a, ScanFile file, const Console& console) {
   OutputFile output(a.output);
   const LidarScan lidar(a.lidar, a.scene.threads);
   const Scene scene = a.scene.read(console);
-  lidar.write(RayScene(scene, a.scene.threads), {a.segment, a.cull, a.scene.threads}, file, output);
+  const bool has_hits = lidar.write(RayScene(scene, a.scene.threads),
+                                    {a.segment, a.cull, a.scene.threads}, file, output);
   lidar.write_rays();
   output.commit();
+  if (!has_hits)
+    console.warn(
+        "no beam meets the scene: check --poses, --segment, and that the scene is in metres");
   return done;
 }
 
@@ -170,8 +174,11 @@ void add_cast(Command& program) {
       throw UsageError("--channels is for --mode nearest and all");
     if (arguments->rays.empty() && arguments->lidar.sensor.empty())
       throw UsageError("--rays or --lidar is required");
-    arguments->lidar.require_lidar();
     const std::optional<ScanFile> file = scan_file_of(arguments->output);
+    arguments->lidar.check(file);
+    if (!arguments->lidar.sensor.empty() && !file && !ColumnOutput::is_for(arguments->output))
+      throw UsageError("-o: '" + arguments->output +
+                       "' does not end in .csv, .npz, .bin, .ply, .pcd, .npy or .exr");
     if (arguments->lidar.sensor.empty() || !file) return run_cast(*arguments, console);
     if (channels.is_given()) throw UsageError("--channels is for tables, .csv and .npz");
     return run_scan(*arguments, *file, console);

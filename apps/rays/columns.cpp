@@ -93,13 +93,16 @@ std::size_t Column::rows() const {
   return std::visit([](const auto& numbers) { return numbers.size(); }, values) / width();
 }
 
+bool ColumnOutput::is_for(const std::string& name) {
+  return name == "-" || name.ends_with(".csv") || name.ends_with(".npz");
+}
+
 ColumnOutput::ColumnOutput(const std::string& name) : name_(name) {
+  if (!is_for(name)) throw UsageError("-o: '" + name + "' does not end in .csv or .npz");
   if (name.ends_with(".npz")) {
     archive_.emplace(name);
-  } else if (name == "-" || name.ends_with(".csv")) {
-    text_.emplace(name);
   } else {
-    throw UsageError("-o: '" + name + "' does not end in .csv or .npz");
+    text_.emplace(name);
   }
 }
 

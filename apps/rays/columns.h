@@ -35,7 +35,9 @@ struct Column {
 ///   NPZ    an array for each column, little-endian
 class ColumnOutput {
  public:
-  /// Fails    UsageError for a name that ends in neither .csv nor .npz, before any work.
+  /// Whether a table can have this name: it ends in .csv or .npz, or is "-".
+  static bool is_for(const std::string& name);
+  /// Fails    UsageError if !is_for(name), before any work.
   explicit ColumnOutput(const std::string& name);
 
   [[nodiscard]] bool is_archive() const { return archive_.has_value(); }

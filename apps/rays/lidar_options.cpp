@@ -47,8 +47,15 @@ Option LidarOptions::add_to(Command& command) {
   return lidar;
 }
 
-void LidarOptions::require_lidar() const {
-  if (!sensor.empty()) return;
+void LidarOptions::check(const std::optional<ScanFile>& file) const {
+  if (!sensor.empty()) {
+    if (start && poses.empty()) throw UsageError("--start needs --poses");
+    if (frame && (!file || !is_cloud(*file)))
+      throw UsageError("--frame is for points, .bin, .ply and .pcd");
+    if (destagger && (!file || is_cloud(*file)))
+      throw UsageError("--destagger is for range images, .npy and .exr");
+    return;
+  }
   if (!poses.empty() || start || frame || destagger || !rays_output.empty())
     throw UsageError("--poses, --start, --frame, --destagger and --write-rays need --lidar");
 }
@@ -99,10 +106,12 @@ Scan<Real> LidarScan::scan(const RayScene& scene, const CastOptions& options,
   return scan;
 }
 
-void LidarScan::write(const RayScene& scene, const CastOptions& options, ScanFile file,
+bool LidarScan::write(const RayScene& scene, const CastOptions& options, ScanFile file,
                       const OutputFile& output) const {
   const ScanFrame usual = file == ScanFile::kitti ? ScanFrame::sensor : ScanFrame::world;
+  bool has_hits = false;
   const auto write_as = [&](const auto& of_rays) {
+    has_hits = std::ranges::any_of(of_rays.ids, [](auto id) { return id != no_triangle; });
     if (is_cloud(file)) {
       output.write(cloud_of(of_rays, file));
     } else {
@@ -118,6 +127,7 @@ void LidarScan::write(const RayScene& scene, const CastOptions& options, ScanFil
   } else {
     write_as(scan<float>(scene, options, frame));
   }
+  return has_hits;
 }
 
 }  // namespace fathom::app

@@ -20,8 +20,9 @@ struct LidarOptions {
 
   /// Returns --lidar.
   Option add_to(Command& command);
-  /// Fails    UsageError for an option of lidars without --lidar.
-  void require_lidar() const;
+  /// `file` is the kind of the output; nullopt for a table.
+  /// Fails    UsageError for an option that has no effect.
+  void check(const std::optional<ScanFile>& file) const;
 
   std::string poses;
   std::optional<double> start;
@@ -40,8 +41,8 @@ class LidarScan {
   [[nodiscard]] const std::vector<Ray>& rays() const { return rays_; }
   /// Writes the rays if they were asked for.
   void write_rays() const;
-  /// Casts the rays and writes points or an image.
-  void write(const RayScene& scene, const CastOptions& options, ScanFile file,
+  /// Casts the rays and writes points or an image. Returns whether a ray meets the scene.
+  bool write(const RayScene& scene, const CastOptions& options, ScanFile file,
              const OutputFile& output) const;
 
  private:

@@ -318,6 +318,23 @@ def test_right_data_has_no_fault(tmp_path, scene, kind):
     assert answer["given"]["explained"] > 0.9
 
 
+@pytest.mark.parametrize("rounding", [lambda z: np.round(z, 3), lambda z: np.round(z, 2), np.float16],
+                         ids=["millimetres", "centimetres", "half"])
+def test_rounded_depths_of_a_wall_are_not_clipped(tmp_path, rounding):
+    """The wall is the farthest surface, and its depth is rounded down."""
+    corners = [(-3, -3, 3.0004), (3, -3, 3.0004), (3, 3, 3.0004), (-3, 3, 3.0004),
+               (-0.5, -0.5, 2), (0.6, -0.5, 2.2), (0.6, 0.4, 2.4), (-0.5, 0.3, 2.1)]
+    lines = ["v {} {} {}\n".format(*corner) for corner in corners]
+    (tmp_path / "wall.obj").write_text("".join(lines) + "f 1 2 3 4\nf 5 6 7\nf 5 7 8\n")
+    camera = {"width": 160, "height": 120, "fx": 150, "fy": 150, "cx": 80, "cy": 60, "pixel_centre": 0.5,
+              "world_to_camera": np.eye(4).tolist()}
+    (tmp_path / "camera.json").write_text(json.dumps(camera))
+    program("render", "wall.obj", "--camera", "camera.json", "-o", "exact.npy", cwd=tmp_path, check=True)
+    np.save(tmp_path / "depth.npy", rounding(np.load(tmp_path / "exact.npy")).astype(np.float32))
+    ran = program("doctor", "wall.obj", "--camera", "camera.json", "--depth", "depth.npy", cwd=tmp_path)
+    assert ran.returncode == 0 and ran.stdout.startswith("all is well\n"), ran.stdout + ran.stderr
+
+
 @pytest.mark.parametrize("fault", [camera_axes, camera_to_world, units, ray_distance, mirrored], ids=lambda f: f.__name__)
 def test_fault_is_named_under_noise(tmp_path, fault):
     data = Data("room")

@@ -324,6 +324,25 @@ def test_bad_paths_are_one_line(folder, text, start, message):
     assert ran.returncode == 3 and message in ran.stderr and ran.stderr.count("\n") == 1
 
 
+def test_a_path_may_end_at_the_last_column(folder):
+    """Column 15 measures 15/256 s after the start; the nearest double to the exact sum is before it and ends the path."""
+    start = 0.013
+    end = float(Fraction(start) + Fraction(15, 256))
+    assert Fraction(end) < Fraction(start) + Fraction(15, 256)
+    for last, status in ((end, 0), (float(np.nextafter(end, 0)), 3)):
+        (folder / "short.txt").write_text(f"{start} 0 0 0 0 0 0 1\n{last!r} 1 0 0 0 0 0 1\n")
+        ran = run(cube, "--lidar", "sensor.json", "--poses", "short.txt", "-o", "scan.bin", check=False, cwd=folder)
+        assert ran.returncode == status, ran.stderr
+
+
+def test_a_scan_without_points_has_a_warning(folder):
+    for name in ("scan.bin", "range.npy"):
+        ran = run(cube, "--lidar", "sensor.json", "--segment", "1000:2000", "-o", name, cwd=folder)
+        assert "warning: no beam meets the scene" in ran.stderr and ran.stderr.count("\n") == 1
+    assert (folder / "scan.bin").read_bytes() == b""
+    assert not run(cube, "--lidar", "sensor.json", "-o", "scan.bin", cwd=folder).stderr
+
+
 @pytest.mark.parametrize("options, message", [
     ((), "--rays or --lidar is required"),
     (("--rays", "rays.csv", "--poses", "path.txt"), "need --lidar"),
@@ -331,6 +350,11 @@ def test_bad_paths_are_one_line(folder, text, start, message):
     (("--lidar", "sensor.json", "-o", "scan.bin", "--mode", "all"), "are for --mode nearest"),
     (("--lidar", "sensor.json", "-o", "scan.bin", "--channels", "t"), "--channels is for tables"),
     (("--lidar", "sensor.json", "--frame", "lidar"), "--frame: 'lidar' is neither world nor sensor"),
+    (("--lidar", "sensor.json", "-o", "scan.jpg"), "does not end in .csv, .npz, .bin, .ply, .pcd, .npy or .exr"),
+    (("--lidar", "sensor.json", "--start", "1"), "--start needs --poses"),
+    (("--lidar", "sensor.json", "-o", "range.exr", "--frame", "world"), "--frame is for points"),
+    (("--lidar", "sensor.json", "--frame", "world"), "--frame is for points"),
+    (("--lidar", "sensor.json", "-o", "scan.bin", "--destagger"), "--destagger is for range images"),
 ])
 def test_wrong_usage(folder, options, message):
     ran = run(cube, *options, check=False, cwd=folder)

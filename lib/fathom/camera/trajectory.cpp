@@ -35,6 +35,9 @@ Placement Trajectory::at(const Ratio& time) const {
     return Ratio(Dyadic(pose.time)) < t;
   };
   const auto end = std::lower_bound(poses_.begin(), poses_.end(), time, is_before);
+  // The file's times are rounded, so a time that rounds to the last one is the last one.
+  if (end == poses_.end() && round_to_binary64(time) == poses_.back().time)
+    return poses_.back().placement;
   const bool is_early = time < Ratio(Dyadic(first_time()));
   if (is_early || end == poses_.end())
     throw InputError(name_ + ": the poses " +
