@@ -8,6 +8,7 @@
 #include "fathom/files/input_file.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/slerp.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/decimal.h"
 #include "fathom/text/printable.h"
 
@@ -15,6 +16,7 @@ namespace fathom {
 using namespace camera;
 
 Trajectory Trajectory::read(const std::filesystem::path& file) {
+  const StandardArithmetic standard;
   Trajectory result;
   const files::InputFile input(file);
   result.name_ = text::printable(file.string());
@@ -30,6 +32,7 @@ Trajectory Trajectory::read(const std::filesystem::path& file) {
 }
 
 Placement Trajectory::at(const Ratio& time) const {
+  const StandardArithmetic standard;
   if (is_at_rest()) return poses_.front().placement;
   const auto is_before = [](const Timed& pose, const Ratio& t) {
     return Ratio(Dyadic(pose.time)) < t;

@@ -9,6 +9,7 @@
 #include "fathom/camera/rounded_angles.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom {
@@ -120,6 +121,7 @@ bool is_finite(const Ray& ray) {
 
 std::vector<Ray> lidar_rays(const LidarSensor& sensor, const Trajectory* path, double start,
                             int threads) {
+  const StandardArithmetic standard;
   if (path && !path->is_at_rest() && !sensor.turns_per_second)
     throw InputError(sensor.name +
                      ": 'lidar_mode' is missing, which says how long a turn takes on a path");

@@ -8,6 +8,7 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
+#include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/json_value.h"
 #include "fathom/text/printable.h"
 
@@ -87,6 +88,7 @@ void read_mode(const text::JsonValue& mode, LidarSensor& sensor) {
 }  // namespace
 
 LidarSensor read_ouster_sensor(const std::filesystem::path& file) {
+  const StandardArithmetic standard;
   const files::InputFile input(file);
   LidarSensor sensor;
   sensor.name = text::printable(file.string());
