@@ -11,6 +11,8 @@
 namespace fathom::doctor {
 namespace {
 
+constexpr double no_depth = std::numeric_limits<double>::infinity();
+
 /// Planar depth by ray distance at a pixel.
 double forwardness(const std::optional<DirectionTable>& directions, std::uint32_t x,
                    std::uint32_t y) {
@@ -37,20 +39,15 @@ DepthMap corrected_map(const DataSet& data, const View& view, const Diagnosis& f
   Samples<float> depths(std::size_t(camera.width) * camera.height);
   for (std::uint32_t y = 0; y < camera.height; ++y) {
     for (std::uint32_t x = 0; x < camera.width; ++x) {
-      const auto [column, row] = stored_place(h, camera, x, y);
-      const ImageSize& size = view.image.size;
-      double depth = std::numeric_limits<double>::infinity();
-      if (column >= 0 && row >= 0 && column < size.width && row < size.height)
-        depth = view.image.depths[std::size_t(row) * size.width + std::size_t(column)];
-      if (drops_ceiling && depth == data.ceiling()->depth)
-        depth = std::numeric_limits<double>::infinity();
+      double depth = view.image.at(stored_place(h, camera, x, y)).value_or(no_depth);
+      if (drops_ceiling && depth == data.ceiling()->depth) depth = no_depth;
       depths[std::size_t(y) * camera.width + x] =
           float((depth + added) / h.depth_scale * forwardness(directions, x, y));
     }
   }
   DepthMap map{.width = camera.width, .height = camera.height};
   map.channels.push_back({"Z", std::move(depths)});
-  declare_background(map, std::numeric_limits<double>::infinity());
+  declare_background(map, no_depth);
   map.camera = camera;
   return map;
 }

@@ -56,6 +56,12 @@ std::vector<float> values_of(const DepthMap& map, const char* channel) {
 
 }  // namespace
 
+std::optional<double> DepthImage::at(const std::array<std::int64_t, 2>& place) const {
+  const auto [column, row] = place;
+  if (column < 0 || row < 0 || column >= size.width || row >= size.height) return std::nullopt;
+  return depths[std::size_t(row) * size.width + std::size_t(column)];
+}
+
 DepthImage depth_image(DepthMap map, const std::string& file, double png_scale) {
   const bool has_codes = std::ranges::any_of(map.channels, [](const ImageChannel& channel) {
     return std::holds_alternative<Samples<std::uint16_t>>(channel.values);
@@ -123,8 +129,6 @@ std::vector<Grid> DataSet::grids(const Hypothesis& hypothesis, std::size_t image
     const View& view = views_[i];
     Grid grid = grid_of(corrected(view.camera, hypothesis, view.image.size), pixels);
     const Camera camera = camera_of_grid(grid.camera, grid);
-    const bool is_table = camera.projection.lens && camera.projection.lens->directions;
-    if (is_table) grid.width = camera.width, grid.height = camera.height;
     const Rendered rendered = render(*scene_, camera, options);
     grid.depths = values_of(rendered.map, "Z");
     grid.distances = values_of(rendered.map, "distance");
@@ -143,18 +147,17 @@ std::vector<Pair> DataSet::pairs(const std::vector<Grid>& grids, const Hypothesi
     const double added = hypothesis.is_truncated ? image.step() / 2 : 0;
     for (std::uint32_t y = 0; y < grid.height; ++y) {
       for (std::uint32_t x = 0; x < grid.width; ++x) {
-        const auto [column, row] = stored_place(
-            hypothesis, grid.camera, grid.first + x * grid.stride, grid.first + y * grid.stride);
-        if (column < 0 || row < 0 || column >= image.size.width || row >= image.size.height)
-          continue;
-        const double stored = image.depths[std::size_t(row) * image.size.width + column];
-        const bool is_ceiling = ceiling_ && stored == ceiling_->depth;
+        const auto place = stored_place(hypothesis, grid.camera, grid.first + x * grid.stride,
+                                        grid.first + y * grid.stride);
+        const std::optional<double> stored = image.at(place);
+        if (!stored) continue;
+        const bool is_ceiling = ceiling_ && *stored == ceiling_->depth;
         if (is_ceiling != at_ceiling) continue;
         const std::uint32_t block =
             std::uint32_t((i * blocks_across + y * blocks_across / grid.height) * blocks_across +
                           x * blocks_across / grid.width);
         const float depth = exact[std::size_t(y) * grid.width + x];
-        pairs.push_back({.stored = float(stored + added),
+        pairs.push_back({.stored = float(*stored + added),
                          .exact = depth > 0 ? depth : std::numeric_limits<float>::infinity(),
                          .step = float(image.step()),
                          .block = block});

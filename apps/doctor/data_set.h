@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -28,6 +29,8 @@ struct DepthImage {
 
   /// The distance of two codes; 0 of floating-point numbers.
   [[nodiscard]] double step() const { return code_scale ? 1 / *code_scale : 0; }
+  /// The depth at a column and row; nullopt outside the image.
+  [[nodiscard]] std::optional<double> at(const std::array<std::int64_t, 2>& place) const;
 };
 
 /// The depths of a map. `png_scale`: the codes per unit if the map holds integers.

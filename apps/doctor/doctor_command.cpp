@@ -184,10 +184,8 @@ void add_doctor(Command& program) {
                           "pattern: {index:04} is the camera's number, {name} its name, {stem} its "
                           "name without folders and suffix")
       .required();
-  command.option(
-      "--png-scale", "N",
-      [arguments](const std::string& text) { arguments->png_scale = parse_scale(text); },
-      "Codes per unit of a PNG (default: as in the file, or 1000)");
+  command.option("--png-scale", "N", into(arguments->png_scale, parse_scale),
+                 "Codes per unit of a PNG (default: as in the file, or 1000)");
   command.option("--images", "N", into(arguments->images, parse_positive),
                  "Number of images to read and look at, at equal distances (default 8)");
   command.flag("--json", arguments->json, "Print JSON");

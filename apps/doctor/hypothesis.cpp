@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
+
+#include "fathom/camera/image_points.h"
 
 namespace fathom::doctor {
 namespace {
@@ -118,27 +119,17 @@ std::optional<Lens> corrected(const std::optional<Lens>& given, LensMeaning mean
   return lens;
 }
 
-void resize(Camera& camera, Resizing resizing, const ImageSize& image) {
-  Projection& p = camera.projection;
-  const double sx = double(image.width) / camera.width, sy = double(image.height) / camera.height;
-  // cx and cy count from the corner of the image, less the centre of its first pixel.
-  const double before = 0.5 - p.pixel_centre;
-  if (resizing == Resizing::scaled) {
-    p.cx = (p.cx + before) * sx - before;
-    p.cy = (p.cy + before) * sy - before;
-    p.fx *= sx;
-    p.skew *= sx;
-    p.fy *= sy;
-  } else {
-    p.cx -= (double(camera.width) - image.width) / 2;
-    p.cy -= (double(camera.height) - image.height) / 2;
-  }
+/// The camera of the middle of its image.
+Camera cropped(Camera camera, const ImageSize& image) {
+  camera.projection.cx -= (double(camera.width) - image.width) / 2;
+  camera.projection.cy -= (double(camera.height) - image.height) / 2;
   camera.width = image.width;
   camera.height = image.height;
+  return camera;
 }
 
 bool is_same_unit(const Hypothesis& h) {
-  return h.unit != 1 && std::abs(h.depth_scale * h.unit - 1) < 1e-6;
+  return h.unit != 1 && h.depth_scale == 1 / h.unit;
 }
 
 std::string text_of_turn(Turn turn) {
@@ -324,12 +315,14 @@ std::vector<LensMeaning> other_meanings(const std::optional<Lens>& lens) {
 Camera corrected(const Camera& given, const Hypothesis& h, const ImageSize& image) {
   Camera camera = given;
   const bool has_other_size = image.width != given.width || image.height != given.height;
-  if (h.resizing != Resizing::as_given && has_other_size) resize(camera, h.resizing, image);
+  if (h.resizing == Resizing::scaled && has_other_size)
+    camera = resized(given, image.width, image.height);
+  if (h.resizing == Resizing::cropped && has_other_size) camera = cropped(given, image);
   camera.world_to_camera = corrected(given.world_to_camera, h);
   camera.near *= h.unit;
   camera.far *= h.unit;
   if (h.lens != LensMeaning::as_given)
-    camera.projection.lens = corrected(given.projection.lens, h.lens);
+    camera.projection.lens = corrected(camera.projection.lens, h.lens);
   camera.projection.cx += h.shift_x;
   camera.projection.cy += h.shift_y;
   return camera;

@@ -62,17 +62,17 @@ void LidarOptions::check(const std::optional<ScanFile>& file) const {
 
 LidarScan::LidarScan(const LidarOptions& options, int threads)
     : sensor_(read_ouster_sensor(options.sensor)),
+      has_poses_(!options.poses.empty()),
       frame_(options.frame),
       destagger_(options.destagger),
       rays_output_(options.rays_output) {
   if (destagger_ && sensor_.shifts.empty())
     throw InputError(sensor_.name + ": 'pixel_shift_by_row' is missing, which --destagger needs");
-  if (options.poses.empty()) {
-    rays_ = lidar_rays(sensor_, nullptr, 0, threads);
-  } else {
+  if (has_poses_) {
     const Trajectory path = Trajectory::read(options.poses);
     rays_ = lidar_rays(sensor_, &path, options.start.value_or(path.first_time()), threads);
-    rays_of_sensor_ = lidar_rays(sensor_, nullptr, 0, threads);
+  } else {
+    rays_ = lidar_rays(sensor_, nullptr, 0, threads);
   }
 }
 
@@ -95,10 +95,11 @@ Scan<Real> LidarScan::scan(const RayScene& scene, const CastOptions& options,
   scan.ids.resize(hits.size());
   std::ranges::transform(hits, scan.ids.begin(), &RayHit::triangle);
   scan.values = hit_values<Real>(scene.triangles(), rays_, scan.ids, options.threads);
-  if (frame == ScanFrame::world || rays_of_sensor_.empty()) return scan;
+  if (frame == ScanFrame::world || !has_poses_) return scan;
+  const std::vector<Ray> rays_of_sensor = lidar_rays(sensor_, nullptr, 0, options.threads);
   for (std::size_t k = 0; k < hits.size(); ++k) {
     if (hits[k].triangle == no_triangle) continue;
-    const Ray& ray = rays_of_sensor_[k];
+    const Ray& ray = rays_of_sensor[k];
     for (int i = 0; i < 3; ++i)
       scan.values[k].position[i] =
           rounded<Real>(Dyadic(ray.origin[i]) + Dyadic(hits[k].t) * Dyadic(ray.direction[i]));

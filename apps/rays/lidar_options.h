@@ -52,8 +52,8 @@ class LidarScan {
 
   LidarSensor sensor_;
   std::vector<Ray> rays_;
-  /// The rays in the sensor's frame; empty if that is the world's.
-  std::vector<Ray> rays_of_sensor_;
+  /// Whether the sensor's frame is not the world's.
+  bool has_poses_;
   std::optional<ScanFrame> frame_;
   bool destagger_;
   std::string rays_output_;
