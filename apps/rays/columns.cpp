@@ -77,6 +77,7 @@ std::string csv_of(const std::vector<Column>& columns) {
 
 void write_npz(const std::vector<Column>& columns, int descriptor, const std::string& target) {
   std::vector<NpzRows::Array> arrays;
+  arrays.reserve(columns.size());
   for (const Column& column : columns)
     arrays.push_back(
         std::visit([&](const auto& values) { return array_of(column, values); }, column.values));

@@ -208,7 +208,7 @@ void add_pictures(Results& results, const LensView& view) {
                   "fathom render scene.obj --camera lens.json --quiet -o exact.exr && fathom "
                   "preview exact.exr -o exact.png");
   const auto add = [&](const std::string& name, const ShownMap& shown, const char* channel) {
-    const DepthMap map = error_map(shown, view);
+    DepthMap map = error_map(shown, view);
     results.file(map_file(name, map));
     picture_errors(results, name, map, channel);
     return map;

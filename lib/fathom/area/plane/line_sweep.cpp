@@ -7,7 +7,7 @@
 namespace fathom::area {
 
 LineSweep::LineSweep(const PlaneMesh& mesh, const PlanePart& part,
-                     std::vector<std::uint32_t> triangles, std::uint32_t limit)
+                     const std::vector<std::uint32_t>& triangles, std::uint32_t limit)
     : mesh_(mesh), part_(part), limit_(limit) {
   add_sides();
   pieces_.reserve(triangles.size());

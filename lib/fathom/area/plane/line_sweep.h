@@ -25,8 +25,8 @@ class LineSweep {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
   /// `limit` is the greatest number of lines.
-  LineSweep(const PlaneMesh& mesh, const PlanePart& part, std::vector<std::uint32_t> triangles,
-            std::uint32_t limit = most_lines);
+  LineSweep(const PlaneMesh& mesh, const PlanePart& part,
+            const std::vector<std::uint32_t>& triangles, std::uint32_t limit = most_lines);
   LineSweep(const LineSweep&) = delete;
   LineSweep& operator=(const LineSweep&) = delete;
 
