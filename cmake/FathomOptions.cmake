@@ -68,7 +68,7 @@ endfunction()
 
 # Compiles a target at -O0: what it does itself takes less time than a higher level needs.
 function(fathom_optimise_not target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O0>)
+  target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O0>)
   set_target_properties(${target} PROPERTIES FATHOM_UNOPTIMISED ON)
 endfunction()
 

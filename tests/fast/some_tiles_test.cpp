@@ -258,6 +258,8 @@ TEST(TilesInRounds, OfLenses) {
     for (const Plan& plan : plans) {
       const Scene scene = testing::soup(random, is_too_far ? 20 : 120 / testing::effort, false);
       RenderOptions options = lens_channels();
+      // Shading normals take most of the time at a lens; one plan of many rounds has them.
+      if (&plan != &plans[2]) std::erase(options.channels, Channel::Ns);
       if (plan.places == 2) options.cull = Cull::back;
       expect_same_in_places(scene, camera, options, plan, render_fast(scene, camera, options),
                             random);

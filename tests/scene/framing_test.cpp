@@ -74,6 +74,7 @@ std::vector<NamedVertices> trouble() {
 }
 
 TEST(Frame, SeesAllOfEveryScene) {
+  int drawn = 0;
   for (const auto& [name, vertices] : trouble()) {
     SCOPED_TRACE(name);
     const Scene scene = testing::scene_of_points(vertices);
@@ -82,6 +83,7 @@ TEST(Frame, SeesAllOfEveryScene) {
         for (const double azimuth : {0.0, 35.0, 90.0, 250.0})
           for (const double elevation : {-90.0, -30.0, 0.0, 25.0, 90.0})
             for (const double fov : {1.0, 40.0, 150.0}) {
+              if (++drawn % testing::effort != 0) continue;
               LensChoice lens;
               lens.model = projection;
               lens.vertical_fov = fov;

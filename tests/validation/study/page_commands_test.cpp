@@ -15,6 +15,7 @@
 #include "tests/apps/test_folder.h"
 #include "tests/effort.h"
 #include "tests/places.h"
+#include "tests/validation/study/study_page.h"
 
 namespace fathom::test {
 namespace {
@@ -60,8 +61,9 @@ Outcome run_by_shell(const std::string& command, const fs::path& folder) {
 /// `others` are those that no command draws; `scenes` lie beside the page, as it asks for. Gives
 /// what the commands have printed.
 std::map<std::string, std::string> expect_pictures_by_commands(
-    const std::string& study, std::size_t least_commands, const std::set<std::string>& others,
-    const std::vector<std::string>& options = {}, const std::vector<fs::path>& scenes = {}) {
+    const std::string& study, std::size_t pictures_of_page, std::size_t least_commands,
+    const std::set<std::string>& others, const std::vector<std::string>& options = {},
+    const std::vector<fs::path>& scenes = {}) {
   std::map<std::string, std::string> printed;
   const TestFolder folder;
   std::vector<std::string> arguments{"study", study, "--out", "made"};
@@ -71,6 +73,10 @@ std::map<std::string, std::string> expect_pictures_by_commands(
   if (made.status != 0) return printed;
   const fs::path beside = folder.path() / "made", shown = folder.path() / "shown";
   const std::string page = folder.read("made/index.html");
+  EXPECT_EQ(testing::expect_pictures(
+                page, [&](const std::string& picture) { return fs::exists(beside / picture); }),
+            pictures_of_page);
+  EXPECT_TRUE(fs::exists(beside / "summary.json"));
   fs::create_directory(shown);
   for (const fs::path& scene : scenes) fs::copy(scene, beside);
   std::set<std::string> pictures;
@@ -108,7 +114,7 @@ std::string printed_by(const std::map<std::string, std::string>& printed, const 
 TEST(PageCommands, DrawThePicturesOfTheCourse) {
   if (testing::effort > 1) GTEST_SKIP() << "some sixty renderings, each by a program of its own";
   const auto printed = expect_pictures_by_commands(
-      "course", 30,
+      "course", 73, 30,
       {"exercise-2.png", "exercise-6-exact.png", "square-0.png", "square-45.png", "square-90.png",
        "triangles-0.png", "triangles-45.png", "triangles-90.png"});
   // Figures of the page.
@@ -128,11 +134,11 @@ TEST(PageCommands, DrawThePicturesOfTheCourse) {
 }
 
 TEST(PageCommands, DrawThePicturesOfHiddenSurfaces) {
-  expect_pictures_by_commands("hidden-surface", 2, {});
+  expect_pictures_by_commands("hidden-surface", 11, 2, {});
 }
 
 TEST(PageCommands, DrawThePicturesOfAScenesHiddenSurfaces) {
-  expect_pictures_by_commands("hidden-surface", 2, {},
+  expect_pictures_by_commands("hidden-surface", 3, 2, {},
                               {"--scene", source_dir() / "data/meshes/cube.obj"});
 }
 
@@ -149,32 +155,32 @@ TEST(PageCommands, DrawThePicturesOfAntialiasing) {
     others.insert("grating-" + std::to_string(25 * i / 1000) + "." + thousandths.substr(1) +
                   ".png");
   }
-  expect_pictures_by_commands("antialiasing", 6, others);
+  expect_pictures_by_commands("antialiasing", 88, 6, others);
 }
 
 // Exact pictures are blended by the judge.
 TEST(PageCommands, DrawThePicturesOfBlending) {
   expect_pictures_by_commands(
-      "blending", 13,
+      "blending", 16, 13,
       {"panes-exact.png", "wall-exact.png", "ring-exact.png", "penetration-exact.png"});
 }
 
 TEST(PageCommands, DrawThePicturesOfLenses) {
-  expect_pictures_by_commands("lens", 11, {});
+  expect_pictures_by_commands("lens", 11, 11, {});
 }
 
 TEST(PageCommands, DrawThePicturesOfMitigation) {
-  expect_pictures_by_commands("mitigation", 7, {});
+  expect_pictures_by_commands("mitigation", 7, 7, {});
 }
 
 TEST(PageCommands, DrawThePicturesOfAScenesFights) {
   const std::filesystem::path scene = source_dir() / "data/meshes/cube.obj";
-  expect_pictures_by_commands("z-fighting", 10, {}, {"--scene", scene}, {scene});
+  expect_pictures_by_commands("z-fighting", 11, 10, {}, {"--scene", scene}, {scene});
 }
 
 // Of the other pages: the plots.
 TEST(PageCommands, DrawThePlotsOfLines) {
-  expect_pictures_by_commands("lines", 2, {}, {"--samples", "2"});
+  expect_pictures_by_commands("lines", 2, 2, {}, {"--samples", "2"});
 }
 
 }  // namespace
