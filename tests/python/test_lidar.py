@@ -1,7 +1,6 @@
 """fathom cast --lidar: rays, points and images against rational arithmetic, and its refusals."""
 
 import json
-import math
 import os
 import subprocess
 from fractions import Fraction
@@ -9,9 +8,8 @@ from fractions import Fraction
 import fathom
 import numpy as np
 import pytest
+from rational_motion import one, placement, rotated, rotation, rounded
 
-bits = 220
-one = 1 << bits
 cube = os.path.join(os.environ["FATHOM_SOURCE"], "data/meshes/cube.obj")
 alone = 4294967295
 
@@ -72,45 +70,6 @@ def sine_cosine(degrees):
     return [(s, c), (c, -s), (-s, -c), (-c, s)][quarters % 4]
 
 
-def rounded(x):
-    return Fraction(float(x))
-
-
-def rotated(matrix, v):
-    return [sum(a * b for a, b in zip(row, v)) for row in matrix]
-
-
-def rotation(q):
-    w, x, y, z = q
-    n = w * w + x * x + y * y + z * z
-    return [[(w * w + x * x - y * y - z * z) / n, 2 * (x * y - w * z) / n, 2 * (x * z + w * y) / n],
-            [2 * (x * y + w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z - w * x) / n],
-            [2 * (x * z - w * y) / n, 2 * (y * z + w * x) / n, (w * w - x * x - y * y + z * z) / n]]
-
-
-def unit(q):
-    length = math.isqrt(int(sum(x * x for x in q) * one * one))
-    return [x * one / length for x in q]
-
-
-def turned_by_halves(share):
-    """Slerp at a dyadic share: the middle of an arc is along the sum of its ends."""
-    p, q = (unit([Fraction(x) for x in each]) for each in quaternions)
-    if sum(a * b for a, b in zip(p, q)) < 0:
-        q = [-x for x in q]
-    low, high = Fraction(0), Fraction(1)
-    while low != share:
-        middle, between = (low + high) / 2, unit([a + b for a, b in zip(p, q)])
-        low, p, high, q = (middle, between, high, q) if share >= middle else (low, p, middle, between)
-    return [rounded(x) for x in p]
-
-
-def placement(column, columns):
-    share = Fraction(column, 4 * columns)
-    position = [rounded(Fraction(a) + share * (Fraction(b) - Fraction(a))) for a, b in zip(*positions)]
-    return rotation(turned_by_halves(share)), position
-
-
 def expected_rays(data, moves=False):
     """By the formulas of the reference page, in rational numbers."""
     beams, columns = data["beam_intrinsics"], data["lidar_data_format"]["columns_per_frame"]
@@ -119,7 +78,7 @@ def expected_rays(data, moves=False):
     to_sensor, shift = [matrix[4 * i:4 * i + 3] for i in range(3)], [matrix[4 * i + 3] for i in range(3)]
     rays = {}
     for v in range(columns):
-        R, t = placement(v, columns) if moves else (rotation([Fraction(1), 0, 0, 0]), [0, 0, 0])
+        R, t = placement(positions, quaternions, Fraction(v, 4 * columns)) if moves else (rotation([Fraction(1), 0, 0, 0]), [0, 0, 0])
         s, c = map(rounded, sine_cosine(rounded(Fraction(360 * v, columns))))
         origin = rotated(to_sensor, [transform[3] * c, -transform[3] * s, transform[11]])
         world = rotated(R, [(x + y) / 1000 for x, y in zip(origin, shift)])
@@ -283,6 +242,14 @@ def changed(group, key, value=None):
     return json.dumps(data)
 
 
+not_rigid = "lidar_to_sensor_transform: expected a rotation and a translation in millimetres, row by row"
+
+
+def scaled(factor):
+    """A rotation times a factor."""
+    return [-factor, 0, 0, 0, 0, -factor, 0, 0, 0, 0, factor, 38.195, 0, 0, 0, 1]
+
+
 @pytest.mark.parametrize("text, message", [
     ("", "bad.json: "),
     ("[]", "bad.json: "),
@@ -300,13 +267,35 @@ def changed(group, key, value=None):
      "expected a translation along x and z"),
     (changed("config_params", "lidar_mode", "32x10"), "expected 16xN for N turns in a second, found '32x10'"),
     (changed("config_params", "lidar_mode"), "'lidar_mode' is missing"),
-    (changed("lidar_intrinsics", "lidar_to_sensor_transform", [1.7e308, 1.7e308] + [0] * 13 + [1]), "is beyond binary64"),
+    (changed("lidar_intrinsics", "lidar_to_sensor_transform", [1.7e308, 1.7e308] + [0] * 13 + [1]), not_rigid),
+    (changed("lidar_intrinsics", "lidar_to_sensor_transform", scaled(1.0002)), not_rigid),
+    (changed("lidar_intrinsics", "lidar_to_sensor_transform", scaled(0.001)), not_rigid),
+    (changed("lidar_intrinsics", "lidar_to_sensor_transform", [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1]), not_rigid),
+    (changed("lidar_intrinsics", "lidar_to_sensor_transform", [1, 0.1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]), not_rigid),
 ])
 def test_bad_metadata_is_one_line(folder, text, message):
     (folder / "bad.json").write_text(text)
     ran = run(cube, "--lidar", "bad.json", "--poses", "path.txt", "-o", "scan.bin", check=False, cwd=folder)
     assert ran.returncode == 3 and message in ran.stderr and ran.stderr.count("\n") == 1
     assert not (folder / "scan.bin").exists()
+
+
+def test_a_rotation_may_have_four_decimals(folder):
+    """Its rays are exact products with the given matrix."""
+    matrix = [0.8660, -0.5, 0, 7.5, 0.5, 0.8660, 0, -3, 0, 0, 1, 38.195, 0, 0, 0, 1]
+    text = changed("lidar_intrinsics", "lidar_to_sensor_transform", matrix)
+    (folder / "sensor.json").write_text(text)
+    run(cube, "--lidar", "sensor.json", "--write-rays", "rays.npy", cwd=folder)
+    assert np.array_equal(np.load(folder / "rays.npy"), expected_rays(json.loads(text)))
+
+
+def test_a_ray_beyond_binary64_is_one_line(folder):
+    far = [1, 0, 0, 1.7e308, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+    (folder / "far.json").write_text(changed("lidar_intrinsics", "lidar_to_sensor_transform", far))
+    (folder / "far.txt").write_text("0 1.797e308 0 0 0 0 0 1\n")
+    ran = run(cube, "--lidar", "far.json", "--poses", "far.txt", "-o", "scan.bin", check=False, cwd=folder)
+    assert ran.returncode == 3 and "far.json: the ray of beam 0 in column 0 is beyond binary64" in ran.stderr
+    assert ran.stderr.count("\n") == 1 and not (folder / "scan.bin").exists()
 
 
 @pytest.mark.parametrize("text, start, message", [

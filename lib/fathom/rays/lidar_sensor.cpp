@@ -49,6 +49,26 @@ Pose matrix_of(const text::JsonValue& list) {
   return pose;
 }
 
+/// Whether the matrix is a rotation and a translation. Its entries may be rounded to four decimals,
+/// which changes an entry of R·Rᵀ by at most 2·√3·0.00005 + 3·0.00005².
+bool is_rigid(const Pose& pose) {
+  const Dyadic most(0.0002);
+  const auto row = [&](int i) { return ExactVector3{pose[i][0], pose[i][1], pose[i][2]}; };
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k <= i; ++k) {
+      const Dyadic excess = dot(row(i), row(k)) - Dyadic(i == k ? 1.0 : 0.0);
+      if (excess < -most || most < excess) return false;
+    }
+  return determinant_of_rotation(pose).sign() == Sign::positive;
+}
+
+Pose rigid_matrix_of(const text::JsonValue& list) {
+  const Pose pose = matrix_of(list);
+  if (!is_rigid(pose))
+    list.fail("expected a rotation and a translation in millimetres, row by row");
+  return pose;
+}
+
 /// Where beams begin. The transform has only a translation, in the plane of x and z.
 void read_beam_origin(const Metadata& metadata, LidarSensor& sensor) {
   const auto transform = metadata.find("beam_intrinsics", "beam_to_lidar_transform");
@@ -104,7 +124,8 @@ LidarSensor read_ouster_sensor(const std::filesystem::path& file) {
   sensor.altitudes = metadata.at("beam_intrinsics", "beam_altitude_angles").numbers(sensor.rows);
   sensor.azimuths = metadata.at("beam_intrinsics", "beam_azimuth_angles").numbers(sensor.rows);
   read_beam_origin(metadata, sensor);
-  sensor.lidar_to_sensor = matrix_of(metadata.at("lidar_intrinsics", "lidar_to_sensor_transform"));
+  sensor.lidar_to_sensor =
+      rigid_matrix_of(metadata.at("lidar_intrinsics", "lidar_to_sensor_transform"));
   if (const auto shifts = metadata.find(format, "pixel_shift_by_row")) read_shifts(*shifts, sensor);
   if (const auto mode = metadata.find("config_params", "lidar_mode")) read_mode(*mode, sensor);
   return sensor;

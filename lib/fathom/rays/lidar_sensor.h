@@ -36,7 +36,8 @@ struct LidarSensor {
 /// Reads the metadata of an Ouster sensor, JSON: as the sensor's HTTP interface or the SDK write
 /// it, with keys in groups (beam_intrinsics, lidar_intrinsics, lidar_data_format, config_params) or
 /// without.
-/// Fails    InputError "FILE: KEY: …": a key that is missing, a list of another length.
+/// Fails    InputError "FILE: KEY: …": a key that is missing, a list of another length, a matrix
+///          that is not rigid.
 LidarSensor read_ouster_sensor(const std::filesystem::path& file);
 
 }  // namespace fathom
