@@ -38,7 +38,7 @@ void add_doctor(Command& program);
 /// `fathom depth encode | decode | resolution | codes`: depth formats as a calculator.
 void add_depth(Command& program);
 
-/// `fathom camera look-at | orbit | import …`: makes camera files.
+/// `fathom camera look-at | orbit | directions | shutter | import …`: makes camera files and rays.
 void add_camera(Command& program);
 
 // The algorithms of the textbooks, by themselves and as a pipeline.

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "apps/rays/ray_file.h"
 #include "apps/shell/values.h"
-#include "apps/surfaces/npz_rows.h"
 #include "fathom/camera/trajectory.h"
 #include "fathom/failures/errors.h"
-#include "fathom/image/files/npy_array.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/rays/lidar_rays.h"
 
@@ -79,11 +78,7 @@ LidarScan::LidarScan(const LidarOptions& options, int threads)
 void LidarScan::write_rays() const {
   if (rays_output_.empty()) return;
   OutputFile output(rays_output_);
-  files::Bytes bytes = image::npy_header("<f8", std::to_string(rays_.size()) + ", 6");
-  for (const Ray& ray : rays_)
-    for (const auto& numbers : {ray.origin, ray.direction})
-      for (const double x : numbers) put(bytes, x);
-  output.write(bytes);
+  output.write(npy_of_rays(rays_));
   output.commit();
 }
 

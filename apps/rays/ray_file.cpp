@@ -2,16 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <variant>
 
 #include "fathom/failures/errors.h"
+#include "fathom/files/byte_order.h"
 #include "fathom/files/input_file.h"
 #include "fathom/image/files/npy_array.h"
 #include "fathom/text/csv.h"
@@ -139,6 +141,20 @@ std::vector<Ray> read_rays(const std::string& file) {
   for (const NumberRow& row : read_rows(file, "ray", ray_columns, fault_of_ray).rows)
     rays.push_back(ray_of(row));
   return rays;
+}
+
+files::Bytes npy_of_rays(std::span<const Ray> rays) {
+  constexpr std::size_t row = sizeof(double) * NumberRow{}.size();
+  files::Bytes bytes = image::npy_header("<f8", std::to_string(rays.size()) + ", 6");
+  std::size_t end = bytes.size();
+  bytes.resize(end + rays.size() * row);
+  for (const Ray& ray : rays)
+    for (const auto& numbers : {ray.origin, ray.direction})
+      for (const double x : numbers) {
+        store(&bytes[end], x, std::endian::little);
+        end += sizeof x;
+      }
+  return bytes;
 }
 
 SightPairs read_pairs(const std::string& file) {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "fathom/files/file_bytes.h"
 #include "fathom/rays/ray.h"
 #include "fathom/rays/sight.h"
 
@@ -17,6 +19,9 @@ namespace fathom::app {
 /// Reads rays, with the columns x, y, z (origin) and dx, dy, dz (direction).
 /// Fails    as above; InputError for a direction of 0.
 std::vector<Ray> read_rays(const std::string& file);
+
+/// Rays as an NPY file of binary64 numbers.
+files::Bytes npy_of_rays(std::span<const Ray> rays);
 
 struct SightPairs {
   std::vector<SightPoint> eyes, points;

@@ -84,7 +84,7 @@ LAST_WORDS = [
     ("fathom camera look-at --up ", ["x", "y", "z", "-x", "-y", "-z"]),
     ("fathom convert --to di", ["distance", "disparity"]),
     ("fathom completion ", ["bash", "zsh", "fish"]),
-    ("fathom help camera ", ["look-at", "orbit", "directions", "import"]),
+    ("fathom help camera ", ["look-at", "orbit", "directions", "shutter", "import"]),
     ("fathom --quiet camera import ", ["colmap", "nerf", "bop", "sfmdata", "gltf", "blender", "opengl", "opencv", "ros",
                                        "kalibr", "aria", "kitti360", "matrices", "tum",
                                        "7scenes", "scannet", "scannetpp", "replica", "kitti"]),

@@ -53,6 +53,7 @@ class Given:
         self.mesh_file = self.text("mesh.obj", "v -2.1 -2 3\nv 2 -2.3 5\nv 0 2 4.1\nv 0 0 5e-324\nf 1 2 3\nf 1 2 4\n")
         rows = "".join(" ".join(map(repr, row)) + "\n" for row in turned.tolist())
         line = " ".join(map(repr, turned.ravel().tolist())) + "\n"
+        self.path = self.text("path.txt", "0 5e-324 0.1 0 0 0 0 1\n1 2.1 3.3 4 0.1 0.5 0 0.7\n")
         self.tum = self.text("groundtruth.txt", "1.5 2.1 3.3 4 0.1 0.5 0 0.7\n")
         self.seven = self.text("seq/frame-000007.pose.txt", rows).parent
         self.text("scannet/pose/0.txt", rows)
@@ -91,6 +92,10 @@ class Given:
         work(self.folder / name)
         return {str(path.relative_to(self.folder / name)): path.read_bytes() for path in sorted((self.folder / name).rglob("*"))
                 if path.is_file()}
+
+
+def numbers_of(rays):
+    return rays.origins, rays.directions
 
 
 def changed(given):
@@ -251,6 +256,7 @@ calls = {
     "Rays.from_camera": lambda g: [g.scene.cast(fathom.Rays.from_camera(g.camera), channels=("t", "id", "P")),
                                    g.scene.cast(fathom.Rays.from_camera(g.camera), mode="all")],
     "Rays.read": lambda g: g.scene.cast(fathom.Rays.read(g.text("rays.csv", "x,y,z,dx,dy,dz\n0.1,5e-324,0.2,0.01,0,1.1\n"))),
+    "Rays.shutter": lambda g: numbers_of(fathom.Rays.shutter(g.camera, g.path, 0.3, start=0.1)),
     "compat.RaycastingScene.add_triangles": lambda g: open3d_scene(g).count_intersections(rays_of_six),
     "compat.RaycastingScene.cast_rays": lambda g: dict(open3d_scene(g).cast_rays(rays_of_six)),
     "compat.RaycastingScene.test_occlusions": lambda g: open3d_scene(g).test_occlusions(rays_of_six, tfar=3.1),

@@ -1,5 +1,6 @@
 #include "fathom/rays/exact_ray.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -23,6 +24,12 @@ ExactVector3 exactly(const std::array<double, 3>& v) {
 }
 
 }  // namespace
+
+bool is_finite(const Ray& ray) {
+  const auto is_number = [](double x) { return std::isfinite(x); };
+  return std::ranges::all_of(ray.origin, is_number) &&
+         std::ranges::all_of(ray.direction, is_number);
+}
 
 ExactVector3 difference(const WorldPoint& a, const WorldPoint& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};

@@ -14,6 +14,9 @@ namespace fathom::rays {
 
 ExactVector3 difference(const WorldPoint& a, const WorldPoint& b);
 
+/// Whether all numbers of a ray are finite, so that it is an exact ray.
+bool is_finite(const Ray& ray);
+
 struct ExactRay {
   ExactVector3 origin, direction;
 

@@ -1,7 +1,6 @@
 #include "fathom/rays/lidar_rays.h"
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "fathom/rays/exact_ray.h"
 #include "fathom/threads/threads.h"
 
 namespace fathom {
@@ -111,12 +111,6 @@ class Column {
   std::array<double, 3> origin_{};
 };
 
-bool is_finite(const Ray& ray) {
-  double sum = 0;
-  for (int i = 0; i < 3; ++i) sum += 0 * ray.origin[i] + 0 * ray.direction[i];
-  return std::isfinite(sum);
-}
-
 }  // namespace
 
 std::vector<Ray> lidar_rays(const LidarSensor& sensor, const Trajectory* path, double start,
@@ -139,7 +133,7 @@ std::vector<Ray> lidar_rays(const LidarSensor& sensor, const Trajectory* path, d
     });
   });
   for (std::size_t k = 0; k < rays.size(); ++k)
-    if (!is_finite(rays[k]))
+    if (!rays::is_finite(rays[k]))
       throw InputError(sensor.name + ": the ray of beam " + std::to_string(k / columns) +
                        " in column " + std::to_string(k % columns) + " is beyond binary64");
   return rays;

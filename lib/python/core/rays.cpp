@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -11,9 +12,11 @@
 
 #include "apps/rays/ray_file.h"
 #include "bindings.h"
+#include "fathom/camera/trajectory.h"
 #include "fathom/rays/cast.h"
 #include "fathom/rays/hit_channels.h"
 #include "fathom/rays/hit_values.h"
+#include "fathom/rays/shutter_rays.h"
 #include "fathom/rays/sight.h"
 #include "fathom/rendering/options.h"
 #include "running.h"
@@ -195,15 +198,26 @@ py::array seen_by_cameras(const SharedRays& prepared,
       [&](const auto&) { return seen_by(prepared->rays, points, cameras, left_out, threads); }));
 }
 
-/// Rays of a file: N×6 numbers.
-py::array read_rays_of(const std::string& file) {
-  const std::vector<Ray> rays = run([&](const auto&) { return app::read_rays(file); });
+/// N×6 numbers.
+py::array array_of_rays(const std::vector<Ray>& rays) {
   Samples<double> numbers(6 * rays.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
     std::ranges::copy(rays[i].origin, numbers.begin() + 6 * i);
     std::ranges::copy(rays[i].direction, numbers.begin() + 6 * i + 3);
   }
   return array_of(std::move(numbers), {static_cast<py::ssize_t>(rays.size()), 6});
+}
+
+py::array read_rays_of(const std::string& file) {
+  return array_of_rays(run([&](const auto&) { return app::read_rays(file); }));
+}
+
+py::array shutter_rays_of(const Camera& camera, const std::string& poses, double readout,
+                          std::optional<double> start, int threads) {
+  return array_of_rays(run([&](const auto&) {
+    const Trajectory path = Trajectory::read(poses);
+    return shutter_rays(camera, path, {start.value_or(path.first_time()), readout}, threads);
+  }));
 }
 
 }  // namespace
@@ -223,6 +237,7 @@ void bind_rays(Module& core) {
   core.def("sees", &sees_points);
   core.def("seen_by", &seen_by_cameras);
   core.def("read_rays", &read_rays_of);
+  core.def("shutter_rays", &shutter_rays_of);
 }
 
 }  // namespace fathom::python

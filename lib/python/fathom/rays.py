@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Union
 import numpy as np
 
 from . import _core, _rays
-from ._arguments import camera_handle, in_words
+from ._arguments import as_number, as_threads, camera_handle, in_words
 from ._files import Path, path_of
 
 if TYPE_CHECKING:
@@ -70,6 +70,21 @@ class Rays:
         numbers = _core.read_rays(path_of("file", file))
         return cls(numbers)
 
+    @classmethod
+    def shutter(cls, camera: Camera, poses: Path, readout: float, *, start: float | None = None, threads: int = 0) -> Rays:
+        """The rays through the centres of all pixels of a moving camera with a rolling shutter: each row has its own pose.
+        They are the rays of `fathom camera shutter`, bit for bit.
+
+        camera   a camera without a lens; t is the planar depth
+        poses    file with the path of the camera, lines `time tx ty tz qx qy qz qw`, camera to world, if the pose of
+                 `camera` is the identity. Otherwise the path of what the camera is mounted on
+        readout  seconds from the top row to the bottom row; negative if the bottom row comes first
+        start    time of the top row in seconds; None: the first of poses
+        """
+        numbers = _core.shutter_rays(
+            camera_handle(camera), path_of("poses", poses), as_number("readout", readout), _time(start), as_threads(threads))
+        return cls(numbers.reshape(camera.height, camera.width, 6))
+
     @property
     def camera(self) -> Camera | None:
         """The camera of from_camera(), else None."""
@@ -96,6 +111,10 @@ class Rays:
 
     def __repr__(self) -> str:
         return f"Rays({in_words(self.shape)})" if self._camera is None else f"Rays.from_camera({self._camera!r})"
+
+
+def _time(start: float | None) -> float | None:
+    return None if start is None else as_number("start", start)
 
 
 def _read_only(numbers: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
