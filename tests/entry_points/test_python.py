@@ -54,6 +54,10 @@ class Given:
         rows = "".join(" ".join(map(repr, row)) + "\n" for row in turned.tolist())
         line = " ".join(map(repr, turned.ravel().tolist())) + "\n"
         self.path = self.text("path.txt", "0 5e-324 0.1 0 0 0 0 1\n1 2.1 3.3 4 0.1 0.5 0 0.7\n")
+        self.lidar = self.text("lidar.json", json.dumps({
+            "data_format": {"pixels_per_column": 2, "columns_per_frame": 3}, "lidar_mode": "3x1",
+            "beam_altitude_angles": [10.1, -7.3], "beam_azimuth_angles": [1.3, 5e-324], "lidar_origin_to_beam_origin_mm": 15.8,
+            "lidar_to_sensor_transform": [-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 36.1, 0, 0, 0, 1]}))
         self.tum = self.text("groundtruth.txt", "1.5 2.1 3.3 4 0.1 0.5 0 0.7\n")
         self.seven = self.text("seq/frame-000007.pose.txt", rows).parent
         self.text("scannet/pose/0.txt", rows)
@@ -256,6 +260,7 @@ calls = {
     "Rays.from_camera": lambda g: [g.scene.cast(fathom.Rays.from_camera(g.camera), channels=("t", "id", "P")),
                                    g.scene.cast(fathom.Rays.from_camera(g.camera), mode="all")],
     "Rays.read": lambda g: g.scene.cast(fathom.Rays.read(g.text("rays.csv", "x,y,z,dx,dy,dz\n0.1,5e-324,0.2,0.01,0,1.1\n"))),
+    "Rays.lidar": lambda g: numbers_of(fathom.Rays.lidar(g.lidar, g.path, start=0.1)),
     "Rays.shutter": lambda g: numbers_of(fathom.Rays.shutter(g.camera, g.path, 0.3, start=0.1)),
     "compat.RaycastingScene.add_triangles": lambda g: open3d_scene(g).count_intersections(rays_of_six),
     "compat.RaycastingScene.cast_rays": lambda g: dict(open3d_scene(g).cast_rays(rays_of_six)),

@@ -219,6 +219,25 @@ def test_written_rays_have_the_same_hits(folder):
     assert (folder / "a.npz").read_bytes() == (folder / "b.npz").read_bytes()
 
 
+def test_python_has_the_same_rays(folder):
+    for poses, start in ((None, None), ("path.txt", None), ("path.txt", 0)):
+        options = [*(["--poses", poses] if poses else []), *(["--start", start] if start is not None else [])]
+        run(cube, "--lidar", "sensor.json", *options, "--write-rays", "rays.npy", cwd=folder)
+        rays = fathom.Rays.lidar(folder / "sensor.json", poses and folder / poses, start=start, threads=1)
+        assert rays.shape == (6, 16) and rays.camera is None
+        both = np.concatenate([rays.origins, rays.directions], axis=-1)
+        assert np.array_equal(both.reshape(-1, 6), np.load(folder / "rays.npy"))
+
+
+def test_faults_in_python(folder):
+    with pytest.raises(ValueError, match="start: needs poses"):
+        fathom.Rays.lidar(folder / "sensor.json", start=1)
+    with pytest.raises(fathom.InputError, match="path.txt: the poses end at 0.25 s, but the sensor measures at 1 s"):
+        fathom.Rays.lidar(folder / "sensor.json", folder / "path.txt", start=1)
+    with pytest.raises(TypeError, match="sensor: expected the name of a file"):
+        fathom.Rays.lidar(None)
+
+
 def test_a_failure_leaves_no_rays(folder):
     ran = run("missing.obj", "--lidar", "sensor.json", "--write-rays", "rays.npy", check=False, cwd=folder)
     assert ran.returncode == 3 and not (folder / "rays.npy").exists()

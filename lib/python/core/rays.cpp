@@ -16,6 +16,8 @@
 #include "fathom/rays/cast.h"
 #include "fathom/rays/hit_channels.h"
 #include "fathom/rays/hit_values.h"
+#include "fathom/rays/lidar_rays.h"
+#include "fathom/rays/lidar_sensor.h"
 #include "fathom/rays/shutter_rays.h"
 #include "fathom/rays/sight.h"
 #include "fathom/rendering/options.h"
@@ -212,6 +214,20 @@ py::array read_rays_of(const std::string& file) {
   return array_of_rays(run([&](const auto&) { return app::read_rays(file); }));
 }
 
+/// The rays of a turn of an Ouster sensor, and the number of its beams.
+py::tuple lidar_rays_of(const std::string& file, const std::optional<std::string>& poses,
+                        std::optional<double> start, int threads) {
+  std::uint32_t rows = 0;
+  const std::vector<Ray> rays = run([&](const auto&) {
+    const LidarSensor sensor = read_ouster_sensor(file);
+    rows = sensor.rows;
+    if (!poses) return lidar_rays(sensor, nullptr, 0, threads);
+    const Trajectory path = Trajectory::read(*poses);
+    return lidar_rays(sensor, &path, start.value_or(path.first_time()), threads);
+  });
+  return py::make_tuple(array_of_rays(rays), rows);
+}
+
 py::array shutter_rays_of(const Camera& camera, const std::string& poses, double readout,
                           std::optional<double> start, int threads) {
   return array_of_rays(run([&](const auto&) {
@@ -237,6 +253,7 @@ void bind_rays(Module& core) {
   core.def("sees", &sees_points);
   core.def("seen_by", &seen_by_cameras);
   core.def("read_rays", &read_rays_of);
+  core.def("lidar_rays", &lidar_rays_of);
   core.def("shutter_rays", &shutter_rays_of);
 }
 

@@ -71,6 +71,21 @@ class Rays:
         return cls(numbers)
 
     @classmethod
+    def lidar(cls, sensor: Path, poses: Path | None = None, *, start: float | None = None, threads: int = 0) -> Rays:
+        """The rays of one turn of an Ouster lidar, in metres: rows are beams, columns are times. They are the rays of
+        `fathom cast --lidar`, bit for bit.
+
+        sensor   the sensor's metadata, a JSON file
+        poses    file with the path of the sensor, lines `time tx ty tz qx qy qz qw`; None: it stands at the world's zero
+        start    time of column 0 in seconds; None: the first of poses
+        """
+        if poses is None and start is not None:
+            raise ValueError("start: needs poses")
+        given = None if poses is None else path_of("poses", poses)
+        rays, rows = _core.lidar_rays(path_of("sensor", sensor), given, _time(start), as_threads(threads))
+        return cls(rays.reshape(rows, -1, 6))
+
+    @classmethod
     def shutter(cls, camera: Camera, poses: Path, readout: float, *, start: float | None = None, threads: int = 0) -> Rays:
         """The rays through the centres of all pixels of a moving camera with a rolling shutter: each row has its own pose.
         They are the rays of `fathom camera shutter`, bit for bit.
