@@ -44,6 +44,68 @@ TEST(ModelChoice, TheNarrowest) {
   }
 }
 
+/// A room of five walls, from within: walls pass the eye, so that a reversed depth buffer may hold
+/// anything at all pixels.
+Truth room_from_within() {
+  Mesh room;
+  for (const double z : {-2.3, -6.0})
+    for (const double y : {-1.3, 1.3})
+      for (const double x : {-1.9, 1.9}) room.vertices.push_back({x, y, z});
+  room.triangles = {{4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4}, {2, 6, 7},
+                    {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  Camera camera = look_at({0.3, 0.2, -4}, {0.1, 0, -6}, {0, 1, 0},
+                          {.width = 128, .height = 96, .vertical_fov = 70});
+  camera.near = 0.05;
+  camera.far = 20;
+  return make_truth(bench::as_scene({room}, "room"), camera);
+}
+
+/// Codes of a renderer with another near, decoded with the camera's.
+OtherMap decoded_with_wrong_near(const Truth& truth, int bits, double near) {
+  const Camera& c = truth.camera;
+  OtherMap map = test::in_codes(truth, bits, near, c.far);
+  for (double& depth : map.depths) {
+    const double window = (1 / near - 1 / depth) / (1 / near - 1 / c.far);
+    depth = double{static_cast<float>(1 / (1 / c.near - window * (1 / c.near - 1 / c.far)))};
+  }
+  map.values = map.depths;
+  return map;
+}
+
+TEST(ModelChoice, AWrongNearPrecedesBoundsThatDecideNothing) {
+  const Truth truth = room_from_within();
+  for (const double near : {0.025, 0.1, 0.5}) {
+    const ModelChoice choice = chosen_model(truth, decoded_with_wrong_near(truth, 32, near));
+    const Attribution& found = choice.chosen.attribution;
+    EXPECT_EQ(found.count(PixelClass::unexplained), 0U) << testing::PrintToString(choice.evidence);
+    ASSERT_EQ(found.findings.size(), 1U) << near;
+    EXPECT_EQ(found.findings[0].kind, "decoding") << found.findings[0].text;
+  }
+}
+
+TEST(ModelChoice, CodesBetweenOtherPlanes) {
+  const Truth truth = room_from_within();
+  const ModelChoice choice = chosen_model(truth, test::in_codes(truth, 16, 0.025, 20));
+  ASSERT_EQ(choice.chosen.attribution.findings.size(), 1U);
+  EXPECT_EQ(choice.chosen.attribution.findings[0].kind, "clip-planes");
+  EXPECT_EQ(choice.chosen.model.name, "gl-unorm16");
+}
+
+// Depths that no surface has are explained by bounds that allow any depth.
+TEST(ModelChoice, CannotTell) {
+  const Truth truth = room_from_within();
+  OtherMap map = test::in_binary32(truth);
+  for (std::size_t i = 0; i < map.depths.size(); ++i) {
+    map.depths[i] *= 0.5 + 0.03125 * static_cast<double>(i * i % 13);
+  }
+  map.values = map.depths;
+  const Attribution found = chosen_model(truth, map).chosen.attribution;
+  ASSERT_EQ(found.findings.size(), 1U);
+  EXPECT_EQ(found.findings[0].kind, "undecided");
+  EXPECT_THAT(found.findings[0].text, testing::StartsWith("cannot tell: "));
+  EXPECT_GT(found.sharpness.loose_share, 0.9);
+}
+
 TEST(ModelChoice, WithoutFarOnlyRays) {
   const Truth truth = sphere(0, infinity);
   const ModelChoice choice = chosen_model(truth, test::in_binary32(truth));

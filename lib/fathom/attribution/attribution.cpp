@@ -53,19 +53,26 @@ void set_images(const std::vector<PixelResult>& pixels, Attribution& result) {
   }
 }
 
+double share(std::uint64_t part, std::uint64_t of) {
+  return of == 0 ? 0 : static_cast<double>(part) / static_cast<double>(of);
+}
+
 Sharpness sharpness_of(const std::vector<PixelResult>& pixels) {
   std::vector<double> widths, steps;
-  std::uint64_t may = 0, touched = 0;
+  std::uint64_t may = 0, touched = 0, surfaces = 0, loose = 0;
   for (const PixelResult& p : pixels) {
     may += p.may ? 1 : 0;
     touched += p.touched ? 1 : 0;
+    surfaces += p.shows_surface ? 1 : 0;
+    loose += p.loose ? 1 : 0;
     if (!p.visible || !(p.visible->relative_width >= 0)) continue;  // no width between infinities
     widths.push_back(p.visible->relative_width);
     steps.push_back(p.visible->steps_width);
   }
   return {.median_relative_width = median(widths),
           .median_steps_width = median(steps),
-          .may_share = touched == 0 ? 0 : static_cast<double>(may) / static_cast<double>(touched)};
+          .may_share = share(may, touched),
+          .loose_share = share(loose, surfaces)};
 }
 
 DepthErrors errors_of(const std::vector<PixelResult>& pixels) {

@@ -68,6 +68,12 @@ struct Sharpness {
   double median_relative_width = 0, median_steps_width = 0;
   /// Share of undecided pixels, where a triangle may be visible, among pixels that triangles touch.
   double may_share = 0;
+  /// Share of the pixels with a surface at which the model allows nearly any depth, for example
+  /// because a triangle passes the eye and may be anywhere.
+  double loose_share = 0;
+
+  /// Whether the model excludes something at most pixels. Otherwise it explains nearly any map.
+  [[nodiscard]] bool decides() const { return loose_share <= 0.5; }
 };
 
 /// The mean difference of stored and expected window depths, over pixels with no other surface near

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "fathom/attribution/diagnosis.h"
+#include "fathom/attribution/faults/storage.h"
 #include "fathom/attribution/model/named_models.h"
 #include "fathom/attribution/model_survey.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -27,7 +28,13 @@ std::uint64_t unexplained(const Attribution& found) {
 }
 
 bool explains_all(const Attribution& found) {
-  return unexplained(found) == 0 && found.findings.empty();
+  return unexplained(found) == 0 && found.findings.empty() && found.sharpness.decides();
+}
+
+/// Whether bounds that exclude something show a cause. Single wrong pixels are no cause.
+bool names_cause(const Attribution& found) {
+  return found.sharpness.decides() && !found.findings.empty() &&
+         found.findings.front().kind != "isolated-pixels";
 }
 
 /// Whether the map shows surfaces but no depth could be compared: every pixel of them may be an
@@ -41,7 +48,7 @@ bool is_vacuous(const Attribution& found, const OtherMap& other) {
 
 /// A lower rank is better.
 auto rank(const Attribution& found) {
-  return std::tuple(unexplained(found), found.findings.size(),
+  return std::tuple(!found.sharpness.decides(), unexplained(found), found.findings.size(),
                     found.sharpness.median_relative_width);
 }
 
@@ -50,6 +57,7 @@ std::string text_of(const ModelTrial& trial) {
   const std::string bounds =
       fmt::format("bounds {:.2g} of the depth", found.sharpness.median_relative_width);
   if (explains_all(found)) return trial.model.name + ": every pixel is explained, " + bounds;
+  if (!found.sharpness.decides()) return trial.model.name + ": cannot tell, any depth is allowed";
   return fmt::format("{}: {} unexplained, {}, {}", trial.model.name,
                      text::counted(unexplained(found), "pixel"),
                      text::counted(found.findings.size(), "finding"), bounds);
@@ -93,6 +101,9 @@ class Candidates {
   std::optional<ModelTrial> explaining();
   /// The same among VTK's models only.
   std::optional<ModelTrial> explaining_of_vtk() { return explaining(true); }
+  /// A trial that explains every pixel with bounds that exclude nearly nothing. Call after
+  /// explaining().
+  [[nodiscard]] std::optional<ModelTrial> undecided() const;
   /// Faults of a map that no model explains, by the model that fits best. Call after
   /// explaining().
   std::optional<ModelTrial> at_fault();
@@ -106,6 +117,7 @@ class Candidates {
   [[nodiscard]] const ModelTrial* trial_of(const ModelSurvey& survey) const;
   [[nodiscard]] double left_by(const ModelSurvey& survey) const;
   [[nodiscard]] std::vector<ModelSurvey> by_what_they_leave() const;
+  std::optional<ModelTrial> with_stored_planes();
   [[nodiscard]] ModelTrial diagnosed(const RendererModel& model, std::optional<Hypothesis>& fault);
   [[nodiscard]] std::vector<RendererModel> narrowest_after(const Hypothesis& fault) const;
 
@@ -147,6 +159,13 @@ std::optional<ModelTrial> Candidates::explaining() {
   return std::nullopt;
 }
 
+std::optional<ModelTrial> Candidates::undecided() const {
+  const auto trial = std::find_if(trials_.begin(), trials_.end(), [](const ModelTrial& t) {
+    return unexplained(t.attribution) == 0 && !t.attribution.sharpness.decides();
+  });
+  return trial == trials_.end() ? std::nullopt : std::optional(*trial);
+}
+
 const ModelTrial* Candidates::trial_of(const ModelSurvey& survey) const {
   const auto trial = std::find_if(trials_.rbegin(), trials_.rend(), [&](const ModelTrial& t) {
     return t.model.name == survey.model.name;
@@ -161,12 +180,13 @@ double Candidates::left_by(const ModelSurvey& survey) const {
                           : static_cast<double>(unexplained(trial->attribution));
 }
 
-/// Fewest open pixels first; among equals the widest bounds first, because they leave only gross
-/// faults.
+/// Models that decide something first. Of these, fewest open pixels first; among equals the widest
+/// bounds first, because they leave only gross faults.
 std::vector<ModelSurvey> Candidates::by_what_they_leave() const {
   std::vector<ModelSurvey> sorted = surveys_;
   std::stable_sort(sorted.begin(), sorted.end(), [&](const ModelSurvey& a, const ModelSurvey& b) {
-    return std::pair(left_by(a), -a.width) < std::pair(left_by(b), -b.width);
+    return std::tuple(!a.decides, left_by(a), -a.width) <
+           std::tuple(!b.decides, left_by(b), -b.width);
   });
   return sorted;
 }
@@ -196,8 +216,20 @@ std::vector<RendererModel> Candidates::narrowest_after(const Hypothesis& fault) 
   return models;
 }
 
+/// By a model whose codes the depths are, with another near and far.
+std::optional<ModelTrial> Candidates::with_stored_planes() {
+  for (const ModelSurvey& survey : surveys_) {
+    if (!stored_planes(truth_.camera, other_, survey.model)) continue;
+    std::optional<Hypothesis> fault;
+    ModelTrial trial = diagnosed(survey.model, fault);
+    if (unexplained(trial.attribution) == 0 && names_cause(trial.attribution)) return trial;
+  }
+  return std::nullopt;
+}
+
 std::optional<ModelTrial> Candidates::at_fault() {
-  std::optional<ModelTrial> best;
+  std::optional<ModelTrial> best = with_stored_planes();
+  if (best) return best;
   std::array<bool, 2> is_tried{};  // rasterizers, rays
   for (const ModelSurvey& survey : by_what_they_leave()) {
     if (std::exchange(is_tried[survey.model.kind.index()], true)) continue;
@@ -304,6 +336,22 @@ void name_wider_model(ModelTrial& mine, const ModelTrial& wider, const Candidate
       mine.model.name, wider.model.name, candidates.text_of_others(wider.model));
 }
 
+/// Bounds that exclude nearly nothing prove neither the map right nor a fault: their only finding
+/// is `undecided`.
+void name_if_undecided(ModelTrial& trial, const Truth& truth) {
+  const Sharpness& sharpness = trial.attribution.sharpness;
+  if (sharpness.decides()) return;
+  const auto surfaces = static_cast<double>(
+      truth.triangles.size() - static_cast<std::size_t>(std::count(
+                                   truth.triangles.begin(), truth.triangles.end(), no_surface)));
+  trial.attribution.findings = {
+      {.kind = "undecided",
+       .text = fmt::format("cannot tell: as {} nearly any depth is allowed, because triangles pass "
+                           "the eye; give the near, the far and the model of the renderer",
+                           trial.model.name),
+       .pixels = static_cast<std::uint64_t>(std::llround(sharpness.loose_share * surfaces))}};
+}
+
 }  // namespace
 
 ModelChoice chosen_model(const Truth& truth, const OtherMap& other) {
@@ -311,6 +359,10 @@ ModelChoice chosen_model(const Truth& truth, const OtherMap& other) {
   Candidates candidates(truth, other, "");
   std::optional<ModelTrial> chosen = candidates.explaining();
   if (!chosen) chosen = candidates.at_fault();
+  if (!explains_all(chosen->attribution) && !names_cause(chosen->attribution)) {
+    if (std::optional<ModelTrial> undecided = candidates.undecided()) chosen = std::move(undecided);
+  }
+  name_if_undecided(*chosen, truth);
   return {std::move(*chosen), candidates.evidence()};
 }
 
@@ -321,6 +373,7 @@ ModelTrial judged_by(const Truth& truth, const OtherMap& other, const RendererMo
   const std::uint64_t open = unexplained(found);
   ModelTrial mine{named, diagnose(truth, other, known, std::move(found)).attribution};
   if (explains_all(mine.attribution)) return mine;
+  name_if_undecided(mine, truth);
   std::vector<Finding>& faults = mine.attribution.findings;
   const bool is_named = unexplained(mine.attribution) == 0;
 
@@ -351,6 +404,7 @@ ModelTrial judged_by(const Truth& truth, const OtherMap& other, const RendererMo
   if (is_named && !(faults.size() > 1 && has_storage(mine.attribution))) return mine;
   std::optional<ModelTrial> best = candidates.at_fault();
   if (!best || is_vacuous(best->attribution, other)) return mine;
+  if (!best->attribution.sharpness.decides()) return mine;
   if (!says_more(best->attribution, mine.attribution)) return mine;
   name_model(*best, named, open, candidates);
   return std::move(*best);

@@ -61,7 +61,8 @@ ModelSurvey surveyed(const Truth& truth, const OtherMap& other, const RendererMo
           .unexplained = found.count(PixelClass::unexplained),
           .foreign = foreign_values(truth.camera, other, known),
           .share = sample.share,
-          .width = found.sharpness.median_relative_width};
+          .width = found.sharpness.median_relative_width,
+          .decides = found.sharpness.decides()};
 }
 
 std::string text_of(const ModelSurvey& survey) {

@@ -21,6 +21,8 @@ struct ModelSurvey {
   double share = 1;
   /// Median width of the bounds, relative to the depth.
   double width = 0;
+  /// Whether the bounds exclude something at most pixels of the sample.
+  bool decides = true;
 
   /// A model that leaves a pixel of the sample open does not explain the map.
   [[nodiscard]] bool may_explain_all() const { return unexplained == 0 && foreign == 0; }

@@ -52,7 +52,9 @@ TEST(DepthRelation, SaysWhatTheConstantsMean) {
     return 10 / (10 - 9 * z);  // decoded with near 1 and far 10
   });
   ASSERT_FALSE(planes.empty());
-  EXPECT_THAT(planes[0].text, testing::HasSubstr("(near 1 and far 10 for 0.5 and 20)"));
+  EXPECT_THAT(
+      planes[0].text,
+      testing::HasSubstr("(decoded with near 1 and far 10 if drawn with near 0.5 and far 20)"));
 }
 
 TEST(DepthRelation, FindsCodes) {

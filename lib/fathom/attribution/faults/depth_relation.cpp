@@ -173,10 +173,10 @@ std::string meaning_of(const Form& form, const Line& line, const Camera& c) {
     if (is(-b, 1 - a)) return " (reversed: 1 at near and 0 at far)";
   }
   if (form.stored == DepthTerm::inverse && form.depth == DepthTerm::inverse && c.near > 0) {
-    const double near = 1 / (line.beta + line.alpha / c.near);
-    const double far = 1 / (line.beta + line.alpha / c.far);
-    return fmt::format(" (near {:.6g} and far {:.6g} for {:.6g} and {:.6g})", near, far, c.near,
-                       c.far);
+    return " (" +
+           text_of_decoder(
+               c, {1 / (line.beta + line.alpha / c.near), 1 / (line.beta + line.alpha / c.far)}) +
+           ")";
   }
   return "";
 }
@@ -255,7 +255,76 @@ std::optional<DepthRelation> related(const Truth& truth, const OtherMap& other, 
   return relation;
 }
 
+/// 1/near and 1/far where window depths of 0 and 1 lie.
+struct InversePlanes {
+  double near = 0, far = 0;
+
+  explicit InversePlanes(const ClipPlanes& planes) : near(1 / planes.near), far(1 / planes.far) {}
+  [[nodiscard]] double at(double window) const { return near + window * (far - near); }
+  [[nodiscard]] double window(double inverse) const { return (inverse - near) / (far - near); }
+};
+
+bool are_planes(const ClipPlanes& planes) {
+  return planes.near > 0 && planes.near < planes.far && planes.far < infinity;
+}
+
+ClipPlanes planes_of(const Camera& camera) {
+  return {camera.near, camera.far};
+}
+
+/// The planes of the renderer if the decoder had the camera's. A decoder with `decoder` for the
+/// camera's planes makes the same map.
+ClipPlanes drawn_for(const Camera& camera, const ClipPlanes& decoder) {
+  const InversePlanes own(planes_of(camera)), read(decoder);
+  return {1 / own.at(read.window(own.near)), 1 / own.at(read.window(own.far))};
+}
+
 }  // namespace
+
+std::string text_of_decoder(const Camera& camera, const ClipPlanes& decoder) {
+  const auto text = [](const char* verb, const ClipPlanes& p) {
+    return fmt::format("{} with near {:.6g} and far {:.6g}", verb, p.near, p.far);
+  };
+  const ClipPlanes own = planes_of(camera), drawn = drawn_for(camera, decoder);
+  const std::string as_decoded = text("decoded", decoder) + " if " + text("drawn", own);
+  const std::string as_drawn = text("drawn", drawn) + " if " + text("decoded", own);
+  if (!are_planes(drawn)) return as_decoded;
+  return are_planes(decoder) ? as_decoded + ", or " + as_drawn : as_drawn;
+}
+
+std::vector<ClipPlanes> drawn_planes(const Truth& truth, const OtherMap& other) {
+  if (!is_perspective(truth.camera.projection) || !are_planes(planes_of(truth.camera))) return {};
+  const auto form = std::find_if(forms.begin(), forms.end(), [](const Form& f) {
+    return f.stored == DepthTerm::inverse && f.depth == DepthTerm::inverse;
+  });
+  const std::vector<Pair> pairs = pairs_of(truth, other, *form);
+  const std::optional<Line> line = robust_fit(pairs, *form);
+  if (!line) return {};
+  const auto depth_of_stored = [&](double stored) {
+    return line->alpha / (1 / stored - line->beta);
+  };
+  const ClipPlanes fitted{depth_of_stored(truth.camera.near), depth_of_stored(truth.camera.far)};
+  if (!(fitted.near > 0)) return {};
+  std::vector<ClipPlanes> planes;
+  const double near = rounded_to_digits(fitted.near, 3);
+  if (fitted.far > 0) {
+    planes.push_back({near, rounded_to_digits(fitted.far, 1)});
+    planes.push_back({near, rounded_to_digits(fitted.far, 2)});
+  }
+  planes.push_back({near, truth.camera.far});
+  planes.push_back(fitted);
+  std::erase_if(planes, [](const ClipPlanes& p) { return !are_planes(p); });
+  return planes;
+}
+
+OtherMap decoded_again(const OtherMap& other, const Camera& camera, const ClipPlanes& planes) {
+  const InversePlanes before(planes_of(camera)), after(planes);
+  OtherMap read = other;
+  for (double& depth : read.depths) {
+    if (std::abs(depth) < infinity) depth = 1 / after.at(before.window(1 / depth));
+  }
+  return read;
+}
 
 std::vector<DepthRelation> depth_relations(const Truth& truth, const OtherMap& other) {
   std::vector<DepthRelation> found;

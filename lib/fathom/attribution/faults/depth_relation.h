@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "fathom/attribution/faults/storage.h"
 #include "fathom/attribution/model/window_depth.h"
 #include "fathom/attribution/other_map.h"
 #include "fathom/attribution/truth.h"
@@ -30,5 +31,18 @@ std::vector<DepthRelation> depth_relations(const Truth& truth, const OtherMap& o
 
 /// The map with the depths that its values mean.
 OtherMap read_by(const DepthRelation& relation, const OtherMap& other);
+
+/// Which near and far are wrong, for a decoder that seems to have used `decoder` for the camera's
+/// planes: "decoded with … if drawn with …, or drawn with … if decoded with …". A reading with
+/// impossible planes is left out.
+std::string text_of_decoder(const Camera& camera, const ClipPlanes& decoder);
+
+/// The near and far with which a map may have been drawn if its window depths were decoded with
+/// the camera's, most likely first: planes of few digits, then the fitted planes.
+/// Method   1/stored is a linear function of 1/depth, whose constants give both planes.
+std::vector<ClipPlanes> drawn_planes(const Truth& truth, const OtherMap& other);
+
+/// A map whose window depths were decoded with the camera's planes, decoded with others.
+OtherMap decoded_again(const OtherMap& other, const Camera& camera, const ClipPlanes& planes);
 
 }  // namespace fathom::attribution

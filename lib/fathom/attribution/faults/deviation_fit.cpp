@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "fathom/attribution/faults/depth_relation.h"
 #include "fathom/attribution/faults/residuals.h"
 #include "fathom/failures/errors.h"
 
@@ -106,9 +107,12 @@ std::string text_of_planes(const Camera& camera, const RendererModel& model,
   const DeviationSet& set = *fit.set;
   const std::string near = fmt::format("near {:.6g} for {:.6g}", depths.near(), camera.near);
   const std::string far = fmt::format("far {:.6g} for {:.6g}", depths.far(), camera.far);
-  return "depths were decoded with " + (!set.has(P::far)    ? near
-                                        : !set.has(P::near) ? far
-                                                            : near + " and " + far);
+  const std::string text =
+      "depths were decoded with " + (!set.has(P::far)    ? near
+                                     : !set.has(P::near) ? far
+                                                         : near + " and " + far);
+  if (!is_perspective(camera.projection)) return text;
+  return text + " (" + text_of_decoder(camera, {depths.near(), depths.far()}) + ")";
 }
 
 /// Where samples lie is the negative of where the principal point does.

@@ -271,10 +271,14 @@ Lattice lattice_between(const ClipPlanes& planes, double codes) {
   return {1 / planes.far, (1 / planes.near - 1 / planes.far) / codes};
 }
 
+}  // namespace
+
 double rounded_to_digits(double value, int digits) {
   const double unit = std::pow(10.0, digits - 1 - std::floor(std::log10(value)));
   return std::nearbyint(value * unit) / unit;
 }
+
+namespace {
 
 /// The camera's planes, then planes of one digit, then of two digits, beyond all surfaces.
 std::vector<double> likely_fars(const Camera& camera, double greatest_depth) {

@@ -39,6 +39,9 @@ struct ClipPlanes {
   double near = 0, far = 0;
 };
 
+/// A positive value, rounded to so many significant decimal digits.
+double rounded_to_digits(double value, int digits);
+
 /// The near and far between which a map's window depths were stored, if the camera's differ.
 ///
 /// Source   a window depth of n bits is the code k of 1/D = 1/near − k·(1/near − 1/far)/(2ⁿ − 1),

@@ -237,8 +237,19 @@ bool PixelJudge::is_explained_without(std::uint32_t triangle, const Pixel& p) co
                     : explaining(without, values_->other(p.index)) != nullptr;
 }
 
+/// A width between infinities is no number, and loose.
+bool PixelJudge::is_loose(const Pixel& p) const {
+  return std::any_of(p.fragments.begin(), p.fragments.end(), [&](const Fragment& f) {
+    const Interval allowed = values_->as_depths(f);
+    return f.value.lower <= p.verdict.cap &&
+           !(allowed.upper - allowed.lower < truth_.depths[p.index]);
+  });
+}
+
 void PixelJudge::measure(const Pixel& p, PixelResult& result) const {
   result.touched = !p.fragments.empty();
+  result.shows_surface = truth_.triangles[p.index] != no_surface;
+  result.loose = result.shows_surface && is_loose(p);
   for (const Fragment& f : p.fragments) {
     if (f.coverage == Coverage::may && f.value.lower <= p.verdict.cap) result.may = true;
   }

@@ -37,6 +37,9 @@ struct PixelResult {
   /// may: a triangle may or may not be visible here. touched: some triangle is or may be drawn
   /// here.
   bool may = false, touched = false;
+  /// The truth shows a surface. loose: besides, a triangle may be visible at depths that span more
+  /// than the exact depth.
+  bool shows_surface = false, loose = false;
   /// The visible triangle is certainly drawn, and no other triangle is near it in depth.
   bool alone = false;
   /// The pixel is unexplained and shows, of several equal triangles, a different one than the
@@ -88,6 +91,7 @@ class PixelJudge {
   [[nodiscard]] PixelClass class_of_none(const Pixel& p) const;
   [[nodiscard]] PixelClass class_of_visible(const Pixel& p) const;
   [[nodiscard]] PixelClass class_of_another(const Pixel& p, const Fragment& seen) const;
+  [[nodiscard]] bool is_loose(const Pixel& p) const;
   void measure(const Pixel& p, PixelResult& result) const;
 
   const Truth& truth_;
