@@ -60,22 +60,10 @@ Truth room_from_within() {
   return make_truth(bench::as_scene({room}, "room"), camera);
 }
 
-/// Codes of a renderer with another near, decoded with the camera's.
-OtherMap decoded_with_wrong_near(const Truth& truth, int bits, double near) {
-  const Camera& c = truth.camera;
-  OtherMap map = test::in_codes(truth, bits, near, c.far);
-  for (double& depth : map.depths) {
-    const double window = (1 / near - 1 / depth) / (1 / near - 1 / c.far);
-    depth = double{static_cast<float>(1 / (1 / c.near - window * (1 / c.near - 1 / c.far)))};
-  }
-  map.values = map.depths;
-  return map;
-}
-
 TEST(ModelChoice, AWrongNearPrecedesBoundsThatDecideNothing) {
   const Truth truth = room_from_within();
   for (const double near : {0.025, 0.1, 0.5}) {
-    const ModelChoice choice = chosen_model(truth, decoded_with_wrong_near(truth, 32, near));
+    const ModelChoice choice = chosen_model(truth, test::in_misread_codes(truth, 32, near, 20));
     const Attribution& found = choice.chosen.attribution;
     EXPECT_EQ(found.count(PixelClass::unexplained), 0U) << testing::PrintToString(choice.evidence);
     ASSERT_EQ(found.findings.size(), 1U) << near;
@@ -104,6 +92,19 @@ TEST(ModelChoice, CannotTell) {
   EXPECT_EQ(found.findings[0].kind, "undecided");
   EXPECT_THAT(found.findings[0].text, testing::StartsWith("cannot tell: "));
   EXPECT_GT(found.sharpness.loose_share, 0.9);
+}
+
+TEST(ModelChoice, ANarrowerModelAcquitsForANamedModelThatDecidesNothing) {
+  const Truth truth = room_from_within();
+  const RendererModel reversed = model_named("gl-float32-reversed");
+  const ModelTrial right = judged_by(truth, test::in_binary32(truth), reversed);
+  EXPECT_EQ(right.attribution.count(PixelClass::unexplained), 0U);
+  EXPECT_TRUE(right.attribution.findings.empty()) << right.attribution.findings[0].text;
+  EXPECT_EQ(right.model.name, "float32-ray");
+  ASSERT_EQ(right.attribution.notes.size(), 1U);
+  EXPECT_EQ(right.attribution.notes[0].text,
+            "as gl-float32-reversed nearly any depth is allowed, because triangles pass the eye; "
+            "judged as float32-ray, within narrower bounds");
 }
 
 TEST(ModelChoice, WithoutFarOnlyRays) {

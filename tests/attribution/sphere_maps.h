@@ -35,21 +35,39 @@ inline attribution::OtherMap in_binary32(const attribution::Truth& truth) {
   return map;
 }
 
-/// The exact depths, stored as window depths of so many bits between near and far, read in
-/// binary32.
-inline attribution::OtherMap in_codes(const attribution::Truth& truth, int bits, double near,
-                                      double far) {
-  const attribution::WindowDepth window =
-      attribution::window_depth(truth.camera.projection.model, Mapping::opengl, near, far);
+/// The exact depths, stored as window depths of so many bits in the one way and read in binary32 in
+/// the other.
+inline attribution::OtherMap in_codes(const attribution::Truth& truth, int bits,
+                                      const attribution::WindowDepth& stored,
+                                      const attribution::WindowDepth& read) {
   const double greatest = std::exp2(bits) - 1;
   attribution::OtherMap map = in_binary32(truth);
   for (std::size_t i = 0; i < map.depths.size(); ++i) {
     if (!(truth.depths[i] < std::numeric_limits<double>::infinity())) continue;
-    const double code = std::nearbyint(window.of_depth(truth.depths[i]) * greatest);
-    map.depths[i] = double{static_cast<float>(window.to_depth(code / greatest))};
+    const double code = std::nearbyint(stored.of_depth(truth.depths[i]) * greatest);
+    map.depths[i] = double{static_cast<float>(read.to_depth(code / greatest))};
   }
   map.values = map.depths;
   return map;
+}
+
+inline attribution::WindowDepth window_between(const attribution::Truth& truth, double near,
+                                               double far) {
+  return attribution::window_depth(truth.camera.projection.model, Mapping::opengl, near, far);
+}
+
+/// Stored between near and far, and decoded with them.
+inline attribution::OtherMap in_codes(const attribution::Truth& truth, int bits, double near,
+                                      double far) {
+  const attribution::WindowDepth window = window_between(truth, near, far);
+  return in_codes(truth, bits, window, window);
+}
+
+/// Stored between near and far, and decoded with the camera's.
+inline attribution::OtherMap in_misread_codes(const attribution::Truth& truth, int bits,
+                                              double near, double far) {
+  return in_codes(truth, bits, window_between(truth, near, far),
+                  window_between(truth, truth.camera.near, truth.camera.far));
 }
 
 }  // namespace fathom::test

@@ -179,13 +179,13 @@ class Search {
   void name_storage();
   /// Each of these adds its findings and returns whether it found something.
   bool by_stored_planes();
-  bool by_drawn_planes();
   bool by_triangles();
   bool by_hypotheses();
   bool by_relations(bool gross);
   bool by_deviation();
   bool by_pixels();
 
+  void add_drawn_planes(BestTrial& best) const;
   [[nodiscard]] const std::vector<DepthRelation>& relations();
   void name(const Finding& finding, const std::vector<std::uint8_t>& explained);
   void name(const BestTrial& trial);
@@ -277,34 +277,6 @@ bool Search::by_stored_planes() {
   return true;
 }
 
-/// Where the codes are coarse, a relation of depths does not hold to their precision. The bounds
-/// have to follow from the renderer's planes.
-bool Search::by_drawn_planes() {
-  const auto* const raster = std::get_if<RasterModel>(&model_.kind);
-  const bool is_hyperbolic =
-      raster != nullptr && !raster->written && raster->mapping != Mapping::log_ulrich;
-  if (!is_hyperbolic || model_.recorded || !other_.windows.empty()) return false;
-  BestTrial best(truth_, unexplained());
-  for (const ClipPlanes& planes : drawn_planes(truth_, other_)) {
-    if (best.is_perfect()) break;
-    Camera camera = truth_.camera;
-    camera.near = planes.near;
-    camera.far = planes.far;
-    best.add({.kind = "decoding",
-              .text = fmt::format("depths were decoded with the wrong near and far: the map was "
-                                  "drawn with near {:.6g} and far {:.6g}, not {:.6g} and {:.6g}",
-                                  planes.near, planes.far, truth_.camera.near, truth_.camera.far),
-              .model = model_,
-              .map = decoded_again(other_, truth_.camera, planes),
-              .truth = seen_by(truth_, camera),
-              .estimates = {{.name = "near", .value = planes.near, .unit = "scene units"},
-                            {.name = "far", .value = planes.far, .unit = "scene units"}}});
-  }
-  if (!best.has_one()) return false;
-  name(best);
-  return true;
-}
-
 bool Search::by_triangles() {
   const std::vector<Finding> findings = triangles_at_fault(truth_, other_, searched_);
   std::uint64_t named = 0;
@@ -346,12 +318,37 @@ bool Search::by_relations(bool gross) {
   return true;
 }
 
+/// Where the codes are coarse, a relation of depths does not hold to their precision. The bounds
+/// have to follow from the renderer's planes.
+void Search::add_drawn_planes(BestTrial& best) const {
+  const auto* const raster = std::get_if<RasterModel>(&model_.kind);
+  const bool is_hyperbolic =
+      raster != nullptr && !raster->written && raster->mapping != Mapping::log_ulrich;
+  if (!is_hyperbolic || model_.recorded || !other_.windows.empty() || best.is_perfect()) return;
+  for (const ClipPlanes& planes : drawn_planes(truth_, other_)) {
+    if (best.is_perfect()) return;
+    Camera camera = truth_.camera;
+    camera.near = planes.near;
+    camera.far = planes.far;
+    best.add({.kind = "decoding",
+              .text = fmt::format("depths were decoded with the wrong near and far: the map was "
+                                  "drawn with near {:.6g} and far {:.6g}, not {:.6g} and {:.6g}",
+                                  planes.near, planes.far, truth_.camera.near, truth_.camera.far),
+              .model = model_,
+              .map = decoded_again(other_, truth_.camera, planes),
+              .truth = seen_by(truth_, camera),
+              .estimates = {{.name = "near", .value = planes.near, .unit = "scene units"},
+                            {.name = "far", .value = planes.far, .unit = "scene units"}}});
+  }
+}
+
+/// If a fitted deviation leaves pixels open, the planes of the renderer compete with it.
 bool Search::by_deviation() {
   if (truth_.lens) return false;  // the derivatives are those of a pinhole
-  const std::optional<FittedDeviation> fit = fitted_deviation(truth_, other_, model_, searched_);
-  if (!fit) return false;
   BestTrial best(truth_, unexplained());
-  best.add(deviation_hypothesis(truth_, other_, model_, *fit));
+  const std::optional<FittedDeviation> fit = fitted_deviation(truth_, other_, model_, searched_);
+  if (fit) best.add(deviation_hypothesis(truth_, other_, model_, *fit));
+  add_drawn_planes(best);
   if (!best.has_one()) return false;
   name(best);
   return true;
@@ -392,7 +389,7 @@ void Search::run() {
   name_storage();
   if (unexplained() == 0) return;
   by_stored_planes() || by_triangles() || by_hypotheses() || by_relations(true) || by_deviation() ||
-      by_drawn_planes() || by_relations(false) || by_pixels();
+      by_relations(false) || by_pixels();
 }
 
 }  // namespace

@@ -327,6 +327,16 @@ void name_model(ModelTrial& trial, const RendererModel& named, std::uint64_t pix
        .evidence = candidates.evidence()});
 }
 
+/// Bounds that exclude nearly nothing were asked for, and another model's bounds acquit the map.
+void note_narrower_model(ModelTrial& right, const RendererModel& named) {
+  right.attribution.notes.push_back(
+      {.kind = "model",
+       .text = fmt::format("as {} nearly any depth is allowed, because triangles pass the eye; "
+                           "judged as {}, within narrower bounds",
+                           named.name, right.model.name),
+       .pixels = right.attribution.classes.size()});
+}
+
 /// The other model explains everything, but its bounds are too wide to acquit the map.
 void name_wider_model(ModelTrial& mine, const ModelTrial& wider, const Candidates& candidates) {
   Finding& fault = mine.attribution.findings.front();
@@ -383,6 +393,10 @@ ModelTrial judged_by(const Truth& truth, const OtherMap& other, const RendererMo
   };
   std::optional<ModelTrial> right = candidates.explaining();
   if (right && !is_vacuous(right->attribution, other)) {
+    if (open == 0 && !mine.attribution.sharpness.decides()) {
+      note_narrower_model(*right, named);
+      return std::move(*right);
+    }
     if (has_too_wide_bounds(*right) && !is_of_vtk(right->model)) {
       // Where coordinates are large, VTK's shift narrows the bounds of the same storage.
       std::optional<ModelTrial> shifted = candidates.explaining_of_vtk();

@@ -96,5 +96,25 @@ TEST(StoredPlanes, AreNotBlamedForAnotherScene) {
   for (const Finding& finding : found.attribution.findings) EXPECT_NE(finding.kind, "clip-planes");
 }
 
+// Sixteen bits are so coarse that no line through 1/stored and 1/depth holds for most pixels.
+TEST(DrawnPlanes, AreFoundThoughTheMapWasDecodedWithTheCameras) {
+  const auto truth = sphere_seen_by(sphere_camera(0.5, 20));
+  for (const double near : {0.25, 0.05}) {
+    const OtherMap map = in_misread_codes(*truth, 16, near, 20);
+    const Judgement found = judge(truth, map, model_named("gl-unorm16"));
+    EXPECT_EQ(found.model.name, "gl-unorm16");
+    EXPECT_EQ(found.attribution.count(PixelClass::unexplained), 0U) << near;
+    ASSERT_EQ(found.attribution.findings.size(), 1U) << near;
+    const Finding& finding = found.attribution.findings[0];
+    EXPECT_EQ(finding.kind, "decoding");
+    EXPECT_EQ(finding.text,
+              "depths were decoded with the wrong near and far: the map was drawn with near " +
+                  std::string(near == 0.25 ? "0.25" : "0.05") + " and far 20, not 0.5 and 20");
+    ASSERT_EQ(finding.estimates.size(), 2U);
+    EXPECT_EQ(finding.estimates[0].value, near);
+    EXPECT_EQ(finding.estimates[1].value, 20);
+  }
+}
+
 }  // namespace
 }  // namespace fathom::attribution

@@ -286,7 +286,7 @@ std::string text_of_decoder(const Camera& camera, const ClipPlanes& decoder) {
     return fmt::format("{} with near {:.6g} and far {:.6g}", verb, p.near, p.far);
   };
   const ClipPlanes own = planes_of(camera), drawn = drawn_for(camera, decoder);
-  const std::string as_decoded = text("decoded", decoder) + " if " + text("drawn", own);
+  std::string as_decoded = text("decoded", decoder) + " if " + text("drawn", own);
   const std::string as_drawn = text("drawn", drawn) + " if " + text("decoded", own);
   if (!are_planes(drawn)) return as_decoded;
   return are_planes(decoder) ? as_decoded + ", or " + as_drawn : as_drawn;

@@ -107,10 +107,9 @@ std::string text_of_planes(const Camera& camera, const RendererModel& model,
   const DeviationSet& set = *fit.set;
   const std::string near = fmt::format("near {:.6g} for {:.6g}", depths.near(), camera.near);
   const std::string far = fmt::format("far {:.6g} for {:.6g}", depths.far(), camera.far);
-  const std::string text =
-      "depths were decoded with " + (!set.has(P::far)    ? near
-                                     : !set.has(P::near) ? far
-                                                         : near + " and " + far);
+  std::string text = "depths were decoded with " + (!set.has(P::far)    ? near
+                                                    : !set.has(P::near) ? far
+                                                                        : near + " and " + far);
   if (!is_perspective(camera.projection)) return text;
   return text + " (" + text_of_decoder(camera, {depths.near(), depths.far()}) + ")";
 }
