@@ -237,12 +237,15 @@ bool PixelJudge::is_explained_without(std::uint32_t triangle, const Pixel& p) co
                     : explaining(without, values_->other(p.index)) != nullptr;
 }
 
-/// A width between infinities is no number, and loose.
+/// Codes of a distant surface may span its depth, too, but they are few. A width between infinities
+/// is no number, and loose.
 bool PixelJudge::is_loose(const Pixel& p) const {
+  const double depth = truth_.depths[p.index];
   return std::any_of(p.fragments.begin(), p.fragments.end(), [&](const Fragment& f) {
+    constexpr double half_of_sixteen_bits = 0x1p15;
     const Interval allowed = values_->as_depths(f);
-    return f.value.lower <= p.verdict.cap &&
-           !(allowed.upper - allowed.lower < truth_.depths[p.index]);
+    return f.value.lower <= p.verdict.cap && !(allowed.upper - allowed.lower < depth) &&
+           !(values_->steps(f, depth) < half_of_sixteen_bits);
   });
 }
 

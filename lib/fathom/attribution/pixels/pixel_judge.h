@@ -38,7 +38,7 @@ struct PixelResult {
   /// here.
   bool may = false, touched = false;
   /// The truth shows a surface. loose: besides, a triangle may be visible at depths that span more
-  /// than the exact depth.
+  /// than the exact depth and half of the codes of 16 bits.
   bool shows_surface = false, loose = false;
   /// The visible triangle is certainly drawn, and no other triangle is near it in depth.
   bool alone = false;
