@@ -79,19 +79,85 @@ TEST(ModelChoice, CodesBetweenOtherPlanes) {
   EXPECT_EQ(choice.chosen.model.name, "gl-unorm16");
 }
 
-// Depths that no surface has are explained by bounds that allow any depth.
-TEST(ModelChoice, CannotTell) {
-  const Truth truth = room_from_within();
+/// Depths that no surface has. Only bounds that allow nearly any depth explain them.
+OtherMap scattered(const Truth& truth) {
   OtherMap map = test::in_binary32(truth);
   for (std::size_t i = 0; i < map.depths.size(); ++i) {
     map.depths[i] *= 0.5 + 0.03125 * static_cast<double>(i * i % 13);
   }
   map.values = map.depths;
+  return map;
+}
+
+TEST(ModelChoice, CannotTell) {
+  const Truth truth = room_from_within();
+  const OtherMap map = scattered(truth);
   const Attribution found = chosen_model(truth, map).chosen.attribution;
   ASSERT_EQ(found.findings.size(), 1U);
   EXPECT_EQ(found.findings[0].kind, "undecided");
-  EXPECT_THAT(found.findings[0].text, testing::StartsWith("cannot tell: "));
+  EXPECT_THAT(verdict_text(truth, map, found),
+              testing::StartsWith("cannot tell: as gl-float32-reversed every pixel is explained, "
+                                  "but nearly any depth is allowed; give the near, "));
   EXPECT_GT(found.sharpness.loose_share, 0.9);
+}
+
+// It may have drawn the map. Nothing is blamed, and the verdict is not that the map is right.
+TEST(ModelChoice, ANamedModelThatDecidesNothingCannotTell) {
+  const Truth truth = room_from_within();
+  const OtherMap map = scattered(truth);
+  const ModelTrial mine = judged_by(truth, map, model_named("gl-float32-reversed"));
+  EXPECT_EQ(mine.model.name, "gl-float32-reversed");
+  EXPECT_TRUE(mine.attribution.findings.empty());
+  ASSERT_EQ(mine.attribution.notes.size(), 1U);
+  EXPECT_EQ(mine.attribution.notes[0].kind, "undecided");
+  EXPECT_EQ(verdict_text(truth, map, mine.attribution),
+            "cannot tell: as gl-float32-reversed every pixel is explained, but nearly any depth is "
+            "allowed (12288 pixels)");
+}
+
+TEST(ModelChoice, ANamedModelThatDecidesNothingNotesAFaultByAnotherModel) {
+  const Truth truth = room_from_within();
+  for (const double near : {0.025, 0.1, 0.5}) {
+    const OtherMap map = test::in_misread_codes(truth, 32, near, 20);
+    const ModelTrial mine = judged_by(truth, map, model_named("gl-float32-reversed"));
+    const Attribution& found = mine.attribution;
+    // With near at 0.025 depths are greater than the bounds allow.
+    if (near == 0.025) {
+      ASSERT_FALSE(found.findings.empty());
+      EXPECT_EQ(found.findings[0].kind, "decoding") << found.findings[0].text;
+      continue;
+    }
+    EXPECT_TRUE(found.findings.empty()) << found.findings[0].text;
+    EXPECT_THAT(verdict_text(truth, map, found),
+                testing::AllOf(testing::StartsWith("cannot tell: as gl-float32-reversed "),
+                               testing::HasSubstr(" a fault explains every pixel: depths were "
+                                                  "decoded with ")));
+  }
+}
+
+TEST(ModelChoice, AWrongNearIsNoReasonToNameAModelThatDecidesNothing) {
+  const Truth truth = room_from_within();
+  for (const char* named : {"gl-unorm24", "gl-float32", "float32-ray"}) {
+    for (const double near : {0.025, 0.1, 0.5}) {
+      const OtherMap map = test::in_misread_codes(truth, 32, near, 20);
+      const Attribution found = judged_by(truth, map, model_named(named)).attribution;
+      EXPECT_EQ(found.count(PixelClass::unexplained), 0U) << named << near;
+      ASSERT_EQ(found.findings.size(), 1U) << named << near;
+      EXPECT_EQ(found.findings[0].kind, "decoding") << found.findings[0].text;
+    }
+  }
+}
+
+TEST(ModelChoice, NoModelThatDecidesSomethingExplains) {
+  const Truth truth = room_from_within();
+  const ModelTrial wide = judged_by(truth, scattered(truth), model_named("gl-unorm24"));
+  EXPECT_EQ(wide.model.name, "gl-float32-reversed");
+  ASSERT_EQ(wide.attribution.findings.size(), 1U);
+  EXPECT_EQ(wide.attribution.findings[0].kind, "model");
+  EXPECT_EQ(
+      wide.attribution.findings[0].text,
+      "the model gl-unorm24 does not fit: as gl-float32-reversed every pixel is explained, "
+      "but nearly any depth is allowed; give the near, the far and the model of the renderer");
 }
 
 TEST(ModelChoice, ANarrowerModelAcquitsForANamedModelThatDecidesNothing) {
@@ -103,8 +169,8 @@ TEST(ModelChoice, ANarrowerModelAcquitsForANamedModelThatDecidesNothing) {
   EXPECT_EQ(right.model.name, "float32-ray");
   ASSERT_EQ(right.attribution.notes.size(), 1U);
   EXPECT_EQ(right.attribution.notes[0].text,
-            "as gl-float32-reversed nearly any depth is allowed, because triangles pass the eye; "
-            "judged as float32-ray, within narrower bounds");
+            "as gl-float32-reversed nearly any depth is allowed; judged as float32-ray, within "
+            "narrower bounds");
 }
 
 TEST(ModelChoice, WithoutFarOnlyRays) {

@@ -235,9 +235,15 @@ std::string finding_line(const Finding& f) {
 
 std::string verdict_text(const Truth& truth, const OtherMap& other, const Attribution& found) {
   const StandardArithmetic standard;
-  if (!found.findings.empty()) return "failed: " + finding_text(found.findings.front());
+  const auto is_undecided = [](const Finding& f) { return f.kind == "undecided"; };
+  if (!found.findings.empty()) {
+    const Finding& first = found.findings.front();
+    return (is_undecided(first) ? "" : "failed: ") + finding_text(first);
+  }
   const std::string cause = cause_of(truth, other, found);
-  return cause.empty() ? "every pixel is explained" : "failed: " + cause;
+  if (!cause.empty()) return "failed: " + cause;
+  const auto note = std::find_if(found.notes.begin(), found.notes.end(), is_undecided);
+  return note == found.notes.end() ? "every pixel is explained" : finding_text(*note);
 }
 
 std::string cause_of(const Truth& truth, const OtherMap& other, const Attribution& found) {

@@ -123,7 +123,7 @@ struct Attribution {
   Clues clues;
   /// The faults.
   std::vector<Finding> findings;
-  /// Conventions that were recognised (`background`, `model`), and a possible cause: `clip-planes`.
+  /// Recognised conventions (`background`, `model`), a possible cause (`clip-planes`), `undecided`.
   std::vector<Finding> notes;
 
   [[nodiscard]] std::uint64_t count(PixelClass c) const {
@@ -163,8 +163,8 @@ std::string finding_line(const Finding& finding);
 /// and the pixel to look at first. Empty if every pixel is explained and there is no finding.
 std::string cause_of(const Truth& truth, const OtherMap& other, const Attribution& found);
 
-/// First line of a report: "failed: the image is mirrored (1 pixel)", or "every pixel is
-/// explained".
+/// First line of a report: "failed: the image is mirrored (1 pixel)", "every pixel is explained",
+/// or "cannot tell: …" if the model allows nearly any depth.
 std::string verdict_text(const Truth& truth, const OtherMap& other, const Attribution& found);
 
 /// A pixel with its depths: "(12, 7): 3.25 instead of 3.21, allowed 3.2099 to 3.2101". Depths are

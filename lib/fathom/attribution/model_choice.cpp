@@ -31,10 +31,16 @@ bool explains_all(const Attribution& found) {
   return unexplained(found) == 0 && found.findings.empty() && found.sharpness.decides();
 }
 
-/// Whether bounds that exclude something show a cause. Single wrong pixels are no cause.
+/// Whether bounds that exclude nearly nothing contain the map. That is no evidence for it.
+bool is_undecided(const Attribution& found) {
+  return unexplained(found) == 0 && !found.sharpness.decides();
+}
+
+/// Whether narrow bounds show a cause of all that is wrong. Bounds wider than the depth, such as
+/// coarse codes far from the eye, may contain what remains after a wrong cause.
 bool names_cause(const Attribution& found) {
-  return found.sharpness.decides() && !found.findings.empty() &&
-         found.findings.front().kind != "isolated-pixels";
+  return unexplained(found) == 0 && !found.findings.empty() && found.sharpness.decides() &&
+         found.sharpness.median_relative_width < 1;
 }
 
 /// Whether the map shows surfaces but no depth could be compared: every pixel of them may be an
@@ -57,7 +63,7 @@ std::string text_of(const ModelTrial& trial) {
   const std::string bounds =
       fmt::format("bounds {:.2g} of the depth", found.sharpness.median_relative_width);
   if (explains_all(found)) return trial.model.name + ": every pixel is explained, " + bounds;
-  if (!found.sharpness.decides()) return trial.model.name + ": cannot tell, any depth is allowed";
+  if (is_undecided(found)) return trial.model.name + ": cannot tell, nearly any depth is allowed";
   return fmt::format("{}: {} unexplained, {}, {}", trial.model.name,
                      text::counted(unexplained(found), "pixel"),
                      text::counted(found.findings.size(), "finding"), bounds);
@@ -101,7 +107,7 @@ class Candidates {
   std::optional<ModelTrial> explaining();
   /// The same among VTK's models only.
   std::optional<ModelTrial> explaining_of_vtk() { return explaining(true); }
-  /// A trial that explains every pixel with bounds that exclude nearly nothing. Call after
+  /// The first model that explains the map with bounds that exclude nearly nothing. Call after
   /// explaining().
   [[nodiscard]] std::optional<ModelTrial> undecided() const;
   /// Faults of a map that no model explains, by the model that fits best. Call after
@@ -161,7 +167,7 @@ std::optional<ModelTrial> Candidates::explaining() {
 
 std::optional<ModelTrial> Candidates::undecided() const {
   const auto trial = std::find_if(trials_.begin(), trials_.end(), [](const ModelTrial& t) {
-    return unexplained(t.attribution) == 0 && !t.attribution.sharpness.decides();
+    return is_undecided(t.attribution) && t.attribution.findings.empty();
   });
   return trial == trials_.end() ? std::nullopt : std::optional(*trial);
 }
@@ -222,7 +228,7 @@ std::optional<ModelTrial> Candidates::with_stored_planes() {
     if (!stored_planes(truth_.camera, other_, survey.model)) continue;
     std::optional<Hypothesis> fault;
     ModelTrial trial = diagnosed(survey.model, fault);
-    if (unexplained(trial.attribution) == 0 && names_cause(trial.attribution)) return trial;
+    if (names_cause(trial.attribution)) return trial;
   }
   return std::nullopt;
 }
@@ -246,7 +252,7 @@ std::optional<ModelTrial> Candidates::at_fault() {
       if (rank(next.attribution) < rank(best->attribution)) best = next;
       if (unexplained(next.attribution) == 0) break;
     }
-    if (unexplained(best->attribution) == 0) break;
+    if (unexplained(best->attribution) == 0 && best->attribution.sharpness.decides()) break;
   }
   return best;
 }
@@ -331,9 +337,9 @@ void name_model(ModelTrial& trial, const RendererModel& named, std::uint64_t pix
 void note_narrower_model(ModelTrial& right, const RendererModel& named) {
   right.attribution.notes.push_back(
       {.kind = "model",
-       .text = fmt::format("as {} nearly any depth is allowed, because triangles pass the eye; "
-                           "judged as {}, within narrower bounds",
-                           named.name, right.model.name),
+       .text =
+           fmt::format("as {} nearly any depth is allowed; judged as {}, within narrower bounds",
+                       named.name, right.model.name),
        .pixels = right.attribution.classes.size()});
 }
 
@@ -346,20 +352,52 @@ void name_wider_model(ModelTrial& mine, const ModelTrial& wider, const Candidate
       mine.model.name, wider.model.name, candidates.text_of_others(wider.model));
 }
 
-/// Bounds that exclude nearly nothing prove neither the map right nor a fault: their only finding
-/// is `undecided`.
-void name_if_undecided(ModelTrial& trial, const Truth& truth) {
-  const Sharpness& sharpness = trial.attribution.sharpness;
-  if (sharpness.decides()) return;
-  const auto surfaces = static_cast<double>(
+/// Only bounds that exclude nearly nothing explain the map: the named model does not fit, and
+/// whether the map is right remains open.
+void name_undecided_model(ModelTrial& wide, const RendererModel& named, std::uint64_t pixels,
+                          const std::vector<Finding>& faults, const Candidates& candidates) {
+  Finding finding{.kind = "model",
+                  .text = fmt::format(
+                      "the model {} does not fit: as {} every pixel is explained, but nearly "
+                      "any depth is allowed; give the near, the far and the model of the renderer",
+                      named.name, wide.model.name),
+                  .pixels = pixels,
+                  .evidence = candidates.evidence()};
+  if (!faults.empty()) finding.alternatives.push_back(faults.front().kind);
+  wide.attribution.findings.push_back(std::move(finding));
+}
+
+/// The verdict of bounds that exclude nearly nothing.
+Finding undecided_by(const ModelTrial& trial, const Truth& truth) {
+  const auto surfaces =
       truth.triangles.size() - static_cast<std::size_t>(std::count(
-                                   truth.triangles.begin(), truth.triangles.end(), no_surface)));
-  trial.attribution.findings = {
-      {.kind = "undecided",
-       .text = fmt::format("cannot tell: as {} nearly any depth is allowed, because triangles pass "
-                           "the eye; give the near, the far and the model of the renderer",
-                           trial.model.name),
-       .pixels = static_cast<std::uint64_t>(std::llround(sharpness.loose_share * surfaces))}};
+                                   truth.triangles.begin(), truth.triangles.end(), no_surface));
+  const double loose = trial.attribution.sharpness.loose_share * static_cast<double>(surfaces);
+  return {.kind = "undecided",
+          .text = fmt::format(
+              "cannot tell: as {} every pixel is explained, but nearly any depth is allowed",
+              trial.model.name),
+          .pixels = static_cast<std::uint64_t>(std::llround(loose))};
+}
+
+/// The verdict of a named model that allows nearly any depth and explains every pixel: the verdict
+/// of a narrower model that explains them, too. Otherwise a note, which names a fault that explains
+/// them by a narrower model, if there is one.
+ModelTrial judged_by_wide_bounds(const Truth& truth, const OtherMap& other, ModelTrial mine) {
+  Candidates candidates(truth, other, mine.model.name);
+  std::optional<ModelTrial> right = candidates.explaining();
+  if (right && !is_vacuous(right->attribution, other)) {
+    note_narrower_model(*right, mine.model);
+    return std::move(*right);
+  }
+  Finding note = undecided_by(mine, truth);
+  const std::optional<ModelTrial> best = candidates.at_fault();
+  if (best && names_cause(best->attribution)) {
+    note.text += fmt::format("; as {} a fault explains every pixel: {}", best->model.name,
+                             best->attribution.findings.front().text);
+  }
+  mine.attribution.notes.push_back(std::move(note));
+  return mine;
 }
 
 }  // namespace
@@ -370,9 +408,13 @@ ModelChoice chosen_model(const Truth& truth, const OtherMap& other) {
   std::optional<ModelTrial> chosen = candidates.explaining();
   if (!chosen) chosen = candidates.at_fault();
   if (!explains_all(chosen->attribution) && !names_cause(chosen->attribution)) {
-    if (std::optional<ModelTrial> undecided = candidates.undecided()) chosen = std::move(undecided);
+    if (std::optional<ModelTrial> undecided = candidates.undecided()) {
+      chosen = std::move(undecided);
+      Finding finding = undecided_by(*chosen, truth);
+      finding.text += "; give the near, the far and the model of the renderer";
+      chosen->attribution.findings.push_back(std::move(finding));
+    }
   }
-  name_if_undecided(*chosen, truth);
   return {std::move(*chosen), candidates.evidence()};
 }
 
@@ -381,11 +423,15 @@ ModelTrial judged_by(const Truth& truth, const OtherMap& other, const RendererMo
   const RendererModel known = as_recorded(named, other);
   Attribution found = attribute(truth, other, known);
   const std::uint64_t open = unexplained(found);
-  ModelTrial mine{named, diagnose(truth, other, known, std::move(found)).attribution};
+  // Causes that bounds which exclude nearly nothing show are none.
+  if (open == 0 || found.sharpness.decides()) {
+    found = diagnose(truth, other, known, std::move(found)).attribution;
+  }
+  ModelTrial mine{named, std::move(found)};
   if (explains_all(mine.attribution)) return mine;
-  name_if_undecided(mine, truth);
+  if (is_undecided(mine.attribution)) return judged_by_wide_bounds(truth, other, std::move(mine));
   std::vector<Finding>& faults = mine.attribution.findings;
-  const bool is_named = unexplained(mine.attribution) == 0;
+  const bool is_named = names_cause(mine.attribution);
 
   Candidates candidates(truth, other, named.name);
   const auto has_too_wide_bounds = [&](const ModelTrial& trial) {
@@ -393,10 +439,6 @@ ModelTrial judged_by(const Truth& truth, const OtherMap& other, const RendererMo
   };
   std::optional<ModelTrial> right = candidates.explaining();
   if (right && !is_vacuous(right->attribution, other)) {
-    if (open == 0 && !mine.attribution.sharpness.decides()) {
-      note_narrower_model(*right, named);
-      return std::move(*right);
-    }
     if (has_too_wide_bounds(*right) && !is_of_vtk(right->model)) {
       // Where coordinates are large, VTK's shift narrows the bounds of the same storage.
       std::optional<ModelTrial> shifted = candidates.explaining_of_vtk();
@@ -417,6 +459,12 @@ ModelTrial judged_by(const Truth& truth, const OtherMap& other, const RendererMo
   }
   if (is_named && !(faults.size() > 1 && has_storage(mine.attribution))) return mine;
   std::optional<ModelTrial> best = candidates.at_fault();
+  if (!is_named && !(best && names_cause(best->attribution))) {
+    if (std::optional<ModelTrial> wide = candidates.undecided()) {
+      name_undecided_model(*wide, named, open, faults, candidates);
+      return std::move(*wide);
+    }
+  }
   if (!best || is_vacuous(best->attribution, other)) return mine;
   if (!best->attribution.sharpness.decides()) return mine;
   if (!says_more(best->attribution, mine.attribution)) return mine;

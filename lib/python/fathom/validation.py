@@ -34,13 +34,13 @@ def _colour_of(name: str) -> str:
 class Validation:
     """The result of validate().
 
-    model     name of the model by which the map was judged; it differs from the requested model if a finding reports so
+    model     name of the model by which the map was judged; it differs from the requested model if a finding or note reports so
     camera    the map's Camera: the given camera, unless the map has another size
     classes   H×W uint8: for each pixel, the number of its class in CLASSES
     findings  the faults: each has kind, text, pixels, estimates (name, value, deviation, unit), alternatives and evidence
     notes     conventions that were recognised and are not faults
     cause     the fault in one line; empty without a fault
-    verdict   "every pixel is explained", or "failed: " and the fault
+    verdict   "every pixel is explained", "failed: " and the fault, or "cannot tell: " if the model allows nearly any depth
     least, greatest  H×W: range of depths that the model allows for the visible surface; NaN without a surface
     """
 
