@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/doctor/corrected_folder.h"
 #include "apps/doctor/data_set.h"
 #include "apps/doctor/diagnosis.h"
 #include "apps/options/camera_options.h"
@@ -23,12 +23,11 @@
 #include "apps/shell/command.h"
 #include "apps/shell/console.h"
 #include "apps/shell/failures.h"
-#include "apps/shell/output_file.h"
+#include "apps/shell/known_files.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
 #include "fathom/camera/camera_files.h"
 #include "fathom/failures/errors.h"
-#include "fathom/image/map_files.h"
 
 namespace fathom::app {
 namespace {
@@ -43,7 +42,7 @@ struct DoctorArguments {
   std::vector<std::string> depth;
   std::optional<double> png_scale;
   std::uint32_t images = 8;
-  bool json = false;
+  bool overwrites = false, json = false;
 };
 
 /// A file for each camera, or a camera for each file.
@@ -82,29 +81,21 @@ std::vector<std::size_t> spread(std::size_t count, std::size_t most) {
   return chosen;
 }
 
-/// Writes the corrected files; they appear together.
+/// Corrects the depth images of all cameras, also of images that were not looked at.
 void write_corrected(const Inputs& inputs, const DataSet& data, const Diagnosis& found,
-                     const DoctorArguments& arguments) {
-  const std::filesystem::path folder = arguments.output;
-  const bool is_named = std::ranges::none_of(
-      inputs.cameras, [](const Camera& camera) { return camera.name.empty(); });
-  const std::vector<std::string> names = names_of_outputs(
-      "-o", is_named ? "depth/{stem}.exr" : "depth/{index:06}.exr", inputs.cameras);
+                     const DoctorArguments& arguments, CorrectedFolder& folder) {
   std::vector<Camera> cameras;
-  std::vector<std::unique_ptr<OutputFile>> files;
   for (std::size_t i = 0; i < inputs.cameras.size(); ++i) {
     const View view = read_view(inputs, i, arguments);
     cameras.push_back(doctor::corrected_camera(view, found));
-    const std::string name = (folder / names[i]).string();
-    files.push_back(std::make_unique<OutputFile>(name));
-    files.back()->write(encode_map(doctor::corrected_map(data, view, found), name, MapFormat::exr));
+    folder.write_depth(i, doctor::corrected_map(data, view, found));
   }
-  files.push_back(std::make_unique<OutputFile>(folder / "cameras.json"));
-  files.back()->write(to_json(cameras) + "\n");
-  std::vector<OutputFile*> outputs;
-  outputs.reserve(files.size());
-  for (const auto& file : files) outputs.push_back(file.get());
-  OutputFile::commit_together(outputs);
+  folder.finish(cameras);
+}
+
+std::string parse_folder(const std::string& text) {
+  if (text == "-") throw UsageError("corrected files go to a folder; name one in place of '-'");
+  return text;
 }
 
 /// A word of a command for a shell.
@@ -132,7 +123,11 @@ std::string cure_of(const DoctorArguments& arguments, const Diagnosis& found) {
 
 int run_doctor(const DoctorArguments& arguments, const Console& console) {
   const Inputs inputs = inputs_of(arguments, console);
+  for (const std::string& file : inputs.files) note_input(file);
   const Scene scene = arguments.scene.read(console);
+  std::optional<CorrectedFolder> folder;
+  if (!arguments.output.empty())
+    folder.emplace(arguments.output, inputs.cameras, arguments.overwrites, console);
   std::vector<View> views;
   for (const std::size_t i : spread(inputs.files.size(), arguments.images))
     views.push_back(read_view(inputs, i, arguments));
@@ -148,13 +143,13 @@ int run_doctor(const DoctorArguments& arguments, const Console& console) {
     found = doctor::diagnose(data, progress.reporter());
   }
   const std::string cure = cure_of(arguments, found);
-  if (!arguments.output.empty()) {
+  if (folder) {
     if (found.verdict != doctor::Verdict::faulty && found.verdict != doctor::Verdict::well)
       throw InputError(
           fmt::format("{}: not written: the faults are not certain; without -o the "
                       "command shows the explanations",
                       arguments.output));
-    write_corrected(inputs, data, found, arguments);
+    write_corrected(inputs, data, found, arguments, *folder);
   }
   print(arguments.json ? doctor::to_json(found, cure) : doctor::to_text(found, cure));
   return found.verdict == doctor::Verdict::well ? done : answer_is_no;
@@ -189,9 +184,11 @@ void add_doctor(Command& program) {
   command.option("--images", "N", into(arguments->images, parse_positive),
                  "Number of images to read and look at, at equal distances (default 8)");
   command.flag("--json", arguments->json, "Print JSON");
-  add_output_option(command, "DIR", arguments->output,
+  add_output_option(command, "DIR", into(arguments->output, parse_folder),
                     "Write cameras.json and depth/*.exr without the faults that were found to this "
-                    "folder");
+                    "folder, and a list of these files, so that the next run may replace them");
+  command.flag("--overwrite", arguments->overwrites,
+               "Overwrite files in the folder that fathom has not made");
   command.answers_on_standard_output();
   command.runs([arguments](const Console& console) { return run_doctor(*arguments, console); });
 }

@@ -174,13 +174,7 @@ class Work {
                          ": would be written twice; every output needs its own name");
       }
       if (content_.owned.contains(file)) continue;
-      std::error_code error;
-      if (!job_.overwrites && fs::exists(fs::symlink_status(job_.folder / file, error))) {
-        throw UsageError(
-            fmt::format("{}: exists and was not made by this command; name another folder, or give "
-                        "--overwrite",
-                        (job_.folder / file).string()));
-      }
+      if (!job_.overwrites) require_absent(job_.folder / file);
       unannounced.push_back(file);
       content_.owned.insert(file);
     }

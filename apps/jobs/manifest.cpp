@@ -200,13 +200,23 @@ void Manifest::open() {
   } while (!is_still_at(file_.get(), path_));
 }
 
-ManifestContent Manifest::read(Warnings& warnings) const {
+ManifestContent read_manifests(const fs::path& folder, Warnings& warnings) {
   ManifestContent content;
-  for (const fs::path& path : manifests_in(folder_)) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) return content;
+  for (const fs::path& path : manifests_in(folder)) {
     const files::InputFile file(path, files::InputFile::Reading::copied);
     content.add(std::string(file.text()), path.string(), warnings);
   }
   return content;
+}
+
+void require_absent(const fs::path& file) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(file, error))) return;
+  throw UsageError(
+      file.string() +
+      ": exists and was not made by this command; name another folder, or give --overwrite");
 }
 
 void Manifest::append(const std::string& lines) {

@@ -62,6 +62,13 @@ struct ManifestContent {
   void add(Record record);
 };
 
+/// The content of all manifests in a folder; empty if the folder does not exist.
+ManifestContent read_manifests(const std::filesystem::path& folder, Warnings& warnings);
+
+/// Fails    UsageError, which offers --overwrite, if the file exists. Called for files that no
+///          manifest has.
+void require_absent(const std::filesystem::path& file);
+
 /// The list of finished tasks, in a file next to the maps: fathom-manifest.jsonl, or one file for
 /// each shard. A record is on the disk after its files and before the next record is made. A record
 /// that a power cut left incomplete is removed.
@@ -71,7 +78,9 @@ class Manifest {
   Manifest(std::filesystem::path folder, const Shard& shard);
 
   /// Reads all manifests of the folder.
-  [[nodiscard]] ManifestContent read(Warnings& warnings) const;
+  [[nodiscard]] ManifestContent read(Warnings& warnings) const {
+    return read_manifests(folder_, warnings);
+  }
   /// Records which files will be made, before the first file is made.
   void announce(const std::vector<std::string>& files);
   void add(const std::vector<Record>& records);

@@ -374,3 +374,34 @@ def test_nothing_explains_another_mesh(tmp_path):
     data.mesh = os.path.join(root, "data/meshes/house.glb")
     answer = examine(data.write(tmp_path), tmp_path)
     assert answer["verdict"] == "unknown" and answer["command"] is None, answer
+
+
+def test_foreign_files_are_not_replaced(tmp_path):
+    """A foreign file ends the command before the depth images are read."""
+    data = Data("spot")
+    camera_axes(data)
+    arguments = data.write(tmp_path)
+    corrected = tmp_path / "corrected"
+    for file in ("cameras.json", "depth/view3.exr"):
+        (corrected / file).parent.mkdir(parents=True, exist_ok=True)
+        (corrected / file).write_text("mine")
+        ran = program(*arguments[:-1], "depth/missing-{stem}.npy", "-o", "corrected", cwd=tmp_path)
+        assert ran.returncode == 2 and not ran.stdout
+        assert ran.stderr == (f"fathom: corrected/{file}: exists and was not made by this command; name another folder, or "
+                              "give --overwrite\n")
+        assert (corrected / file).read_text() == "mine"
+        (corrected / file).unlink()
+    (corrected / "cameras.json").write_text("mine")
+    for more in (["--overwrite"], []):  # the second run replaces the files of the first
+        assert program(*arguments, "-o", "corrected", *more, cwd=tmp_path).returncode == 1
+        assert json.loads((corrected / "cameras.json").read_text())[0]["name"] == "view0"
+
+
+def test_output_is_a_folder_and_no_input(tmp_path):
+    data = Data("spot")
+    arguments = data.write(tmp_path)
+    ran = program(*arguments, "-o", "-", cwd=tmp_path)
+    assert ran.returncode == 2 and ran.stderr.count("\n") == 1 and "name one in place of '-'" in ran.stderr, ran.stderr
+    assert not (tmp_path / "-").exists()
+    ran = program(*arguments, "-o", ".", "--overwrite", cwd=tmp_path)
+    assert ran.returncode == 2 and ran.stderr == "fathom: ./cameras.json: is an input of this command; name another output\n"
