@@ -6,20 +6,17 @@
 #include <utility>
 
 #include "fathom/attribution/other_map.h"
+#include "fathom/attribution/robust_statistics.h"
 #include "fathom/render.h"
 
 namespace fathom::doctor {
 namespace {
 
+using attribution::median_of;
+
 constexpr double greatest_code = 65535;
 /// Blocks of an image, in each direction.
 constexpr std::uint32_t blocks_across = 4;
-
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// The camera whose pixels are those of `camera` at a grid: the same samples.
 Camera camera_of_grid(const Camera& camera, const Grid& grid) {

@@ -5,20 +5,17 @@
 #include "apps/doctor/diagnosis.h"
 #include "apps/shell/standard_streams.h"
 #include "fathom/text/counted.h"
+#include "fathom/text/percentage.h"
 
 namespace fathom::doctor {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A share in percent, rounded down, so that only all pixels are 100 %.
-std::string percent(double share) {
-  return fmt::format("{:.1f} %", static_cast<int>(share * 1000) / 10.0);
-}
-
 std::string figures(const Agreement& a) {
   return fmt::format("{:>7} of {} explained, residual {:.3g} (median), {:.3g} (largest)",
-                     percent(a.share), text::counted(a.pixels, "pixel"), a.median, a.largest);
+                     text::percentage(a.share), text::counted(a.pixels, "pixel"), a.median,
+                     a.largest);
 }
 
 Json as_json(const Agreement& a) {

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <map>
 
+#include "fathom/attribution/robust_statistics.h"
+
 namespace fathom::doctor {
 namespace {
 
@@ -33,9 +35,7 @@ double weighted_median(std::vector<Vote>& votes) {
 /// Three times the median difference of the predictions; a greater one, as at silhouettes, has no
 /// greater weight.
 double cap_of(std::vector<double> differences) {
-  const auto middle = differences.begin() + std::ptrdiff_t(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
-  return 3 * *middle;
+  return 3 * attribution::median_of(differences);
 }
 
 }  // namespace

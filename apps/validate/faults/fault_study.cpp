@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fathom/attribution/attribution.h"
+#include "fathom/attribution/robust_statistics.h"
 #include "fathom/text/counted.h"
 
 namespace fathom::validation {
@@ -39,10 +40,7 @@ double effect_between(const Attribution& found, const OtherMap& before_map,
     if (is_surface && !(half_width < infinity)) continue;  // nothing is allowed or forbidden here
     effects.push_back(is_surface ? std::abs(after - before) / half_width : infinity);
   }
-  if (effects.empty()) return 0;
-  const auto middle = effects.begin() + static_cast<std::ptrdiff_t>(effects.size() / 2);
-  std::nth_element(effects.begin(), middle, effects.end());
-  return *middle;
+  return effects.empty() ? 0 : attribution::median_of(effects);
 }
 
 double effect_of_size(const Fault& fault, const FaultSubject& subject, double size) {

@@ -11,6 +11,7 @@
 
 #include "fathom/attribution/fragment.h"
 #include "fathom/attribution/pixels/pixel_judge.h"
+#include "fathom/attribution/robust_statistics.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/text/counted.h"
 #include "fathom/threads/threads.h"
@@ -26,11 +27,8 @@ std::string name_of(PixelClass pixel_class) {
 
 namespace {
 
-double median(std::vector<double>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double median_or_zero(std::vector<double>& values) {
+  return values.empty() ? 0 : median_of(values);
 }
 
 void set_images(const std::vector<PixelResult>& pixels, Attribution& result) {
@@ -69,8 +67,8 @@ Sharpness sharpness_of(const std::vector<PixelResult>& pixels) {
     widths.push_back(p.visible->relative_width);
     steps.push_back(p.visible->steps_width);
   }
-  return {.median_relative_width = median(widths),
-          .median_steps_width = median(steps),
+  return {.median_relative_width = median_or_zero(widths),
+          .median_steps_width = median_or_zero(steps),
           .may_share = share(may, touched),
           .loose_share = share(loose, surfaces)};
 }
@@ -88,7 +86,7 @@ DepthErrors errors_of(const std::vector<PixelResult>& pixels) {
     relative.push_back(p.error->relative);
   }
   errors.mean = relative.empty() ? 0 : sum / static_cast<double>(relative.size());
-  errors.median_relative = median(relative);
+  errors.median_relative = median_or_zero(relative);
   return errors;
 }
 

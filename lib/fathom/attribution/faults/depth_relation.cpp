@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "fathom/attribution/robust_statistics.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom::attribution {
@@ -92,9 +93,7 @@ double median_residual(const std::vector<Pair>& pairs, const Line& line) {
   std::vector<double> residuals;
   residuals.reserve(pairs.size());
   for (const Pair& p : pairs) residuals.push_back(line.residual(p));
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  return *middle;
+  return median_of(residuals);
 }
 
 /// The line of least squares of relative errors, without the pairs beyond `limit`.

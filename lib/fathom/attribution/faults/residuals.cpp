@@ -9,6 +9,7 @@
 
 #include "fathom/attribution/fragment.h"
 #include "fathom/attribution/model/sample_grid.h"
+#include "fathom/attribution/robust_statistics.h"
 #include "fathom/geometry/eigen_arrays.h"
 
 // The affine value a of a surface is 1/D (perspective) or D (orthographic): over a triangle it is
@@ -142,12 +143,6 @@ double half_step(const RecordedDepth& recorded, double depth) {
 double middle_of_step(const RecordedDepth& recorded, double depth) {
   if (recorded.rounding != RecordedDepth::Rounding::down) return depth;
   return recorded.to_depth(recorded.exact(depth) + recorded.step / 2);
-}
-
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 std::vector<double> absolutes(const Eigen::VectorXd& r) {
