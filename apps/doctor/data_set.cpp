@@ -17,6 +17,8 @@ using attribution::median_of;
 constexpr double greatest_code = 65535;
 /// Blocks of an image, in each direction.
 constexpr std::uint32_t blocks_across = 4;
+/// Enough for the best hypotheses of a search and the small changes of one: at most 4 MB each.
+constexpr std::size_t kept_renderings = 32;
 
 /// The camera whose pixels are those of `camera` at a grid: the same samples.
 Camera camera_of_grid(const Camera& camera, const Grid& grid) {
@@ -116,8 +118,23 @@ bool DataSet::has_turned_sizes() const {
          });
 }
 
-std::vector<Grid> DataSet::grids(const Hypothesis& hypothesis, std::size_t images,
-                                 std::size_t pixels) const {
+const std::vector<Grid>& DataSet::grids(const Hypothesis& hypothesis, std::size_t images,
+                                        std::size_t pixels) {
+  const Hypothesis wanted = rendering_of(hypothesis);
+  const auto known = std::ranges::find_if(renderings_, [&](const Rendering& r) {
+    return r.hypothesis == wanted && r.images == images && r.pixels == pixels;
+  });
+  if (known != renderings_.end()) {
+    renderings_.splice(renderings_.begin(), renderings_, known);
+  } else {
+    renderings_.push_front({wanted, images, pixels, rendered(wanted, images, pixels)});
+    if (renderings_.size() > kept_renderings) renderings_.pop_back();
+  }
+  return renderings_.front().grids;
+}
+
+std::vector<Grid> DataSet::rendered(const Hypothesis& hypothesis, std::size_t images,
+                                    std::size_t pixels) const {
   std::vector<Grid> grids;
   RenderOptions options;
   options.channels = {Channel::Z, Channel::distance};

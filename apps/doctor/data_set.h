@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -81,9 +82,10 @@ class DataSet {
   /// Whether images and cameras are upright in one and lying in the other.
   [[nodiscard]] bool has_turned_sizes() const;
 
-  /// Exact depths of the first `images` images, at about `pixels` pixels of each.
-  [[nodiscard]] std::vector<Grid> grids(const Hypothesis& hypothesis, std::size_t images,
-                                        std::size_t pixels) const;
+  /// Exact depths of the first `images` images, at about `pixels` pixels of each; valid until the
+  /// next call. Hypotheses with the same rendering_of() are rendered once.
+  const std::vector<Grid>& grids(const Hypothesis& hypothesis, std::size_t images,
+                                 std::size_t pixels);
   /// The pixels of grids of cameras with the same poses, units, lenses and sizes. Depths are as
   /// they are stored, except for truncated codes, which get half a code. Pixels at the ceiling are
   /// left out, unless only they are asked for.
@@ -92,8 +94,19 @@ class DataSet {
                                         bool at_ceiling = false) const;
 
  private:
+  /// What was rendered, the latest first.
+  struct Rendering {
+    Hypothesis hypothesis;
+    std::size_t images, pixels;
+    std::vector<Grid> grids;
+  };
+
+  [[nodiscard]] std::vector<Grid> rendered(const Hypothesis& hypothesis, std::size_t images,
+                                           std::size_t pixels) const;
+
   const Scene* scene_;
   std::vector<View> views_;
+  std::list<Rendering> renderings_;
   std::optional<Ceiling> ceiling_;
   int threads_;
 };

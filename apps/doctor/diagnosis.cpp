@@ -128,9 +128,9 @@ std::vector<Turn> turns_of(const DataSet& data) {
 }
 
 /// The hypotheses of one rendering, with at most `most` faults.
-void try_rendering(const DataSet& data, const Hypothesis& rendering, std::size_t most,
+void try_rendering(DataSet& data, const Hypothesis& rendering, std::size_t most,
                    std::vector<Tried>& tried) {
-  const std::vector<Grid> grids = data.grids(rendering, coarse_images, coarse_pixels);
+  const std::vector<Grid>& grids = data.grids(rendering, coarse_images, coarse_pixels);
   for (const Turn turn : turns_of(data)) {
     for (const bool is_distance : {false, true}) {
       Hypothesis h = rendering;
@@ -150,8 +150,8 @@ void try_rendering(const DataSet& data, const Hypothesis& rendering, std::size_t
   }
 }
 
-Tried tried_on_all(const DataSet& data, const Hypothesis& h, const Tolerance& tolerance) {
-  const std::vector<Grid> grids = data.grids(h, fine_images, fine_pixels);
+Tried tried_on_all(DataSet& data, const Hypothesis& h, const Tolerance& tolerance) {
+  const std::vector<Grid>& grids = data.grids(h, fine_images, fine_pixels);
   return {h, agreement(data.pairs(grids, h), h.depth_scale, tolerance)};
 }
 
@@ -161,7 +161,7 @@ struct Choice {
   std::vector<Hypothesis> equals;
 };
 
-Choice choose_coarse(const DataSet& data, const Tried& given,
+Choice choose_coarse(DataSet& data, const Tried& given,
                      const std::function<void(double)>& progress) {
   const std::size_t most = data.has_other_sizes() ? 3 : 2;
   const std::vector<Hypothesis> all = renderings(data, most);
@@ -247,7 +247,7 @@ std::optional<double> small_scale(const std::vector<Pair>& pairs, double depth_s
 }
 
 /// The small fault that is certain and leaves the least residuals.
-std::optional<Hypothesis> next_small(const DataSet& data, const Hypothesis& h) {
+std::optional<Hypothesis> next_small(DataSet& data, const Hypothesis& h) {
   const std::vector<Pair> now = data.pairs(data.grids(h, fine_images, fine_pixels), h);
   if (!h.is_truncated && is_truncated(now, h.depth_scale)) {
     Hypothesis truncated = h;
@@ -289,7 +289,7 @@ std::string text_of(const Hypothesis& h) {
 }
 
 /// What the numbers at the ceiling stand for.
-void judge_ceiling(const DataSet& data, Diagnosis& found) {
+void judge_ceiling(DataSet& data, Diagnosis& found) {
   if (!data.ceiling()) return;
   const Hypothesis& h = found.hypothesis;
   const double ceiling = data.ceiling()->depth;
@@ -357,7 +357,7 @@ std::string name_of(Verdict verdict) {
   return {};
 }
 
-Diagnosis diagnose(const DataSet& data, const std::function<void(double)>& progress) {
+Diagnosis diagnose(DataSet& data, const std::function<void(double)>& progress) {
   Diagnosis found;
   found.images = std::min(fine_images, data.views().size());
   const Tried given = tried_on_all(data, Hypothesis(), Tolerance());

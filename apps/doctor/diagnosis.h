@@ -52,7 +52,7 @@ struct Diagnosis {
 /// Looks for the faults of a data set: first for a coarse one, or two together, that explain images
 /// that the cameras as given do not; then, one after the other, for small ones.
 /// `progress` is called with the share done.
-Diagnosis diagnose(const DataSet& data, const std::function<void(double)>& progress);
+Diagnosis diagnose(DataSet& data, const std::function<void(double)>& progress);
 
 /// The camera of a view without the faults that were found.
 Camera corrected_camera(const View& view, const Diagnosis& found);

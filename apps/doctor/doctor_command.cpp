@@ -136,7 +136,7 @@ int run_doctor(const DoctorArguments& arguments, const Console& console) {
   });
   if (!has_depths)
     throw InputError(inputs.files.front() + ": no pixel has a depth, expected depth images");
-  const DataSet data(scene, std::move(views), arguments.scene.threads);
+  DataSet data(scene, std::move(views), arguments.scene.threads);
   Diagnosis found;
   {
     Progress progress(console, "comparing");

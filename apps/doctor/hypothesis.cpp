@@ -166,6 +166,15 @@ std::string text_of_lens(LensMeaning meaning) {
 
 }  // namespace
 
+Hypothesis rendering_of(Hypothesis h) {
+  const Hypothesis right;
+  h.turn = right.turn;
+  h.is_distance = right.is_distance;
+  h.depth_scale = right.depth_scale;
+  h.is_truncated = right.is_truncated;
+  return h;
+}
+
 std::string name_of(Fault fault) {
   switch (fault) {
     case Fault::image_size:

@@ -67,6 +67,10 @@ struct Hypothesis {
   friend bool operator==(const Hypothesis&, const Hypothesis&) = default;
 };
 
+/// The hypothesis without its faults of how stored depths are read: all with the same rest have the
+/// same exact depths.
+Hypothesis rendering_of(Hypothesis hypothesis);
+
 /// The names of faults, as reports show them.
 enum class Fault : std::uint8_t {
   image_size,
