@@ -15,6 +15,7 @@ namespace {
 using attribution::median_of;
 
 constexpr double greatest_code = 65535;
+constexpr float no_value = std::numeric_limits<float>::infinity();
 /// Blocks of an image, in each direction.
 constexpr std::uint32_t blocks_across = 4;
 /// Enough for the best hypotheses of a search and the small changes of one: at most 4 MB each.
@@ -152,7 +153,7 @@ std::vector<Grid> DataSet::rendered(const Hypothesis& hypothesis, std::size_t im
 }
 
 std::vector<Pair> DataSet::pairs(const std::vector<Grid>& grids, const Hypothesis& hypothesis,
-                                 bool at_ceiling) const {
+                                 CeilingPixels of_ceiling) const {
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const Grid& grid = grids[i];
@@ -166,13 +167,14 @@ std::vector<Pair> DataSet::pairs(const std::vector<Grid>& grids, const Hypothesi
         const std::optional<double> stored = image.at(place);
         if (!stored) continue;
         const bool is_ceiling = ceiling_ && *stored == ceiling_->depth;
-        if (is_ceiling != at_ceiling) continue;
+        if (of_ceiling == (is_ceiling ? CeilingPixels::left_out : CeilingPixels::alone)) continue;
+        const bool is_none = is_ceiling && of_ceiling == CeilingPixels::as_none;
         const std::uint32_t block =
             std::uint32_t((i * blocks_across + y * blocks_across / grid.height) * blocks_across +
                           x * blocks_across / grid.width);
         const float depth = exact[std::size_t(y) * grid.width + x];
-        pairs.push_back({.stored = float(*stored + added),
-                         .exact = depth > 0 ? depth : std::numeric_limits<float>::infinity(),
+        pairs.push_back({.stored = is_none ? no_value : float(*stored + added),
+                         .exact = depth > 0 ? depth : no_value,
                          .step = float(image.step()),
                          .block = block});
       }

@@ -55,6 +55,14 @@ struct Ceiling {
 /// in 200 pixels has, but not nearly all.
 std::optional<Ceiling> ceiling_of(const std::vector<View>& views);
 
+/// What to do with pixels at the ceiling.
+enum class CeilingPixels : std::uint8_t {
+  left_out,
+  alone,      ///< all other pixels are left out
+  as_stored,  ///< they have the depth of the ceiling
+  as_none     ///< they have no value
+};
+
 /// A pixel of a grid: the stored depth and the exact one; infinite where there is none.
 struct Pair {
   float stored = 0, exact = 0;
@@ -87,11 +95,10 @@ class DataSet {
   const std::vector<Grid>& grids(const Hypothesis& hypothesis, std::size_t images,
                                  std::size_t pixels);
   /// The pixels of grids of cameras with the same poses, units, lenses and sizes. Depths are as
-  /// they are stored, except for truncated codes, which get half a code. Pixels at the ceiling are
-  /// left out, unless only they are asked for.
+  /// they are stored, except for truncated codes, which get half a code.
   [[nodiscard]] std::vector<Pair> pairs(const std::vector<Grid>& grids,
                                         const Hypothesis& hypothesis,
-                                        bool at_ceiling = false) const;
+                                        CeilingPixels of_ceiling = CeilingPixels::left_out) const;
 
  private:
   /// What was rendered, the latest first.

@@ -150,9 +150,14 @@ void try_rendering(DataSet& data, const Hypothesis& rendering, std::size_t most,
   }
 }
 
+/// The pixels of which all figures are.
+std::vector<Pair> pairs_of(DataSet& data, const Hypothesis& h,
+                           CeilingPixels of_ceiling = CeilingPixels::left_out) {
+  return data.pairs(data.grids(h, fine_images, fine_pixels), h, of_ceiling);
+}
+
 Tried tried_on_all(DataSet& data, const Hypothesis& h, const Tolerance& tolerance) {
-  const std::vector<Grid>& grids = data.grids(h, fine_images, fine_pixels);
-  return {h, agreement(data.pairs(grids, h), h.depth_scale, tolerance)};
+  return {h, agreement(pairs_of(data, h), h.depth_scale, tolerance)};
 }
 
 /// The best hypothesis, and others that explain the images as well by as many faults.
@@ -248,7 +253,7 @@ std::optional<double> small_scale(const std::vector<Pair>& pairs, double depth_s
 
 /// The small fault that is certain and leaves the least residuals.
 std::optional<Hypothesis> next_small(DataSet& data, const Hypothesis& h) {
-  const std::vector<Pair> now = data.pairs(data.grids(h, fine_images, fine_pixels), h);
+  const std::vector<Pair> now = pairs_of(data, h);
   if (!h.is_truncated && is_truncated(now, h.depth_scale)) {
     Hypothesis truncated = h;
     truncated.is_truncated = true;
@@ -257,8 +262,7 @@ std::optional<Hypothesis> next_small(DataSet& data, const Hypothesis& h) {
   std::optional<Hypothesis> best;
   double least = 1;
   const auto consider = [&](Hypothesis changed) {
-    const std::vector<Pair> pairs =
-        data.pairs(data.grids(changed, fine_images, fine_pixels), changed);
+    const std::vector<Pair> pairs = pairs_of(data, changed);
     // A scale that was estimated without the change is wrong by the mean effect of the change.
     if (h.depth_scale != 1 && changed.depth_scale == h.depth_scale)
       changed.depth_scale = usual_scale(median_ratio(pairs));
@@ -288,14 +292,19 @@ std::string text_of(const Hypothesis& h) {
   return text;
 }
 
-/// What the numbers at the ceiling stand for.
+/// The tolerance of all figures.
+Tolerance tolerance_of(const Diagnosis& found) {
+  return {.of_depth = found.tolerance, .of_range = 1};
+}
+
+/// What the numbers at the ceiling stand for. If they are no depths, the figures of the data set as
+/// given include them, and the corrected figures do not.
 void judge_ceiling(DataSet& data, Diagnosis& found) {
   if (!data.ceiling()) return;
   const Hypothesis& h = found.hypothesis;
   const double ceiling = data.ceiling()->depth;
-  const std::vector<Pair> pairs = data.pairs(data.grids(h, fine_images, fine_pixels), h, true);
+  const std::vector<Pair> pairs = pairs_of(data, h, CeilingPixels::alone);
   std::uint64_t none = 0, beyond = 0, right = 0;
-  Evidence evidence;
   for (const Pair& pair : pairs) {
     if (!std::isfinite(pair.stored)) continue;
     const double exact = pair.exact * h.depth_scale;
@@ -310,7 +319,6 @@ void judge_ceiling(DataSet& data, Diagnosis& found) {
   const std::uint64_t all = none + beyond + right;
   if (all == 0 || 10 * right > 3 * all) return;
   FoundFault fault;
-  fault.evidence.before = agreement(pairs, h.depth_scale, {.of_depth = found.tolerance});
   if (beyond > none) {
     fault.name = "clipped";
     fault.text = fmt::format(
@@ -323,8 +331,12 @@ void judge_ceiling(DataSet& data, Diagnosis& found) {
         "{:g} stands for no value: {} of {} such pixels that were looked at show no surface",
         ceiling, none, all);
   }
-  fault.evidence.after = fault.evidence.before;
-  fault.evidence.after.pixels = 0;
+  const auto agreement_of = [&](const Hypothesis& one, CeilingPixels of_ceiling) {
+    return agreement(pairs_of(data, one, of_ceiling), one.depth_scale, tolerance_of(found));
+  };
+  found.given = agreement_of(Hypothesis(), CeilingPixels::as_stored);
+  found.corrected = agreement_of(h, CeilingPixels::as_none);
+  fault.evidence = {agreement_of(h, CeilingPixels::as_stored), found.corrected};
   found.faults.push_back(std::move(fault));
 }
 
@@ -374,22 +386,20 @@ Diagnosis diagnose(DataSet& data, const std::function<void(double)>& progress) {
     h = *next;
   }
   found.hypothesis = h;
-  const auto pairs_of = [&](const Hypothesis& one) {
-    return data.pairs(data.grids(one, fine_images, fine_pixels), one);
-  };
-  const std::vector<Pair> final_pairs = pairs_of(h);
+  const std::vector<Pair> final_pairs = pairs_of(data, h);
   // Three medians of absolute residuals are two deviations of a normal distribution.
   found.tolerance =
       is_explained ? std::min(0.05, 4.5 * median_relative(final_pairs, h.depth_scale)) : 0.02;
-  const Tolerance tolerance{.of_depth = found.tolerance, .of_range = 1};
+  const Tolerance tolerance = tolerance_of(found);
   found.corrected = agreement(final_pairs, h.depth_scale, tolerance);
-  found.given = agreement(pairs_of(Hypothesis()), 1, tolerance);
+  found.given = agreement(pairs_of(data, Hypothesis()), 1, tolerance);
   for (const Fault fault : faults_of(h)) {
     const Hypothesis other = without(h, fault);
     found.faults.push_back(
         {.name = name_of(fault),
          .text = text_of(fault, h),
-         .evidence = {agreement(pairs_of(other), other.depth_scale, tolerance), found.corrected}});
+         .evidence = {agreement(pairs_of(data, other), other.depth_scale, tolerance),
+                      found.corrected}});
   }
   for (const Hypothesis& equal : choice.equals)
     if (!found.faults.empty()) found.faults.front().alternatives.push_back(text_of(equal));

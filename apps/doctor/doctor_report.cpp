@@ -55,9 +55,8 @@ std::string to_text(const Diagnosis& found, const std::string& cure) {
       text::counted(found.images, "image"), limit);
   for (const FoundFault& fault : found.faults) {
     text += fmt::format("{}: {}\n", fault.name, fault.text);
-    if (fault.evidence.after.pixels > 0)
-      text += fmt::format("  before    {}\n  after     {}\n", figures(fault.evidence.before),
-                          figures(fault.evidence.after));
+    text += fmt::format("  before    {}\n  after     {}\n", figures(fault.evidence.before),
+                        figures(fault.evidence.after));
     for (const std::string& other : fault.alternatives)
       text += fmt::format("  or        {}\n", other);
   }

@@ -231,7 +231,7 @@ def check(data, folder, expected):
     assert sorted(names(answer)) == sorted(expected), answer
     assert answer["verdict"] == "faulty"
     for fault in answer["faults"]:
-        assert fault["after"]["explained"] >= fault["before"]["explained"]
+        assert fault["after"]["explained"] > fault["before"]["explained"]
     words = shlex.split(answer["command"])
     assert words[:2] == ["fathom", "doctor"]
     program(*words[1:], cwd=folder)
@@ -276,7 +276,12 @@ def test_inverse_of_opengl_is_two_faults(tmp_path):
 def test_65535_is_no_value(tmp_path):
     data = Data("spot")
     no_value(data)
-    check(data, tmp_path, ["no-value"])
+    answer = check(data, tmp_path, ["no-value"])
+    evidence = answer["faults"][0]
+    surfaces = sum(int(np.isfinite(d).sum()) for d in data.depth)
+    assert evidence["before"] == answer["given"] and evidence["after"] == answer["corrected"]
+    assert evidence["before"]["pixels"] == len(data.cameras) * size[0] * size[1]  # 65535 is a depth
+    assert evidence["after"]["pixels"] == surfaces and evidence["after"]["silhouettes"] == 1
 
 
 barrel = ("OPENCV", {"k1": -0.25, "k2": 0.08, "p1": 0.01, "p2": -0.015})
