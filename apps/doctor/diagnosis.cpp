@@ -7,8 +7,10 @@
 #include <cmath>
 #include <utility>
 
+#include "apps/doctor/noise.h"
 #include "apps/doctor/preference.h"
 #include "fathom/text/counted.h"
+#include "fathom/text/percentage.h"
 
 namespace fathom::doctor {
 namespace {
@@ -35,9 +37,14 @@ constexpr double nearness_of_scale = 0.003;
 struct Tried {
   Hypothesis hypothesis;
   Agreement agreement;
+  /// Of hypotheses that are compared at all images.
+  Noise noise = {};
 
   [[nodiscard]] std::size_t faults() const { return faults_of(hypothesis).size(); }
   [[nodiscard]] double merit() const { return agreement.share - gain_of_fault * double(faults()); }
+  [[nodiscard]] bool explains() const {
+    return agreement.share >= poor_share || is_independent(noise);
+  }
 };
 
 /// Whether two hypotheses ask for the same correction.
@@ -157,13 +164,16 @@ std::vector<Pair> pairs_of(DataSet& data, const Hypothesis& h,
 }
 
 Tried tried_on_all(DataSet& data, const Hypothesis& h, const Tolerance& tolerance) {
-  return {h, agreement(pairs_of(data, h), h.depth_scale, tolerance)};
+  const std::vector<Pair> pairs = pairs_of(data, h);
+  return {h, agreement(pairs, h.depth_scale, tolerance), noise_of(pairs, h.depth_scale)};
 }
 
 /// The best hypothesis, and others that explain the images as well by as many faults.
 struct Choice {
   Tried best;
-  std::vector<Hypothesis> equals;
+  std::vector<Hypothesis> equals = {};
+  /// The best of the others, if none explains the images.
+  std::optional<Tried> nearest = {};
 };
 
 Choice choose_coarse(DataSet& data, const Tried& given,
@@ -184,22 +194,24 @@ Choice choose_coarse(DataSet& data, const Tried& given,
     if (!is_known) best.push_back(tried_on_all(data, t.hypothesis, Tolerance()));
   }
   std::ranges::stable_sort(best, std::ranges::greater(), &Tried::merit);
-  if (best.empty() || best.front().agreement.share < given.agreement.share + least_gain ||
-      best.front().agreement.share < poor_share)
-    return {given, {}};
-  Choice choice{best.front(), {}};
+  std::ranges::stable_partition(best, &Tried::explains);
+  const bool is_noise = is_independent(best.front().noise) && !is_independent(given.noise);
+  const bool is_gain = best.front().agreement.share >= given.agreement.share + least_gain;
+  if (!best.front().explains() || (!is_gain && !is_noise)) return {given, {}, best.front()};
+  Choice choice{best.front()};
   for (std::size_t i = 1; i < best.size(); ++i) {
     const Tried& other = best[i];
     const Agreement &a = choice.best.agreement, &b = other.agreement;
     // Depths to the last bits, or silhouettes, may still distinguish the two.
     const bool is_equal = other.faults() == choice.best.faults() &&
                           b.share > a.share - equal_share && b.median <= 1.25 * a.median &&
-                          std::abs(a.silhouettes - b.silhouettes) < equal_share;
+                          std::abs(a.silhouettes - b.silhouettes) < equal_share &&
+                          is_independent(other.noise) == is_independent(choice.best.noise);
     const bool is_better =
         other.faults() == choice.best.faults() && b.share > a.share - equal_share &&
         (b.median * 1.25 < a.median && b.silhouettes >= a.silhouettes - equal_share);
     if (is_better) {
-      choice = {other, {}};
+      choice = {other};
     } else if (is_equal) {
       choice.equals.push_back(other.hypothesis);
     }
@@ -373,12 +385,13 @@ Diagnosis diagnose(DataSet& data, const std::function<void(double)>& progress) {
   Diagnosis found;
   found.images = std::min(fine_images, data.views().size());
   const Tried given = tried_on_all(data, Hypothesis(), Tolerance());
-  Choice choice{given, {}};
-  if (given.agreement.share < good_share || data.has_other_sizes())
-    choice = choose_coarse(data, given, progress);
+  Choice choice{given};
+  // A wrong camera displaces surfaces, so neighbouring pixels deviate alike.
+  const bool is_good = given.agreement.share >= good_share || is_independent(given.noise);
+  if (!is_good || data.has_other_sizes()) choice = choose_coarse(data, given, progress);
   Hypothesis h = choice.best.hypothesis;
   // A wrong hypothesis has no small faults.
-  const bool is_explained = choice.best.agreement.share >= poor_share;
+  const bool is_explained = choice.best.explains();
   constexpr int most_small = 4;
   for (int i = 0; i < most_small && is_explained; ++i) {
     const std::optional<Hypothesis> next = next_small(data, h);
@@ -388,8 +401,12 @@ Diagnosis diagnose(DataSet& data, const std::function<void(double)>& progress) {
   found.hypothesis = h;
   const std::vector<Pair> final_pairs = pairs_of(data, h);
   // Three medians of absolute residuals are two deviations of a normal distribution.
-  found.tolerance =
-      is_explained ? std::min(0.05, 4.5 * median_relative(final_pairs, h.depth_scale)) : 0.02;
+  constexpr double greatest_tolerance = 0.05;
+  found.noise = noise_of(final_pairs, h.depth_scale);
+  found.is_noisy =
+      is_explained && agreement(final_pairs, h.depth_scale, Tolerance()).share < poor_share;
+  found.tolerance = is_explained ? 4.5 * median_relative(final_pairs, h.depth_scale) : 0.02;
+  if (!found.is_noisy) found.tolerance = std::min(found.tolerance, greatest_tolerance);
   const Tolerance tolerance = tolerance_of(found);
   found.corrected = agreement(final_pairs, h.depth_scale, tolerance);
   found.given = agreement(pairs_of(data, Hypothesis()), 1, tolerance);
@@ -405,6 +422,10 @@ Diagnosis diagnose(DataSet& data, const std::function<void(double)>& progress) {
     if (!found.faults.empty()) found.faults.front().alternatives.push_back(text_of(equal));
   judge_ceiling(data, found);
   note_zeros(data, found);
+  if (choice.nearest && !is_explained)
+    found.notes.push_back(fmt::format("the best attempt explains {} of the pixels: {}",
+                                      text::percentage(choice.nearest->agreement.share),
+                                      text_of(choice.nearest->hypothesis)));
   found.verdict = !is_explained            ? Verdict::unknown
                   : !choice.equals.empty() ? Verdict::unclear
                   : found.faults.empty()   ? Verdict::well

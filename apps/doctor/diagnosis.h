@@ -8,6 +8,7 @@
 
 #include "apps/doctor/data_set.h"
 #include "apps/doctor/hypothesis.h"
+#include "apps/doctor/noise.h"
 #include "fathom/camera/camera.h"
 #include "fathom/image/depth_map.h"
 
@@ -43,6 +44,10 @@ struct Diagnosis {
   std::vector<std::string> notes;
   /// Residuals as given, and after all corrections.
   Agreement given, corrected;
+  /// What remains after all corrections, and whether the images are explained except for noise of
+  /// more than the tolerance of the search.
+  Noise noise;
+  bool is_noisy = false;
   /// The tolerance of all shares, as a part of the depth.
   double tolerance = 0;
   /// Images that were looked at.

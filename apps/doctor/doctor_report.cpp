@@ -29,9 +29,10 @@ Json as_json(const Agreement& a) {
 std::string verdict_text(const Diagnosis& found) {
   switch (found.verdict) {
     case Verdict::well:
-      return "all is well";
+      return found.is_noisy ? "no fault, but noisy depths" : "all is well";
     case Verdict::faulty:
-      return text::counted(found.faults.size(), "fault");
+      return text::counted(found.faults.size(), "fault") +
+             (found.is_noisy ? ", and noisy depths" : "");
     case Verdict::unclear:
       return "cannot tell: several explanations fit equally well";
     case Verdict::unknown:
@@ -53,6 +54,11 @@ std::string to_text(const Diagnosis& found, const std::string& cure) {
       "  {} looked at; a pixel is explained if its depth differs by at most {}; residuals in scene "
       "units\n",
       text::counted(found.images, "image"), limit);
+  const attribution::Location& deviation = found.noise.deviation;
+  if (deviation.spread > visible_tolerance)
+    text += fmt::format("  {} deviate by {:+.2g} % (median) with a spread of {:.2g} %\n",
+                        found.faults.empty() ? "depths" : "corrected depths",
+                        100 * deviation.median, 100 * deviation.spread);
   for (const FoundFault& fault : found.faults) {
     text += fmt::format("{}: {}\n", fault.name, fault.text);
     text += fmt::format("  before    {}\n  after     {}\n", figures(fault.evidence.before),
@@ -80,6 +86,10 @@ std::string to_json(const Diagnosis& found, const std::string& cure) {
                     {"tolerance", found.tolerance},
                     {"given", as_json(found.given)},
                     {"corrected", as_json(found.corrected)},
+                    {"noise",
+                     {{"median", found.noise.deviation.median},
+                      {"spread", found.noise.deviation.spread},
+                      {"same_side", found.noise.same_side}}},
                     {"faults", faults},
                     {"notes", found.notes},
                     {"command", cure.empty() ? Json(nullptr) : Json(cure)}};

@@ -353,6 +353,27 @@ def test_fault_is_named_under_noise(tmp_path, fault):
     assert names(answer) == [single[fault]], answer
 
 
+@pytest.mark.parametrize("scene", ["spot", "room"])
+def test_noise_is_a_number(tmp_path, scene):
+    """Noise of 5 % puts two thirds of the pixels beyond 2 %."""
+    data = Data(scene)
+    noisy(data, 0.05, 0.1)
+    arguments = data.write(tmp_path)
+    answer = examine(arguments, tmp_path)
+    assert answer["verdict"] == "well" and not answer["faults"], answer
+    assert abs(answer["noise"]["median"]) < 0.001 and abs(answer["noise"]["spread"] - 0.05) < 0.001
+    text = program(*arguments, cwd=tmp_path).stdout
+    assert text.startswith("no fault, but noisy depths\n") and "with a spread of 5 %" in text, text
+
+
+def test_fault_is_named_under_heavy_noise(tmp_path):
+    data = Data("room")
+    camera_axes(data)
+    noisy(data, 0.05, 0.1)
+    answer = examine(data.write(tmp_path), tmp_path)
+    assert names(answer) == ["camera-axes"] and abs(answer["noise"]["spread"] - 0.05) < 0.001, answer
+
+
 def test_zero_of_codes_is_a_note(tmp_path):
     data = Data("spot")
     data.encode(1000)
@@ -379,6 +400,7 @@ def test_nothing_explains_another_mesh(tmp_path):
     data.mesh = os.path.join(root, "data/meshes/house.glb")
     answer = examine(data.write(tmp_path), tmp_path)
     assert answer["verdict"] == "unknown" and answer["command"] is None, answer
+    assert "the best attempt explains" in answer["notes"][0] and answer["noise"]["same_side"] > 0.9, answer
 
 
 def test_foreign_files_are_not_replaced(tmp_path):
