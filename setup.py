@@ -46,5 +46,5 @@ class BuildByCMake(build_ext):
 
 
 setup(version=version,
-      ext_modules=[Extension(name, []) for name in ("fathom._core", "fathom._studies", "fathom._textbook")],
+      ext_modules=[Extension(name, []) for name in ("fathom._core", "fathom._doctor", "fathom._studies", "fathom._textbook")],
       cmdclass={"build_ext": BuildByCMake})

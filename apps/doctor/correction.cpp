@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -27,12 +26,9 @@ Camera corrected_camera(const View& view, const Diagnosis& found) {
   return corrected(view.camera, found.hypothesis, view.image.size);
 }
 
-DepthMap corrected_map(const DataSet& data, const View& view, const Diagnosis& found) {
+DepthMap corrected_map(const View& view, const Diagnosis& found) {
   const Hypothesis& h = found.hypothesis;
   const Camera camera = corrected_camera(view, found);
-  const bool drops_ceiling = std::ranges::any_of(found.faults, [](const FoundFault& fault) {
-    return fault.name == "clipped" || fault.name == "no-value";
-  });
   std::optional<DirectionTable> directions;
   if (h.is_distance && is_perspective(camera.projection)) directions = directions_of(camera);
   const double added = h.is_truncated ? view.image.step() / 2 : 0;
@@ -40,7 +36,7 @@ DepthMap corrected_map(const DataSet& data, const View& view, const Diagnosis& f
   for (std::uint32_t y = 0; y < camera.height; ++y) {
     for (std::uint32_t x = 0; x < camera.width; ++x) {
       double depth = view.image.at(stored_place(h, camera, x, y)).value_or(no_depth);
-      if (drops_ceiling && depth == data.ceiling()->depth) depth = no_depth;
+      if (depth == found.no_value) depth = no_depth;
       depths[std::size_t(y) * camera.width + x] =
           float((depth + added) / h.depth_scale * forwardness(directions, x, y));
     }

@@ -7,6 +7,7 @@
 
 #include "fathom/attribution/other_map.h"
 #include "fathom/attribution/robust_statistics.h"
+#include "fathom/failures/errors.h"
 #include "fathom/render.h"
 
 namespace fathom::doctor {
@@ -18,8 +19,9 @@ constexpr double greatest_code = 65535;
 constexpr float no_value = std::numeric_limits<float>::infinity();
 /// Blocks of an image, in each direction.
 constexpr std::uint32_t blocks_across = 4;
-/// Enough for the best hypotheses of a search and the small changes of one: at most 4 MB each.
-constexpr std::size_t kept_renderings = 32;
+/// Of 8 images, enough for the best hypotheses of a search and the small changes of one; at most
+/// half a MB each.
+constexpr std::size_t kept_grids = 256;
 
 /// The camera whose pixels are those of `camera` at a grid: the same samples.
 Camera camera_of_grid(const Camera& camera, const Grid& grid) {
@@ -82,6 +84,14 @@ DepthImage depth_image(DepthMap map, const std::string& file, double png_scale) 
   return image;
 }
 
+void require_depths(const std::vector<View>& views) {
+  const bool has_depths = std::ranges::any_of(views, [](const View& view) {
+    return std::ranges::any_of(view.image.depths, [](double d) { return std::isfinite(d); });
+  });
+  if (!has_depths)
+    throw InputError(views.front().image.file + ": no pixel has a depth, expected depth images");
+}
+
 std::optional<Ceiling> ceiling_of(const std::vector<View>& views) {
   double greatest = 0;
   std::uint64_t valid = 0, count = 0;
@@ -129,7 +139,8 @@ const std::vector<Grid>& DataSet::grids(const Hypothesis& hypothesis, std::size_
     renderings_.splice(renderings_.begin(), renderings_, known);
   } else {
     renderings_.push_front({wanted, images, pixels, rendered(wanted, images, pixels)});
-    if (renderings_.size() > kept_renderings) renderings_.pop_back();
+    while (renderings_.size() > 1 && renderings_.size() * views_.size() > kept_grids)
+      renderings_.pop_back();
   }
   return renderings_.front().grids;
 }

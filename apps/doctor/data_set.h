@@ -43,6 +43,9 @@ struct View {
   DepthImage image;
 };
 
+/// Fails    InputError if no pixel of the views has a depth.
+void require_depths(const std::vector<View>& views);
+
 /// A stored number that many pixels have, and that is the greatest: depths were clipped there, or
 /// it stands for no value.
 struct Ceiling {

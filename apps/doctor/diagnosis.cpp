@@ -15,9 +15,9 @@
 namespace fathom::doctor {
 namespace {
 
-/// Images and pixels of each for the coarse search, and for all figures.
+/// Images and pixels of each for the coarse search; pixels of each image for all figures.
 constexpr std::size_t coarse_images = 3, coarse_pixels = 3000;
-constexpr std::size_t fine_images = 8, fine_pixels = 60000;
+constexpr std::size_t fine_pixels = 60000;
 /// With at least this share of explained pixels no coarse fault is looked for.
 constexpr double good_share = 0.95;
 /// Explained pixels that a coarse fault must add, and what each further fault must add.
@@ -160,7 +160,7 @@ void try_rendering(DataSet& data, const Hypothesis& rendering, std::size_t most,
 /// The pixels of which all figures are.
 std::vector<Pair> pairs_of(DataSet& data, const Hypothesis& h,
                            CeilingPixels of_ceiling = CeilingPixels::left_out) {
-  return data.pairs(data.grids(h, fine_images, fine_pixels), h, of_ceiling);
+  return data.pairs(data.grids(h, data.views().size(), fine_pixels), h, of_ceiling);
 }
 
 Tried tried_on_all(DataSet& data, const Hypothesis& h, const Tolerance& tolerance) {
@@ -350,6 +350,7 @@ void judge_ceiling(DataSet& data, Diagnosis& found) {
   found.corrected = agreement_of(h, CeilingPixels::as_none);
   fault.evidence = {agreement_of(h, CeilingPixels::as_stored), found.corrected};
   found.faults.push_back(std::move(fault));
+  found.no_value = ceiling;
 }
 
 void note_zeros(const DataSet& data, Diagnosis& found) {
@@ -383,7 +384,7 @@ std::string name_of(Verdict verdict) {
 
 Diagnosis diagnose(DataSet& data, const std::function<void(double)>& progress) {
   Diagnosis found;
-  found.images = std::min(fine_images, data.views().size());
+  found.images = data.views().size();
   const Tried given = tried_on_all(data, Hypothesis(), Tolerance());
   Choice choice{given};
   // A wrong camera displaces surfaces, so neighbouring pixels deviate alike.

@@ -40,6 +40,8 @@ struct Diagnosis {
   Verdict verdict = Verdict::well;
   Hypothesis hypothesis;
   std::vector<FoundFault> faults;
+  /// A stored depth that stands for no value or for depths beyond it.
+  std::optional<double> no_value;
   /// Conventions that are not faults.
   std::vector<std::string> notes;
   /// Residuals as given, and after all corrections.
@@ -63,11 +65,11 @@ Diagnosis diagnose(DataSet& data, const std::function<void(double)>& progress);
 Camera corrected_camera(const View& view, const Diagnosis& found);
 
 /// The depth image of a view without the faults that were found: Z in scene units, binary32, +∞
-/// where there is no value. Numbers at the ceiling of the data set become +∞ if they are clipped
-/// depths or stand for no value.
-DepthMap corrected_map(const DataSet& data, const View& view, const Diagnosis& found);
+/// where there is no value.
+DepthMap corrected_map(const View& view, const Diagnosis& found);
 
-/// The diagnosis for people. `cure` is the command that writes corrected files.
+/// The diagnosis for people. `cure` is the command that writes corrected files, shown if the faults
+/// are certain; may be empty.
 std::string to_text(const Diagnosis& found, const std::string& cure);
 /// The same as JSON.
 std::string to_json(const Diagnosis& found, const std::string& cure);

@@ -82,13 +82,13 @@ std::vector<std::size_t> spread(std::size_t count, std::size_t most) {
 }
 
 /// Corrects the depth images of all cameras, also of images that were not looked at.
-void write_corrected(const Inputs& inputs, const DataSet& data, const Diagnosis& found,
-                     const DoctorArguments& arguments, CorrectedFolder& folder) {
+void write_corrected(const Inputs& inputs, const Diagnosis& found, const DoctorArguments& arguments,
+                     CorrectedFolder& folder) {
   std::vector<Camera> cameras;
   for (std::size_t i = 0; i < inputs.cameras.size(); ++i) {
     const View view = read_view(inputs, i, arguments);
     cameras.push_back(doctor::corrected_camera(view, found));
-    folder.write_depth(i, doctor::corrected_map(data, view, found));
+    folder.write_depth(i, doctor::corrected_map(view, found));
   }
   folder.finish(cameras);
 }
@@ -111,8 +111,7 @@ std::string quoted(const std::string& word) {
 }
 
 /// The command that corrects the faults: this one, with -o.
-std::string cure_of(const DoctorArguments& arguments, const Diagnosis& found) {
-  if (found.verdict != doctor::Verdict::faulty) return {};
+std::string cure_of(const DoctorArguments& arguments) {
   std::string text = "fathom doctor";
   for (const std::string& file : arguments.scene.files) text += " " + quoted(file);
   text += " --camera " + quoted(arguments.camera) + " --depth";
@@ -131,25 +130,21 @@ int run_doctor(const DoctorArguments& arguments, const Console& console) {
   std::vector<View> views;
   for (const std::size_t i : spread(inputs.files.size(), arguments.images))
     views.push_back(read_view(inputs, i, arguments));
-  const bool has_depths = std::ranges::any_of(views, [](const View& view) {
-    return std::ranges::any_of(view.image.depths, [](double d) { return std::isfinite(d); });
-  });
-  if (!has_depths)
-    throw InputError(inputs.files.front() + ": no pixel has a depth, expected depth images");
+  doctor::require_depths(views);
   DataSet data(scene, std::move(views), arguments.scene.threads);
   Diagnosis found;
   {
     Progress progress(console, "comparing");
     found = doctor::diagnose(data, progress.reporter());
   }
-  const std::string cure = cure_of(arguments, found);
+  const std::string cure = cure_of(arguments);
   if (folder) {
     if (found.verdict != doctor::Verdict::faulty && found.verdict != doctor::Verdict::well)
       throw InputError(
           fmt::format("{}: not written: the faults are not certain; without -o the "
                       "command shows the explanations",
                       arguments.output));
-    write_corrected(inputs, data, found, arguments, *folder);
+    write_corrected(inputs, found, arguments, *folder);
   }
   print(arguments.json ? doctor::to_json(found, cure) : doctor::to_text(found, cure));
   return found.verdict == doctor::Verdict::well ? done : answer_is_no;

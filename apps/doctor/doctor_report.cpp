@@ -41,6 +41,10 @@ std::string verdict_text(const Diagnosis& found) {
   return "no known fault explains the depth images";
 }
 
+bool is_curable(const Diagnosis& found) {
+  return found.verdict == Verdict::faulty;
+}
+
 }  // namespace
 
 std::string to_text(const Diagnosis& found, const std::string& cure) {
@@ -67,7 +71,8 @@ std::string to_text(const Diagnosis& found, const std::string& cure) {
       text += fmt::format("  or        {}\n", other);
   }
   for (const std::string& note : found.notes) text += "note: " + note + "\n";
-  if (!cure.empty()) text += "to correct cameras and depth images:\n  " + cure + "\n";
+  if (is_curable(found) && !cure.empty())
+    text += "to correct cameras and depth images:\n  " + cure + "\n";
   return text;
 }
 
@@ -92,7 +97,7 @@ std::string to_json(const Diagnosis& found, const std::string& cure) {
                       {"same_side", found.noise.same_side}}},
                     {"faults", faults},
                     {"notes", found.notes},
-                    {"command", cure.empty() ? Json(nullptr) : Json(cure)}};
+                    {"command", is_curable(found) && !cure.empty() ? Json(cure) : Json(nullptr)}};
   return app::json_answer(answer);
 }
 

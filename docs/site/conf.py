@@ -46,11 +46,11 @@ python_use_unqualified_type_names = True
 nitpicky = True
 # Types of other projects, whose pages are not here, and names of types that the module keeps to itself.
 nitpick_ignore_regex = [
-    ("py:class", r"(np|npt|numpy|_core|os|pathlib|fractions|pytest|collections|typing)\..*"),
+    ("py:class", r"(np|npt|numpy|_core|_doctor|os|pathlib|fractions|pytest|collections|typing)\..*"),
     ("py:class", r"((_files\.)?Path|Size|LensKeywords|Unpack|Rows|Ring|Number|Numbers|Cull|Normals|Up|Projection|Background|Mapping|"
                  r"Sequence|Iterable|Fraction|Any|Callable|Literal|optional|Union|Iterator|Answer|Arithmetic|Ties|Edges|Option|Precision|"
                  r"RayChannels|RayMode|RaysLike|EdgeRule|(sight\.)?SurfacePoints|Channels?|ColorMap|ColorScale|Compression|"
-                 r"DeepCompression|AreaCentroid|AreaItem|EdgeSelection|"
+                 r"DeepCompression|AreaCentroid|AreaItem|EdgeSelection|Depths|"
                  r"Engine|Frame|Measure|Mesh|Metrics|Model|NormalAxes|Storage)"),
     ("py:class", r"fathom\.(\w+\.)?_\w+(\..*)?"),
     ("c:identifier", r"u?int\d+_t|size_t"),

@@ -20,6 +20,7 @@ GROUPS = {
     "Evaluation": ["evaluate", "evaluation.Evaluation", "evaluation.Depth", "evaluation.Distances"],
     "Depth formats": ["DepthFormat"],
     "Validation": ["validate", "Validation", "testing.assert_depth"],
+    "Data sets": ["doctor", "Diagnosis", "diagnosis.DataSetFault", "diagnosis.Agreement", "diagnosis.Noise"],
     "Studies": ["studies.run", "studies.names", "studies.Study", "studies.Description"],
     "Clipping": ["clip", "clipping.Polygon"],
     "Scan conversion": ["scan", "scanning.algorithms", "scanning.Answer"],

@@ -157,6 +157,9 @@ calls = {
     "render": lambda g: fathom.render(g.vertices, g.faces, K, turned, (8, 6), pixel_centre=0.5, channels=("Z", "A", "N")),
     "render_deep": lambda g: fathom.render_deep(g.scene, g.camera),
     "validate": lambda g: fathom.validate(g.map["Z"], g.scene, g.camera),
+    "doctor": lambda g: fathom.doctor(g.scene, g.camera, g.map["Z"]).report(),
+    "Diagnosis.report": lambda g: fathom.doctor(g.scene, g.camera, g.map["Z"]).report(),
+    "Diagnosis.correct": lambda g: fathom.doctor(g.scene, g.camera, g.map["Z"]).correct(g.camera, g.map["Z"]),
     "verify": lambda g: fathom.verify(g.map, g.scene),
     "visible": lambda g: fathom.visible(g.scene, g.camera),
     "areas": lambda g: {name: value for name, value in vars(lit(g)).items() if not name.startswith("_")},
@@ -285,6 +288,7 @@ calls = {
 #: An object of each class whose properties are looked at.
 of_class = {"Areas": lambda g: fathom.areas(g.scene, camera=g.camera), "Camera": lambda g: g.camera, "DeepMap": lambda g: g.deep,
             "DepthFormat": lambda g: g.format,
+            "Diagnosis": lambda g: fathom.doctor(g.scene, g.camera, g.map["Z"]),
             "MapComparison": lambda g: fathom.compare(g.map, g.near_map, channel="Z"),
             "Map": lambda g: g.scene.render(g.camera, background=0.1), "Scene": lambda g: g.scene,
             "Rays": lambda g: fathom.Rays(*three_and_three),

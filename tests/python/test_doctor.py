@@ -432,3 +432,77 @@ def test_output_is_a_folder_and_no_input(tmp_path):
     assert not (tmp_path / "-").exists()
     ran = program(*arguments, "-o", ".", "--overwrite", cwd=tmp_path)
     assert ran.returncode == 2 and ran.stderr == "fathom: ./cameras.json: is an input of this command; name another output\n"
+
+
+def test_python_has_the_figures_and_the_command(tmp_path, monkeypatch):
+    data = Data("spot")
+    ray_distance(data)
+    data.encode(5000)
+    arguments = data.write(tmp_path)
+    answer = examine([*arguments, "--png-scale", "5000", "--images", "3"], tmp_path)
+    monkeypatch.chdir(tmp_path)
+    files = [f"depth/view{i}.png" for i in range(len(data.cameras))]
+    cameras = fathom.read_cameras("cameras.json")
+    codes = [c.astype(np.uint16) for c in data.codes]
+    by_file = fathom.doctor(data.mesh, "cameras.json", files, png_scale=5000, images=3)
+    by_array = fathom.doctor(fathom.Scene.read(data.mesh), cameras, codes, png_scale=5000, images=3)
+    for found in (by_file, by_array):
+        assert found.verdict == "faulty" and not found.is_good and found.images == 3
+        assert [fault._asdict() | {"before": fault.before._asdict(), "after": fault.after._asdict()} for fault in found.faults] == [
+            figures(fault) for fault in answer["faults"]]
+        assert found.corrected._asdict() == figures(answer["corrected"]) and found.notes == answer["notes"]
+        assert list(found.noise) == list(answer["noise"].values())
+    assert by_array.command is None and "to correct" not in by_array.report()
+    words = shlex.split(by_file.command)
+    assert words[:2] == ["fathom", "doctor"] and program(*words[1:]).returncode == 1
+    for i, camera in enumerate(fathom.read_cameras("corrected/cameras.json")):
+        map = fathom.read_map(f"corrected/depth/view{i}.exr")
+        for found, depths in ((by_file, files[i]), (by_array, codes[i])):
+            corrected, depth = found.correct(cameras[i], depths)
+            assert corrected.to_json() == camera.to_json() and np.array_equal(depth["Z"], map["Z"])
+    assert fathom.doctor(data.mesh, "corrected/cameras.json",
+                         [f"corrected/depth/view{i}.exr" for i in range(len(files))]).is_good
+    with pytest.raises(ValueError, match="a depth image for each of 5 cameras, found 4"):
+        fathom.doctor(data.mesh, "cameras.json", files[1:])
+    with pytest.raises(fathom.InputError, match="no pixel has a depth"):
+        fathom.doctor(data.mesh, cameras[0], np.zeros(size[::-1]))
+
+
+def figures(answer):
+    """Figures of JSON with the names of Python, which are the same."""
+    named = {name: figures(value) if isinstance(value, dict) else value for name, value in answer.items()}
+    return named | {"alternatives": tuple(named.get("alternatives", ()))} if "text" in named else named
+
+
+def test_two_explanations_are_not_told_apart(tmp_path):
+    """A box looks the same turned by half about x, so both quarter turns of the world explain the images."""
+    box = [(x, y, z) for x in (-1, 1) for y in (-0.6, 0.6) for z in (-0.4, 0.4)]
+    quads = [(1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)]
+    (tmp_path / "box.obj").write_text("".join("v {} {} {}\n".format(*corner) for corner in box) +
+                                      "".join("f {} {} {} {}\n".format(*quad) for quad in quads))
+    data = Data("spot")
+    data.mesh = str(tmp_path / "box.obj")
+    data.cameras = orbit(data.mesh, "--view", "35,25")
+    for i, camera in enumerate(data.cameras):
+        camera["name"] = f"view{i}"
+    data.render()
+    world_axes(data)
+    arguments = data.write(tmp_path)
+    answer = examine(arguments, tmp_path)
+    assert answer["verdict"] == "unclear" and answer["command"] is None and names(answer) == ["world-axes"], answer
+    texts = [answer["faults"][0]["text"], *answer["faults"][0]["alternatives"]]
+    assert sum("the cameras have z up, the mesh y" in text for text in texts) == 1, texts
+    assert sum("the cameras have y up, the mesh z" in text for text in texts) == 1, texts
+    ran = program(*arguments, "-o", "corrected", cwd=tmp_path)
+    assert ran.returncode == 3 and "not written: the faults are not certain" in ran.stderr and not ran.stdout
+    assert not (tmp_path / "corrected").exists()
+    assert program(*arguments, cwd=tmp_path).stdout.startswith("cannot tell: several explanations fit equally well\n")
+
+
+def test_every_image_that_is_asked_for_counts(tmp_path):
+    data = Data("spot")
+    data.cameras = [dict(camera, name=f"view{5 * k + i}") for k in range(2) for i, camera in enumerate(data.cameras)]
+    data.depth *= 2
+    arguments = data.write(tmp_path)
+    pixels = [examine([*arguments, "--images", n], tmp_path)["given"]["pixels"] for n in (5, 10)]
+    assert pixels[1] > 1.9 * pixels[0]

@@ -13,7 +13,7 @@ import pytest
 import fathom
 
 source = pathlib.Path(os.environ["FATHOM_SOURCE"])
-modules = ["_importing", "camera", "clipping", "comparison", "compat", "deep", "depth_formats", "lens", "lit_areas",
+modules = ["_importing", "camera", "clipping", "comparison", "compat", "deep", "depth_formats", "diagnosis", "lens", "lit_areas",
            "maps", "pipeline", "questions", "rays", "rendering", "scanning", "scene", "studies", "validation"]
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import fathom
-from fathom import compat, pipeline, questions, studies
+from fathom import compat, diagnosis, pipeline, questions, studies
 
 returned_by_the_core = {"ChannelComparison", "DepthMetrics", "DifferenceSummary", "DisparityMetrics", "Estimate", "Finding"}
 
@@ -43,6 +43,8 @@ def shown():
     checked = fathom.verify(maps, world, pixels=4)
     drawn = pipeline.render(world, camera, shading="none")
     lit = fathom.areas(world, directions=[(0, 0, -1)], by="triangle")
+    found = fathom.doctor(world, [camera], [maps["Z"]])
+    fault = diagnosis.DataSetFault("units", "the depths are millimetres", found.given, found.corrected, ())
     casting = compat.RaycastingScene()
     casting.add_triangles([(-4, -4, 3), (4, -4, 5), (0, 4, 4)], [(0, 1, 2)])
     hits = casting.cast_rays([(0, 0, 0, 0, 0, 1)])
@@ -55,7 +57,7 @@ def shown():
         fathom.render_deep(world, camera), fathom.DepthFormat("standard", "unorm24", near=1, far=9),
         studies.run("depth-resolution", near=0.1, far=10, samples=2), studies.names()["depth-resolution"], drawn,
         lit, lit.exact(0, 0), fathom.Rays([(0, 0, 0)], [(0, 0, 1)]), fathom.SurfacePoints([0], [(0.25, 0.5)]), casting, hits,
-        hits["t_hit"], compat.RayMeshIntersector(mesh),
+        hits["t_hit"], compat.RayMeshIntersector(mesh), found, found.given, found.noise, fault,
         *fathom.clip([[(0, 0), (4, 0), (0, 4)]], [[(0, 0), (2, 0), (2, 2), (0, 2)]]))}
 
 

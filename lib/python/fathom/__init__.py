@@ -17,6 +17,7 @@ from .clipping import clip
 from .comparison import MapComparison, compare
 from .deep import DeepMap, render_deep
 from .depth_formats import DepthFormat
+from .diagnosis import Diagnosis, doctor
 from .evaluation import evaluate
 from .lens import Lens
 from .lit_areas import Areas, areas
@@ -36,6 +37,7 @@ __all__ = [
     "Camera",
     "DeepMap",
     "DepthFormat",
+    "Diagnosis",
     "Error",
     "InputError",
     "Lens",
@@ -53,6 +55,7 @@ __all__ = [
     "clip",
     "compare",
     "compat",
+    "doctor",
     "draw",
     "evaluate",
     "pipeline",
