@@ -221,6 +221,7 @@ Agreement agreement(const std::vector<Pair>& pairs, double depth_scale,
   }
   if (found.pixels > 0) found.share = double(near) / double(found.pixels);
   if (!pairs.empty()) found.silhouettes = double(same) / double(pairs.size());
+  found.compared = residuals.size();
   if (!residuals.empty()) {
     found.largest = *std::ranges::max_element(residuals);
     found.median = median_of(residuals);

@@ -128,7 +128,8 @@ struct Agreement {
   double share = 0;
   /// The share of all pixels where both or neither have a depth.
   double silhouettes = 0;
-  /// Residuals in scene units over the pixels where both have a depth.
+  /// Pixels where both have a depth, and their residuals in scene units.
+  std::uint64_t compared = 0;
   double median = 0, largest = 0;
 };
 

@@ -112,7 +112,8 @@ std::vector<Hypothesis> renderings(const DataSet& data, std::size_t most) {
     all = std::move(product);
   };
   multiply(resizings, &Hypothesis::resizing);
-  multiply(with_given(Matrix::as_given, std::array{Matrix::inverse, Matrix::inverse_of_turned}),
+  multiply(with_given(Matrix::as_given, std::array{Matrix::inverse, Matrix::inverse_of_turned,
+                                                   Matrix::inverse_of_opengl}),
            &Hypothesis::matrix);
   multiply(with_given(CameraAxes::as_given, std::array{CameraAxes::opengl, CameraAxes::body}),
            &Hypothesis::camera_axes);
@@ -122,9 +123,10 @@ std::vector<Hypothesis> renderings(const DataSet& data, std::size_t most) {
            &Hypothesis::world_axes);
   multiply(with_given(1.0, unit_factors), &Hypothesis::unit);
   multiply(meanings, &Hypothesis::lens);
-  // The two orders of inversion differ only in axes.
+  // The orders of inversion differ only in axes.
   std::erase_if(all, [](const Hypothesis& h) {
-    return h.matrix == Matrix::inverse_of_turned && h.camera_axes == CameraAxes::as_given;
+    return (h.matrix == Matrix::inverse_of_turned && h.camera_axes == CameraAxes::as_given) ||
+           (h.matrix == Matrix::inverse_of_opengl && h.camera_axes == CameraAxes::opengl);
   });
   return all;
 }
@@ -304,6 +306,14 @@ std::string text_of(const Hypothesis& h) {
   return text;
 }
 
+/// The option that reads codes with the right scale, if a scale is the fault.
+std::string scale_of_codes(const DataSet& data, const Hypothesis& h, Fault fault) {
+  const std::optional<double> scale = data.views().front().image.code_scale;
+  if (fault != Fault::depth_scale || !scale) return {};
+  return fmt::format("; --png-scale {:.6g} reads the codes in units of the mesh",
+                     *scale * h.depth_scale);
+}
+
 /// The tolerance of all figures.
 Tolerance tolerance_of(const Diagnosis& found) {
   return {.of_depth = found.tolerance, .of_range = 1};
@@ -415,7 +425,7 @@ Diagnosis diagnose(DataSet& data, const std::function<void(double)>& progress) {
     const Hypothesis other = without(h, fault);
     found.faults.push_back(
         {.name = name_of(fault),
-         .text = text_of(fault, h),
+         .text = text_of(fault, h) + scale_of_codes(data, h, fault),
          .evidence = {agreement(pairs_of(data, other), other.depth_scale, tolerance),
                       found.corrected}});
   }

@@ -13,6 +13,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string figures(const Agreement& a) {
+  if (a.compared == 0)
+    return fmt::format("{:>7} of {} explained: the mesh is at none of them", "0 %",
+                       text::counted(a.pixels, "pixel"));
   return fmt::format("{:>7} of {} explained, residual {:.3g} (median), {:.3g} (largest)",
                      text::percentage(a.share), text::counted(a.pixels, "pixel"), a.median,
                      a.largest);
@@ -22,8 +25,8 @@ Json as_json(const Agreement& a) {
   return {{"pixels", a.pixels},
           {"explained", a.share},
           {"silhouettes", a.silhouettes},
-          {"median_residual", a.median},
-          {"largest_residual", a.largest}};
+          {"median_residual", a.compared > 0 ? Json(a.median) : Json(nullptr)},
+          {"largest_residual", a.compared > 0 ? Json(a.largest) : Json(nullptr)}};
 }
 
 std::string verdict_text(const Diagnosis& found) {

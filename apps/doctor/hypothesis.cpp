@@ -87,6 +87,10 @@ Pose corrected(Pose pose, const Hypothesis& h) {
     pose = camera_to_world(turned_camera(axes, pose));
   } else {
     if (h.matrix == Matrix::inverse) pose = camera_to_world(pose);
+    if (h.matrix == Matrix::inverse_of_opengl) {
+      const Axes opengl = axes_of(CameraAxes::opengl);
+      pose = turned_camera(opengl, camera_to_world(turned_camera(opengl, pose)));
+    }
     pose = turned_camera(axes, pose);
   }
   return turned_world(pose, axes_of(h.world_axes));
@@ -270,7 +274,10 @@ std::string text_of(Fault fault, const Hypothesis& h) {
                  ? "the depth images have another size than the cameras: they were scaled"
                  : "the depth images have another size than the cameras: their middle was cut out";
     case Fault::matrix:
-      return "the matrices are camera to world, read as world to camera, or the reverse";
+      return h.matrix == Matrix::inverse_of_opengl
+                 ? "the matrices are world to camera, read as camera to world with OpenGL's axes, "
+                   "or the reverse"
+                 : "the matrices are camera to world, read as world to camera, or the reverse";
     case Fault::camera_axes:
       return h.camera_axes == CameraAxes::opengl
                  ? "the camera axes are OpenGL's where OpenCV's are expected, or the reverse: y "

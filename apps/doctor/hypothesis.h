@@ -25,8 +25,8 @@ enum class WorldAxes : std::uint8_t {
 };
 
 /// What the matrix of a camera is: world to camera, or camera to world with the other axes applied
-/// in the world's place or in the camera's.
-enum class Matrix : std::uint8_t { as_given, inverse, inverse_of_turned };
+/// in the world's place or in the camera's; or it was converted from OpenGL's axes as the inverse.
+enum class Matrix : std::uint8_t { as_given, inverse, inverse_of_turned, inverse_of_opengl };
 
 /// How the pixels of an image lie in it.
 enum class Turn : std::uint8_t { as_given, mirrored_x, mirrored_y, half, left, right };

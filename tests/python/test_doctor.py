@@ -273,6 +273,32 @@ def test_inverse_of_opengl_is_two_faults(tmp_path):
     check(data, tmp_path, ["camera-to-world", "camera-axes"])
 
 
+def test_world_to_camera_of_opengl_is_one_fault(tmp_path):
+    """A transforms.json whose matrices were not inverted, imported as NeRF's."""
+    data = Data("spot")
+    data.poses(lambda m: opengl @ np.linalg.inv(opengl @ m))
+    answer = check(data, tmp_path, ["camera-to-world"])
+    assert "read as camera to world with OpenGL's axes" in answer["faults"][0]["text"]
+
+
+def test_scale_of_codes_is_an_option(tmp_path):
+    data = Data("spot")
+    data.encode(5000)
+    arguments = data.write(tmp_path)
+    answer = examine(arguments, tmp_path)
+    assert names(answer) == ["depth-scale"] and "--png-scale 5000 reads" in answer["faults"][0]["text"]
+    assert examine([*arguments, "--png-scale", "5000"], tmp_path)["verdict"] == "well"
+
+
+def test_cameras_that_miss_the_mesh_have_no_residual(tmp_path):
+    data = Data("spot")
+    camera_axes(data)
+    arguments = data.write(tmp_path)
+    given = examine(arguments, tmp_path)["given"]
+    assert given["pixels"] > 0 and given["median_residual"] is None and given["largest_residual"] is None
+    assert "explained: the mesh is at none of them\n" in program(*arguments, cwd=tmp_path).stdout
+
+
 def test_65535_is_no_value(tmp_path):
     data = Data("spot")
     no_value(data)

@@ -36,9 +36,9 @@ class Agreement(NamedTuple):
     explained: float
     #: The share of all pixels where both or neither have a depth.
     silhouettes: float
-    #: Differences from the exact depths, in scene units.
-    median_residual: float
-    largest_residual: float
+    #: Differences from the exact depths, in scene units; None if the mesh is at no pixel that has a depth.
+    median_residual: float | None
+    largest_residual: float | None
 
 
 class DataSetFault(NamedTuple):
