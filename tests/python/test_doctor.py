@@ -440,7 +440,7 @@ def test_foreign_files_are_not_replaced(tmp_path):
         (corrected / file).write_text("mine")
         ran = program(*arguments[:-1], "depth/missing-{stem}.npy", "-o", "corrected", cwd=tmp_path)
         assert ran.returncode == 2 and not ran.stdout
-        assert ran.stderr == (f"fathom: corrected/{file}: exists and was not made by this command; name another folder, or "
+        assert ran.stderr == (f"fathom: error: corrected/{file}: exists and was not made by this command; name another folder, or "
                               "give --overwrite\n")
         assert (corrected / file).read_text() == "mine"
         (corrected / file).unlink()
@@ -457,7 +457,7 @@ def test_output_is_a_folder_and_no_input(tmp_path):
     assert ran.returncode == 2 and ran.stderr.count("\n") == 1 and "name one in place of '-'" in ran.stderr, ran.stderr
     assert not (tmp_path / "-").exists()
     ran = program(*arguments, "-o", ".", "--overwrite", cwd=tmp_path)
-    assert ran.returncode == 2 and ran.stderr == "fathom: ./cameras.json: is an input of this command; name another output\n"
+    assert ran.returncode == 2 and ran.stderr == "fathom: error: ./cameras.json: is an input of this command; name another output\n"
 
 
 def test_python_has_the_figures_and_the_command(tmp_path, monkeypatch):
