@@ -431,9 +431,9 @@ Diagnosis diagnose(DataSet& data, const std::function<void(double)>& progress) {
   }
   for (const Hypothesis& equal : choice.equals)
     if (!found.faults.empty()) found.faults.front().alternatives.push_back(text_of(equal));
-  judge_ceiling(data, found);
+  if (is_explained) judge_ceiling(data, found);
   note_zeros(data, found);
-  if (choice.nearest && !is_explained)
+  if (choice.nearest && choice.nearest->faults() > 0 && !is_explained)
     found.notes.push_back(fmt::format("the best attempt explains {} of the pixels: {}",
                                       text::percentage(choice.nearest->agreement.share),
                                       text_of(choice.nearest->hypothesis)));
