@@ -9,7 +9,7 @@ from pages import as_shown, run_page
 
 source = pathlib.Path(os.environ["FATHOM_SOURCE"])
 pages = ["README.md", "lib/python/README.md",
-         *(f"docs/{name}.md" for name in ("areas-satellite", "areas-window", "coverage", "data-sets", "depth-formats",
+         *(f"docs/{name}.md" for name in ("areas-satellite", "areas-window", "coverage", "data-sets", "depth-formats", "doctor",
                                           "evaluation", "farms", "index", "lenses", "python", "rays",
                                           "reference/exit-statuses")),
          *(f"docs/guides/{page.name}" for page in sorted((source / "docs/guides").glob("*.md")))]
