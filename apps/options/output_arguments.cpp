@@ -16,31 +16,37 @@
 namespace fathom::app {
 namespace {
 
-bool is_mask(const std::string& name) {
-  const ContentsName* const known = contents_named(name);
-  return known != nullptr && known->is_mask;
-}
+/// What one name of a list stands for.
+struct Named {
+  Channel channel;
+  bool is_mask;
+  friend bool operator==(const Named&, const Named&) = default;
+};
 
-Channel channel_of(const std::string& name) {
-  if (const ContentsName* const known = contents_named(name)) return known->channel;
-  if (const auto channel = channel_named(name)) return *channel;
+Named parse_named(const std::string& name) {
+  if (const ContentsName* const known = contents_named(name))
+    return {known->channel, known->is_mask};
+  if (const auto channel = channel_named(name)) return {*channel, false};
   throw unknown_contents(name);
 }
 
 }  // namespace
 
-Contents parse_contents(const std::string& list) {
+Contents parse_channels_of_outputs(const std::string& list) {
+  const std::vector<Named> names = parse_distinct(list, parse_named);
+  if (names.size() == 1) return {{names.front().channel}, names.front().is_mask};
   Contents contents;
-  contents.channels = parse_distinct(list, [&](const std::string& name) {
-    const Channel channel = channel_of(name);
-    if (is_mask(name) && name != list) {
-      throw UsageError("'" + name +
-                       "' needs a separate file: leave it out of the list, and add -o " + name +
-                       "=FILE.png");
-    }
-    return channel;
-  });
-  contents.is_mask = is_mask(list);
+  for (const Named& each : names) {
+    if (each.is_mask) contents.mask_beside = true;
+    if (!each.is_mask) contents.channels.push_back(each.channel);
+  }
+  return contents;
+}
+
+Contents parse_contents(const std::string& list) {
+  Contents contents = parse_channels_of_outputs(list);
+  if (contents.mask_beside)
+    throw UsageError(std::string(mask_needs_file) + ", and leave it out of the list");
   return contents;
 }
 

@@ -16,13 +16,19 @@ namespace fathom::app {
 struct Contents {
   std::vector<Channel> channels;
   bool is_mask = false;
+  /// Whether a list of --channels also names a mask, which needs a separate file.
+  bool mask_beside = false;
   /// The object whose mask it is, if it is the mask of one object.
   std::optional<std::uint32_t> object = {};
 };
 
-/// "Z,N", "depth" or "mask", which stands alone.
-/// Fails    UsageError if a name does not exist or a channel occurs twice.
+/// "Z,N", "depth" or "mask", which stands alone; in a list of --channels also "Z,mask".
+/// Fails    UsageError if a name does not exist or occurs twice.
 Contents parse_contents(const std::string& list);
+Contents parse_channels_of_outputs(const std::string& list);
+
+/// What to do about a list with a mask.
+inline constexpr const char* mask_needs_file = "'mask' needs a separate file: add -o mask=FILE.png";
 
 /// "depth (Z), normal (N), …"
 std::string names_of_contents();

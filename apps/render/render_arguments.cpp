@@ -65,10 +65,11 @@ void add_contents(Command& command, RenderArguments& arguments) {
   command.begin_group("Channels and engine");
   command.option(
       "--channels", "LIST",
-      [&arguments](const std::string& text) { arguments.take(parse_contents(text)); },
+      [&arguments](const std::string& text) { arguments.take(parse_channels_of_outputs(text)); },
       "Channels of the map, from " + joined(names_of_channels(), ", ") + "; also " +
           names_of_contents() +
-          " (default Z,A in EXR and NPZ; Z in other formats and with --engine pipeline)");
+          " (default Z,A in EXR and NPZ; Z in other formats and with --engine pipeline). An -o "
+          "without NAME= has all of them except mask");
   command.flag(
       "--deep", arguments.deep,
       "Write a deep EXR with all visible fragments of each pixel, sorted: depths Z and ZBack, "
@@ -189,6 +190,7 @@ void RenderArguments::add_background(Command& command) {
 void RenderArguments::take(Contents contents) {
   channels = std::move(contents.channels);
   is_mask = contents.is_mask;
+  mask_beside = contents.mask_beside;
   object = contents.object;
 }
 
@@ -235,6 +237,27 @@ StorageOptions RenderArguments::storage_of(std::size_t number) const {
   return storage.fitting(chosen.pattern, contents);
 }
 
+void RenderArguments::require_outputs_of_channels() const {
+  if (!channels) return;
+  const auto is_unnamed = [](const OutputArgument& each) { return !each.contents; };
+  const auto is_of_mask = [](const OutputArgument& each) {
+    return each.contents && each.contents->is_mask;
+  };
+  const bool any_unnamed = outputs.empty() || std::ranges::any_of(outputs, is_unnamed);
+  const bool needs_mask = mask_beside || (is_mask && !any_unnamed);
+  if (needs_mask && std::ranges::none_of(outputs, is_of_mask))
+    throw UsageError(std::string("--channels: ") + mask_needs_file);
+  if (any_unnamed || is_mask) return;
+  for (const Channel channel : *channels) {
+    const auto has_it = [&](const OutputArgument& each) {
+      return !each.contents->is_mask && std::ranges::count(each.contents->channels, channel) > 0;
+    };
+    if (std::ranges::any_of(outputs, has_it)) continue;
+    const std::string name(description_of(channel).name);
+    throw UsageError("--channels: '" + name + "' is in no output: add -o " + name + "=FILE");
+  }
+}
+
 RenderArguments RenderArguments::of_output(std::size_t number) const {
   RenderArguments only = *this;
   if (outputs.empty()) return only;
@@ -242,11 +265,7 @@ RenderArguments RenderArguments::of_output(std::size_t number) const {
   only.outputs = {{std::nullopt, chosen.pattern}};
   only.output = chosen.pattern;
   only.storage = storage_of(number);
-  if (!chosen.contents) return only;
-  if (outputs.size() == 1 && channels) {
-    throw UsageError("--channels is for an -o without names; this one is NAME=FILE");
-  }
-  only.take(*chosen.contents);
+  if (chosen.contents) only.take(*chosen.contents);
   return only;
 }
 
@@ -254,6 +273,7 @@ RenderArguments RenderArguments::of_only_output(const std::string& writer) const
   if (outputs.size() > 1) {
     throw UsageError("-o: " + writer + " writes a single map, without NAME=");
   }
+  require_outputs_of_channels();
   RenderArguments only = of_output(0);
   if (only.is_mask) throw UsageError("mask is for the exact engines of fathom, not for " + writer);
   return only;

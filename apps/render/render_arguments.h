@@ -50,6 +50,8 @@ struct RenderArguments {
   std::optional<std::vector<Channel>> channels;
   /// Whether the map is written as the mask of its one channel.
   bool is_mask = false;
+  /// Whether --channels also names a mask, which is a separate output.
+  bool mask_beside = false;
   /// The object whose mask it is, if it is the mask of one object.
   std::optional<std::uint32_t> object;
   std::optional<SamplePattern> samples;
@@ -75,8 +77,10 @@ struct RenderArguments {
   /// How this output is stored: with the options that its format and contents have, if it is one of
   /// several.
   [[nodiscard]] StorageOptions storage_of(std::size_t number) const;
+  /// Fails with UsageError if --channels names contents that no output has. An output without names
+  /// has the channels of the list; a mask is a separate output.
+  void require_outputs_of_channels() const;
   /// The arguments as if this output were the only one, with the options that its format has.
-  /// Fails    UsageError where both the output and --channels name channels.
   [[nodiscard]] RenderArguments of_output(std::size_t number) const;
   /// The same, for engines that write a single map. Fails with UsageError if there are several.
   [[nodiscard]] RenderArguments of_only_output(const std::string& writer) const;

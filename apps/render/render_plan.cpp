@@ -155,10 +155,6 @@ void check_several(const RenderArguments& a, const std::vector<std::string>& pat
                              : a.depth_buffer.storage ? "--depth-format"
                                                       : nullptr;
   if (single != nullptr) throw UsageError(std::string(single) + " is for a single -o");
-  const auto is_unnamed = [](const OutputArgument& output) { return !output.contents; };
-  if (a.channels && std::ranges::none_of(a.outputs, is_unnamed)) {
-    throw UsageError("--channels is for an -o without names; each of these is NAME=FILE");
-  }
   std::vector<StorageOptions> fitted;
   for (std::size_t number = 0; number < patterns.size(); ++number) {
     fitted.push_back(a.storage_of(number));
@@ -236,11 +232,13 @@ bool MapPlan::needs_segments() const {
 
 MapPlan plan_maps(const RenderArguments& arguments) {
   arguments.refuse_pipeline_options();
+  arguments.require_outputs_of_channels();
   return plan_of_output(arguments.of_output(0));
 }
 
 std::vector<RenderPass> plan_passes(const RenderArguments& arguments) {
   arguments.refuse_pipeline_options();
+  arguments.require_outputs_of_channels();
   const std::vector<std::string> patterns = arguments.patterns();
   if (patterns.size() > 1) check_several(arguments, patterns);
   std::vector<RenderPass> passes;

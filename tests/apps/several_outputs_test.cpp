@@ -233,6 +233,29 @@ assert (turned[inside] == (128, 128, 255)).all() and (turned[~inside] == 0).all(
   EXPECT_TRUE(folder_.read("again.png") == folder_.read("m.png"));
 }
 
+TEST_F(SeveralOutputs, ChannelsMayListWhatOutputsName) {
+  const auto render = [this](std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "square.obj", "--camera", "camera.json"});
+    expect_done(more);
+  };
+  const auto expect_same = [this](const std::string& a, const std::string& b) {
+    EXPECT_TRUE(folder_.read(a) == folder_.read(b)) << a << ", " << b;
+  };
+  render({"-o", "mask=m.png", "-o", "depth=z.exr"});
+  render({"--channels", "Z,mask", "-o", "mask=listed-m.png", "-o", "depth=listed-z.exr"});
+  expect_same("listed-m.png", "m.png");
+  expect_same("listed-z.exr", "z.exr");
+  // An output without names has the channels of the list, and no mask.
+  render({"--channels", "Z,id", "-o", "e.exr"});
+  render({"--channels", "Z,mask,id", "-o", "listed-e.exr", "-o", "mask=m2.png"});
+  expect_same("listed-e.exr", "e.exr");
+  expect_same("m2.png", "m.png");
+  render({"--channels", "mask", "-o", "mask=m3.png"});
+  expect_same("m3.png", "m.png");
+  render({"--channels", "depth", "-o", "Z,id=e2.exr"});
+  expect_same("e2.exr", "e.exr");
+}
+
 TEST_F(SeveralOutputs, AMaskForEachObject) {
   expect_done({"render", pair_, "--size", "60x40", "-o", "mask=m/{object:02}.png", "-o",
                "object=objects.npy"});
@@ -251,12 +274,20 @@ for k in (0, 1):
 TEST_F(SeveralOutputs, NamesThatCannotBe) {
   expect_refused({"-o", "dpeth=z.png"}, "did you mean 'depth'?; a file of this name is");
   expect_refused({"-o", "mask=m.exr"}, "m.exr: a mask is an 8-bit PNG");
-  expect_refused({"-o", "mask,Z=m.png"}, "'mask' needs a separate file");
+  expect_refused(
+      {"-o", "mask,Z=m.png"},
+      "'mask' needs a separate file: add -o mask=FILE.png, and leave it out of the list");
   expect_refused({"-o", "depth="}, "'depth=' has no file");
   expect_refused({"-o", "depth=a.png", "-o", "mask=a.png"}, "would both be written as a.png");
-  expect_refused({"-o", "depth=a.png", "--channels", "Z"}, "--channels is for an -o without names");
-  expect_refused({"-o", "depth=a.png", "-o", "mask=b.png", "--channels", "Z"},
-                 "--channels is for an -o without names");
+  const std::string no_mask = "--channels: 'mask' needs a separate file: add -o mask=FILE.png\n";
+  expect_refused({"-o", "z.exr", "--channels", "Z,mask"}, no_mask);
+  expect_refused({"-o", "depth=z.exr", "--channels", "mask,Z"}, no_mask);
+  expect_refused({"-o", "depth=z.exr", "--channels", "mask"}, no_mask);
+  expect_refused({"-o", "depth=a.png", "-o", "mask=b.png", "--channels", "Z,normal"},
+                 "--channels: 'N' is in no output: add -o N=FILE");
+  expect_refused({"-o", "mask=a.png", "--channels", "id"}, "'id' is in no output");
+  expect_refused({"-o", "mask=a.png", "--channels", "mask,Z,mask"}, "'mask' is there twice");
+  expect_refused({"-o", "z.exr", "--engine", "pipeline", "--channels", "Z,mask"}, no_mask);
   expect_refused({"-o", "depth=a.png", "-o", "mask=b.png", "--compression", "rle"},
                  "--compression is for .exr");
   expect_refused({"-o", "a.exr", "-o", "b.exr", "--samples", "4"}, "--samples is for a single -o");
