@@ -10,6 +10,8 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/byte_order.h"
 #include "fathom/image/point_cloud.h"
+#include "fathom/numeric/dyadic.h"
+#include "fathom/numeric/rounding.h"
 #include "tests/image/map_samples.h"
 
 namespace fathom {
@@ -116,6 +118,35 @@ TEST(Storage, CodesRoundHalfToEvenExactly) {
   const DepthMap above = map_of(1, 1, "Z", std::vector<double>{25});
   EXPECT_THAT(*with_storage(above, "", StoredType::scaled_unorm16, 0.1).values<std::uint16_t>("Z"),
               ElementsAre(3));
+}
+
+/// Depths whose codes lie next to the middle between two integers, on both sides of it.
+std::vector<double> depths_near_ties(double scale) {
+  std::vector<double> depths;
+  for (const double code :
+       {1.0, 2.0, 3.0, 4.0, 127.0, 1000.0, 32766.0, 32767.0, 65533.0, 65534.0}) {
+    double depth = (code + 0.5) / scale;
+    for (int k = 0; k < 3; ++k) depth = std::nextafter(depth, 0.0);
+    for (int k = 0; k < 7; ++k, depth = std::nextafter(depth, INFINITY)) depths.push_back(depth);
+  }
+  return depths;
+}
+
+TEST(Storage, CodesAreThoseOfExactProducts) {
+  int settled_by_error = 0;
+  for (const double scale :
+       {0.1, 1.0 / 3, 0.7, 1.0, 3.0, 256.1, 1000.0, 1e9 / 7, 0x1p-900, 1e300}) {
+    const std::vector<double> depths = depths_near_ties(scale);
+    const DepthMap map = map_of(static_cast<std::uint32_t>(depths.size()), 1, "Z", depths);
+    const DepthMap stored = with_storage(map, "Z", StoredType::scaled_unorm16, scale);
+    const auto& codes = *stored.values<std::uint16_t>("Z");
+    for (std::size_t k = 0; k < depths.size(); ++k) {
+      const auto expected = round_to_integer(Dyadic(scale) * Dyadic(depths[k]), 65535);
+      EXPECT_EQ(codes[k], expected) << std::hexfloat << scale << " · " << depths[k];
+      settled_by_error += std::nearbyint(scale * depths[k]) != static_cast<double>(*expected);
+    }
+  }
+  EXPECT_GT(settled_by_error, 20);
 }
 
 TEST(Storage, CodesThatDoNotFitAreErrors) {

@@ -7,6 +7,7 @@
 #include "fathom/image/channel_names.h"
 #include "fathom/image/depth_map.h"
 #include "fathom/image/surface.h"
+#include "fathom/numeric/double_word.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
@@ -207,6 +208,21 @@ Samples<T> as_floating_point(const DepthMap& map, const ImageChannel& channel) {
       channel.values);
 }
 
+/// The integer nearest to a·b, ties to even; nullopt if it is above 65535, 0 if a·b < 0.
+///
+/// a·b = p + e exactly (two_product() needs a·b ≥ 1/4 for that). p and 1/2 are multiples of ulp(p),
+/// and |e| ≤ ulp(p)/2: only if p is half-way between two integers may e change the nearest one.
+std::optional<std::uint16_t> rounded_product(double a, double b) {
+  if (!(a * b >= 0.25)) return 0;
+  if (a * b > 65536) return std::nullopt;
+  const auto [p, e] = two_product<true>(a, b);
+  double nearest = std::nearbyint(p);
+  if (p - nearest == 0.5 && e > 0) ++nearest;
+  if (p - nearest == -0.5 && e < 0) --nearest;
+  if (nearest > 65535) return std::nullopt;
+  return static_cast<std::uint16_t>(nearest);
+}
+
 /// How many surfaces lie beyond the codes is counted where that is no fault.
 Samples<std::uint16_t> encode(const DepthMap& map, const ImageChannel& channel, double scale,
                               std::uint64_t* beyond) {
@@ -215,8 +231,8 @@ Samples<std::uint16_t> encode(const DepthMap& map, const ImageChannel& channel, 
   Samples<std::uint16_t> codes(depths.size());
   for (std::size_t k = 0; k < depths.size(); ++k) {
     if (!surface[k]) continue;
-    std::optional<std::uint64_t> code;
-    if (std::isfinite(depths[k])) code = round_to_integer(Dyadic(scale) * Dyadic(depths[k]), 65535);
+    std::optional<std::uint16_t> code;
+    if (std::isfinite(depths[k])) code = rounded_product(scale, depths[k]);
     if (!code && beyond && depths[k] > 0) {
       ++*beyond;
       continue;
@@ -225,7 +241,7 @@ Samples<std::uint16_t> encode(const DepthMap& map, const ImageChannel& channel, 
       throw OutputError(image::place_of_pixel(k, map.width) + "depth " + std::to_string(depths[k]) +
                         " times the scale " + std::to_string(scale) +
                         " does not fit the codes 1 to 65535");
-    codes[k] = static_cast<std::uint16_t>(*code);
+    codes[k] = *code;
   }
   return codes;
 }
