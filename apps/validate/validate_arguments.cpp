@@ -61,14 +61,10 @@ void expect_lens_engine(const std::string& name) {
 
 std::string parse_model(const std::string& text) {
   if (text == any_model || text == matching) return text;
-  std::vector<std::string> names{any_model, matching};
-  for (const attribution::RendererModel& model : attribution::named_models()) {
-    if (model.name == text) return text;
-    names.push_back(model.name);
-  }
-  throw UnknownName("there is no model '" + text + "'; there are " + attribution::model_names() +
-                        "; auto; matching",
-                    text, names);
+  const std::vector<attribution::RendererModel> models = attribution::named_models();
+  if (std::ranges::find(models, text, &attribution::RendererModel::name) != models.end())
+    return text;
+  throw attribution::unknown_model(text, {any_model, matching});
 }
 
 std::string parse_renderer(const std::string& text) {

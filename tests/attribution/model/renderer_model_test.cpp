@@ -50,6 +50,22 @@ TEST(NamedModels, OthersAreRefusedWithTheNamesThatThereAre) {
   EXPECT_THAT(model_names(), testing::HasSubstr("gl-unorm24, gl-unorm32"));
 }
 
+TEST(NamedModels, AreSuggestedForStoragesAndRenderers) {
+  const auto expect_suggested = [](const std::string& name, const std::string& end) {
+    EXPECT_THAT(unknown_model(name).what(), testing::EndsWith(end)) << name;
+  };
+  expect_suggested("d24", "cycles; did you mean 'gl-unorm24' or 'vtk-unorm24'?");
+  expect_suggested("D24S8", "did you mean 'gl-unorm24' or 'vtk-unorm24'?");
+  expect_suggested("float32", "did you mean 'gl-float32' or 'vtk-float32'?");
+  expect_suggested("OpenGL", "did you mean 'gl-unorm24' or 'gl-float32'?");
+  expect_suggested("Blender", "cycles; did you mean 'cycles'?");
+  expect_suggested("gl-unorm23", "did you mean 'gl-unorm24' or 'gl-unorm32'?");
+  // No model stores it, and nobody means a model by it.
+  expect_suggested("float16", ", cycles");
+  EXPECT_THAT(unknown_model("mathcing", {"auto", "matching"}).what(),
+              testing::EndsWith("cycles; auto; matching; did you mean 'matching'?"));
+}
+
 TEST(RasterModels, StoreWhatAShaderWrites) {
   RasterModel model{.mapping = Mapping::opengl};
   EXPECT_EQ(model.stored_mapping(), Mapping::opengl);

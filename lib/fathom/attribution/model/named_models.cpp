@@ -41,6 +41,31 @@ RendererModel ray(const std::string& name, double sample_error, double rotation_
 /// numbers, up to π), and their sines and products are six roundings more.
 constexpr double cycles_rotation_error = 24 * unit_roundoff<float>;
 
+/// Renderers that people name, and the models of what they store by default.
+constexpr OtherName renderer_names[] = {
+    {"opengl", "gl-unorm24"},      {"opengl", "gl-float32"}, {"gl", "gl-unorm24"},
+    {"gl", "gl-float32"},          {"vtk", "vtk-unorm24"},   {"vtk", "vtk-float32"},
+    {"pyrender", "gl-unorm24"},    {"open3d", "gl-unorm24"}, {"open3d", "float32-ray"},
+    {"embree", "float32-ray"},     {"ray", "float32-ray"},   {"raytracer", "float32-ray"},
+    {"raycasting", "float32-ray"}, {"blender", "cycles"}};
+
+/// The models with the usual mapping and the storage of this name, also as graphics interfaces
+/// name it: D24S8.
+std::vector<std::string> models_with_storage(const std::string& name) {
+  std::vector<std::string> names;
+  try {
+    const Storage storage = storage_named(name);
+    for (const RendererModel& model : named_models()) {
+      const auto* raster = std::get_if<RasterModel>(&model.kind);
+      const bool is_usual = raster != nullptr && raster->mapping == Mapping::opengl;
+      if (is_usual && raster->storage == storage) names.push_back(model.name);
+    }
+  } catch (const UnknownName&) {
+    // It is no storage.
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<RendererModel> named_models() {
@@ -78,9 +103,17 @@ RendererModel model_named(const std::string& name) {
   for (const RendererModel& model : named_models()) {
     if (model.name == name) return model;
   }
-  std::vector<std::string> names;
+  throw unknown_model(name);
+}
+
+UnknownName unknown_model(const std::string& name, const std::vector<std::string>& more) {
+  std::vector<std::string> names = more;
+  std::string message = "there is no model '" + name + "'; there are " + model_names();
+  for (const std::string& other : more) message += "; " + other;
   for (const RendererModel& model : named_models()) names.push_back(model.name);
-  throw UnknownName("there is no model '" + name + "'; there are " + model_names(), name, names);
+  const std::vector<std::string> meant = models_with_storage(name);
+  if (!meant.empty()) return {message + "; " + did_you_mean(meant), name, names};
+  return unknown_name(message, name, names, renderer_names);
 }
 
 namespace {

@@ -5,6 +5,7 @@
 
 #include "fathom/attribution/model/renderer_model.h"
 #include "fathom/camera/camera.h"
+#include "fathom/failures/unknown_name.h"
 
 /// Models of renderers of which only the kind is known (docs/validation.md, "Models").
 namespace fathom::attribution {
@@ -23,6 +24,11 @@ bool is_of_vtk(const RendererModel& model);
 
 /// Fails    UnknownName, with the existing names, if there is no such model.
 RendererModel model_named(const std::string& name);
+
+/// The failure for a name that no model has, and that is not in `more`, the other words that the
+/// user may write. Suggests similar names, and the models of a renderer or a storage of that name:
+/// "; did you mean 'gl-unorm24' or 'vtk-unorm24'?" for D24.
+UnknownName unknown_model(const std::string& name, const std::vector<std::string>& more = {});
 
 /// Assumptions about how a driver rasterizes, beyond the requirements and the queries of OpenGL:
 /// taken from the sources of the drivers that are named here. Nothing is assumed about other
