@@ -13,6 +13,8 @@
 #include "apps/shell/failures.h"
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
+#include "fathom/failures/unknown_name.h"
+#include "fathom/image/channel_names.h"
 #include "fathom/rays/cast.h"
 
 namespace fathom::app {
@@ -44,7 +46,8 @@ RayQuestion parse_question(const std::string& text) {
 
 std::vector<HitChannel> parse_hit_channels(const std::string& list) {
   return parse_distinct(list, [](const std::string& name) {
-    return parse_enumerator(name, hit_channel_table).channel;
+    if (const auto found = value_named(hit_channel_table, name)) return found->channel;
+    throw unknown_channel(name, names_of(hit_channel_table));
   });
 }
 

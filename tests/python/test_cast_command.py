@@ -124,7 +124,9 @@ def test_bad_arrays_are_named_with_the_row(mesh, tmp_path, array, message):
     (("--segment", "2"), "--segment: '2' is not TMIN:TMAX"),
     (("--mode", "count", "--channels", "t"), "--channels is for --mode nearest and all"),
     (("--channels", "t,t"), "--channels: 't' is there twice"),
-    (("--channels", "Z"), "--channels: 'Z' is not"),
+    (("--channels", "Z"), "--channels: there is no channel 'Z'; there are t, id, distance, P, bary, N, object and face"),
+    (("--channels", "seg"), "did you mean 'object'?"),
+    (("--channels", "t,range"), "did you mean 'distance'?"),
 ])
 def test_wrong_usage_leaves_no_file(mesh, csv_file, tmp_path, options, message):
     ran = run(mesh, "--rays", csv_file, *options, cwd=tmp_path)

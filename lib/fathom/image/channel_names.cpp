@@ -44,9 +44,9 @@ std::string name_for_users(const DepthMap& map, const std::string& name) {
 
 }  // namespace
 
-UnknownName unknown_channel(const std::string& name) {
-  return unknown_name("there is no channel '" + name + "'; there are " + channel_names(), name,
-                      names_of_channels(), other_names);
+UnknownName unknown_channel(const std::string& name, const std::vector<std::string>& names) {
+  return unknown_name("there is no channel '" + name + "'; there are " + joined(names), name, names,
+                      other_names);
 }
 
 const ContentsName* contents_named(std::string_view name) {
@@ -63,8 +63,7 @@ std::string own_channel_name(const DepthMap& map, const std::string& name) {
 UnknownName unknown_contents(const std::string& name) {
   std::vector<std::string> names = names_of_channels();
   for (const ContentsName& each : contents_table) names.emplace_back(each.name);
-  return unknown_name("there is no channel '" + name + "'; there are " + joined(names), name, names,
-                      other_names);
+  return unknown_channel(name, names);
 }
 
 std::vector<std::string> names_of_channels(const DepthMap& map) {

@@ -40,9 +40,10 @@ std::string own_channel_name(const DepthMap& map, const std::string& name);
 // Errors contain the existing names and suggest the intended one, also for words of other programs
 // ("range" for distance).
 
-/// The error of a name that channel_named() does not know: "there is no channel 'depth'; there are
-/// Z, A, …; did you mean 'Z'?"
-UnknownName unknown_channel(const std::string& name);
+/// The error of a name that is not in `names`, by default those that channel_named() knows: "there
+/// is no channel 'depth'; there are Z, A, …; did you mean 'Z'?"
+UnknownName unknown_channel(const std::string& name,
+                            const std::vector<std::string>& names = names_of_channels());
 
 /// The same, of a name that contents_named() does not know either: it has these names, too.
 UnknownName unknown_contents(const std::string& name);
