@@ -15,7 +15,7 @@
 
 #include "apps/view/packing.h"
 #include "fathom/camera/pose.h"
-#include "fathom/image/channel_table.h"
+#include "fathom/image/channel_names.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/files/file_texts.h"
 #include "fathom/image/surface.h"
@@ -213,12 +213,6 @@ const char* word_of(ChannelKind kind) {
   return "quantity";
 }
 
-/// The meaning of one of our channels, for readers; for "N.X" the meaning of N.
-std::string meaning_of(const std::string& name) {
-  const auto ours = channel_named(name.substr(0, name.find('.')));
-  return ours ? std::string(description_of(*ours).meaning) : std::string();
-}
-
 /// The least and the greatest finite value at surfaces, or null.
 Json range_of(const ImageChannel& channel, const Mask& mask) {
   return std::visit(
@@ -257,7 +251,7 @@ Json describe_channel(const ViewedMap& viewed, const ImageChannel& channel, Mask
   const DepthMap& map = viewed.map;
   Mask mask = surface_mask(map, channel);
   Json told{{"name", channel.name},
-            {"meaning", meaning_of(channel.name)},
+            {"meaning", meaning_of(channel.name.substr(0, channel.name.find('.')))},
             {"type", type_of(channel)},
             {"kind", word_of(kind_of(channel))},
             {"range", range_of(channel, mask)}};

@@ -457,6 +457,35 @@ class ViewPage(PageCase):
         self.open("#channel=samples&scale=linear", page=page)
         self.assertEqual(scale(), "linear")
 
+    def test_channels_of_a_depth_buffer_look_as_in_a_preview(self):
+        fathom("render", DATA / "meshes/teapot.obj", "--view", "20,30", "--size", "960x720", "--near", "0.1", "--far", "1000",
+               "--depth-format", "unorm16", "--against-exact", "-o", self.folder / "fights.npz")
+        page, maps = self.viewed("fights.npz"), numpy.load(self.folder / "fights.npz")
+        fights, errors, seen = maps["Zfight"], maps["Zerror"], numpy.isfinite(maps["Z"])
+        right, wrong = [146, 154, 164], [215, 25, 28]
+
+        def colour_at(channel, pixel, zoom):
+            self.open(f"#channel={channel}&x={pixel[1] + 0.5}&y={pixel[0] + 0.5}&zoom={zoom}", page)
+            return self.driver.execute_script(COLOUR_AT_CENTRE)
+
+        places = numpy.argwhere(fights == 1)
+        for zoom in (0.7, 1, 16):
+            self.assertEqual(colour_at("Zfight", places[0], zoom), wrong, zoom)
+        self.assertEqual(colour_at("Zfight", numpy.argwhere(seen & (fights == 0))[-1], 16), right)
+        # A pixel away from the wrong one belongs to its square only where pixels are small.
+        beside = places[0] + (1 if not fights[tuple(places[0] + (1, 0))] else -1, 0)
+        self.assertEqual(colour_at("Zfight", beside, 1), wrong)
+        self.assertNotEqual(colour_at("Zfight", beside, 16), wrong)
+        self.assertRegex(self.text("#legend"), r"^0 right .*\n1 wrong .*\n")
+        self.assertFalse(self.one("#colours").is_displayed())
+        self.assertEqual(Select(self.one("#channel")).first_selected_option.text, "Zfight – where the wrong surface wins")
+
+        end = numpy.abs(errors[seen]).max()
+        for pixel in numpy.argwhere(seen)[::20011]:
+            place = 0.5 + float(errors[tuple(pixel)]) / (2 * end)
+            self.assertEqual(colour_at("Zerror", pixel, 16), self.colour_of(place, "diverging"), pixel)
+        self.assertEqual(self.one("#colours").get_attribute("value"), "diverging")
+
     def test_cryptomatte_is_shown_by_names(self):
         fathom("render", DATA / "scenes/pair.json", "--size", "160x120", "--cryptomatte", "-o", self.folder / "matte.exr")
         self.open(page=self.viewed("matte.exr"))

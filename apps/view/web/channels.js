@@ -46,7 +46,8 @@ class Channel extends Source {
     super(map, `${prefix}-c${number}`);
     Object.assign(this, told, { prefix, siblings, camera: map.camera, scale: told.type === "u16" ? map.scale : undefined });
     this.isSingle = this.type === "f32";
-    this.isIdentifier = this.kind === "identifier";
+    this.isFight = this.name === "Zfight" && this.type === "u32"; // 1 where the wrong surface wins
+    this.isIdentifier = this.kind === "identifier" || this.isFight;
     if (this.scale && this.range) this.range = this.range.map((code) => code / this.scale);
   }
   async made(level, number) {
@@ -78,7 +79,10 @@ class Channel extends Source {
     });
   }
   /// What a number stands for; empty where nothing says it.
-  nameOf(value) { return value === this.none ? "none" : this.names?.[value] ?? ""; }
+  nameOf(value) {
+    if (this.isFight) return value ? "wrong" : "right";
+    return value === this.none ? "none" : this.names?.[value] ?? "";
+  }
 }
 
 /// The three parts of a channel of directions, which are drawn as red, green and blue.

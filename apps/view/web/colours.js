@@ -24,13 +24,14 @@ const diverging = Uint32Array.from({ length: 257 }, (_, k) => {
 const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
 /// Of pixels that have no value.
 export function specialColours(colourMap) {
-  const none = colourMap === "grey" ? rgb(74, 92, 122) : isDark() ? rgb(52, 59, 69) : rgb(206, 210, 216);
+  const none = colourMap === "grey" ? rgb(74, 92, 122) : isDark() ? rgb(52, 59, 69)
+    : colourMap === "diverging" ? rgb(150, 156, 164) : rgb(206, 210, 216);
   return { [background]: none, [missing]: isDark() ? rgb(70, 170, 100) : rgb(20, 20, 20), [added]: rgb(120, 60, 160), none: rgb(96, 96, 96),
     nan: rgb(255, 120, 0), above: rgb(230, 25, 120), below: rgb(120, 40, 200) };
 }
 
 /// The colour of an identifier, as `fathom preview` has it: hue by the golden ratio.
-export function colourOfIdentifier(id) {
+function colourOfIdentifier(id) {
   const hash = Math.imul(id, 2654435769) >>> 0, hue = hash / 4294967296 * 6;
   const saturation = 0.45 + 0.15 * ((hash >>> 7) % 4), value = 0.65 + 0.1 * ((hash >>> 11) % 4);
   const part = (offset) => {
@@ -38,6 +39,13 @@ export function colourOfIdentifier(id) {
     return 255 * (value - value * saturation * Math.min(1, Math.max(0, Math.min(k, 4 - k))));
   };
   return rgb(part(5), part(3), part(1));
+}
+
+const rightSurface = rgb(146, 154, 164), wrongSurface = rgb(215, 25, 28);
+/// The colour of an identifier of a channel.
+export function colourOfNumber(source, number, special) {
+  if (source.isFight) return number ? wrongSurface : rightSurface;
+  return number === source.none ? special.none : colourOfIdentifier(number);
 }
 
 /// The scales: where a value lies between the ends, 0 to 1 or beyond. Logarithms and inverses need ends above 0.
@@ -70,8 +78,7 @@ export class Shading {
     Object.assign(this, { source, low, high, special: specialColours(colours) });
     this.table = source.isDifference ? diverging : tables[colours];
     this.place = placeOn(source.isDifference ? "linear" : scale, low, high, sorted);
-    this.inside = source.isIdentifier ? (id) => id === source.none ? this.special.none : colourOfIdentifier(id)
-      : (value) => this.numberColour(value);
+    this.inside = source.isIdentifier ? (id) => colourOfNumber(source, id, this.special) : (value) => this.numberColour(value);
   }
   at(t) {
     const last = this.table.length - 1;

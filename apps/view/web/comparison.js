@@ -2,7 +2,7 @@
 import { channelOf, maps } from "./channels.js";
 import { Shading } from "./colours.js";
 import { Difference, endOfDifferences } from "./difference.js";
-import { scaleOf } from "./state.js";
+import { coloursOf, scaleOf } from "./state.js";
 import { statisticsOf, together } from "./statistics.js";
 
 /// Whether B can be laid upon A: it has the same size, and the channel.
@@ -15,11 +15,15 @@ function sourcesOf(state) {
   return [["A", first], ["B", channelOf(b, state.channel)]].map(([name, source]) => ({ name: `${name}: ${state.channel}`, source }));
 }
 
-/// The ends of the colours, unless the user chose them: those of all values, which the page knows without their pixels.
-function endsOf(sources) {
+/// The ends of the colours, unless the user chose them: those of all values, which the page knows without their pixels. Errors
+/// in diverging colours are white where they are 0.
+function endsOf(sources, state) {
   if (sources[0].source.kind === "colour") return [0, 1];
   const ranges = sources.map(({ source }) => source.range ?? [Infinity, -Infinity]);
-  return [Math.min(...ranges.map(([low]) => low)), Math.max(...ranges.map(([, high]) => high))];
+  const low = Math.min(...ranges.map(([least]) => least)), high = Math.max(...ranges.map(([, greatest]) => greatest));
+  if (state.channel !== "Zerror" || coloursOf(state) !== "diverging") return [low, high];
+  const end = Math.max(Math.abs(low), Math.abs(high));
+  return [-end, end];
 }
 const rangeOf = (state, [low, high]) => ({ low: state.low ?? low, high: state.high ?? high });
 
@@ -34,7 +38,7 @@ export async function shownBy(state) {
     return { layers: [{ source, shading }], sources: [...sources, { name: source.label, source }], source, counting: statistics, shading };
   }
   const { source } = sources[0], counting = Promise.all(sources.map((each) => statisticsOf(each.source))).then(together);
-  const settings = { ...state, scale: scaleOf(state), ...rangeOf(state, endsOf(sources)) };
+  const settings = { ...state, scale: scaleOf(state), colours: coloursOf(state), ...rangeOf(state, endsOf(sources, state)) };
   const sorted = settings.scale === "equalised" ? (await counting)?.sorted : null;
   const layers = sources.map((each) => ({ source: each.source, shading: new Shading(each.source, settings, sorted) }));
   return { layers, sources, source, counting, shading: layers[0].shading };

@@ -3,7 +3,7 @@ import { channelOf, firstChannel, maps } from "./channels.js";
 import { isComparable } from "./comparison.js";
 import { textOf } from "./numbers.js";
 import { byId, element } from "./reading.js";
-import { scaleOf } from "./state.js";
+import { coloursOf, scaleOf } from "./state.js";
 
 function fillSelect(select, entries, value) {
   select.replaceChildren(...entries.map(([key, text]) => element("option", text, { value: key })));
@@ -50,8 +50,9 @@ export function fillControls(state) {
   fillSelect(byId("channel"), a.channels.map((each) => [each.name, title(each)]), state.channel);
   const others = names.map((name, number) => [number, name]).filter(([number]) => isComparable(a, maps[number], state.channel));
   fillSelect(byId("other"), others, state.other);
-  for (const key of ["colours", "mode", "measure"]) byId(key).value = state[key];
+  for (const key of ["mode", "measure"]) byId(key).value = state[key];
   byId("scale").value = scaleOf(state);
+  byId("colours").value = coloursOf(state);
   const isNumber = !channel.isIdentifier && channel.kind !== "colour", isDifference = state.mode === "difference";
   byId("map-label").hidden = maps.length < 2;
   byId("comparing").hidden = others.length === 0;

@@ -1,6 +1,6 @@
 /// The histogram, which is the legend too: its bars have the colours of their values.
 import { added, background, missing } from "./channels.js";
-import { colourOfIdentifier, css, placeOn } from "./colours.js";
+import { colourOfNumber, css, placeOn } from "./colours.js";
 import { short, counted, percentage } from "./numbers.js";
 import { gradientOf } from "./painting.js";
 import { byId, element } from "./reading.js";
@@ -39,9 +39,9 @@ function listIdentifiers(list, source, statistics, shading) {
   const all = [...statistics.ids].sort((a, b) => b[1] - a[1]);
   for (const [id, count] of all.slice(0, mostListed)) {
     const name = source.nameOf(id), isNone = id === source.none;
-    list.append(entry(isNone ? shading.special.none : colourOfIdentifier(id),
-      `${isNone ? name : name ? id + "  " + name : id} (${percentage(count, statistics.pixels)})`));
+    list.append(entry(colourOfNumber(source, id, shading.special), `${isNone ? name : name ? id + "  " + name : id} (${percentage(count, statistics.pixels)})`));
   }
+  if (source.isFight && statistics.ids.has(1)) list.append(element("li", "a few wrong pixels are drawn larger", { class: "dim" }));
   if (all.length > mostListed) list.append(element("li", `and ${all.length - mostListed} more`, { class: "dim" }));
 }
 

@@ -4,6 +4,7 @@ import { isLight, css } from "./colours.js";
 import { textWithin } from "./numbers.js";
 
 const numbersFrom = 34, gridFrom = 20; // CSS pixels per pixel of the map
+const leastSquare = 5; // CSS pixels: a few wrong pixels of a tile are drawn at least so large
 const mostCanvases = 256; // or as many as there are tiles in sight
 const paintTime = 6; // milliseconds of a frame for colouring tiles, from the first on: the rest of them takes the next frames
 const mostLoads = 3; // tiles that are unpacked at once: those that leave the sight meanwhile are not asked for
@@ -58,11 +59,28 @@ function countTiles(view, source, levels) {
   return count;
 }
 
+/// The pixels of a tile where the wrong surface wins; empty if they are many, which can be seen without help.
+function fightsOf(tile) {
+  const places = [];
+  tile.values.forEach((value, place) => { if (value && (!tile.mask || tile.mask[place])) places.push(place); });
+  return places.length > tile.values.length / 200 ? [] : places;
+}
+
+/// Few such pixels would vanish in a picture that is smaller than the map.
+function paintFights(context, view, shading, { tile, left, top, step }) {
+  context.fillStyle = css(shading.colour(1, 1));
+  for (const place of tile.fights ??= fightsOf(tile)) {
+    const x = left + (place % tile.columns + 0.5) * step, y = top + (Math.floor(place / tile.columns) + 0.5) * step;
+    context.fillRect(view.toX(x) - (leastSquare - 1) / 2, view.toY(y) - (leastSquare - 1) / 2, leastSquare, leastSquare);
+  }
+}
+
 /// Draws the tiles that are there, and calls `missing(promise)` for some that are not. Until these come, tiles of the
 /// coarsest level stand in for them.
 export function paintTiles(context, view, { source, shading }, missing) {
   const levels = levelsFor(view, source), most = Math.max(mostCanvases, countTiles(view, source, levels));
   const limits = { isTimeUp: timer(), most };
+  const drawn = [];
   let loads = 0;
   context.imageSmoothingEnabled = view.zoom * view.ratio < 1;
   for (const level of levels) {
@@ -78,8 +96,10 @@ export function paintTiles(context, view, { source, shading }, missing) {
       const right = view.toX(Math.min(source.width, left + tile.columns * 2 ** level));
       const bottom = view.toY(Math.min(source.height, top + tile.rows * 2 ** level));
       context.drawImage(canvas, x, y, right - x, bottom - y);
+      drawn.push({ tile, left, top, step: 2 ** level });
     });
   }
+  if (source.isFight && view.zoom < leastSquare) drawn.forEach((each) => paintFights(context, view, shading, each));
 }
 
 function forPixels(view, source, visit) {

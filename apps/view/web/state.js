@@ -2,7 +2,7 @@
 import { page } from "./channels.js";
 
 export const defaults = {
-  map: 0, other: -1, mode: "single", measure: "relative", channel: "", scale: "", colours: "viridis",
+  map: 0, other: -1, mode: "single", measure: "relative", channel: "", scale: "", colours: "",
   low: null, high: null, x: null, y: null, zoom: null, pixel: null, line: null, split: 0.5 };
 
 const words = {
@@ -20,6 +20,9 @@ const readers = {
 
 /// The scale that the user chose, or the scale that suits the channel: most pixels of a deep map have few samples.
 export const scaleOf = ({ scale, channel }) => scale || (channel === "samples" ? "log" : "linear");
+
+/// The colours that the user chose, or those that suit the channel, as in `fathom preview`.
+export const coloursOf = ({ colours, channel }) => colours || (channel === "Zerror" ? "diverging" : "viridis");
 
 /// What a fragment says; what it does not say, or says wrongly, is as by default.
 export function stateOf(fragment) {

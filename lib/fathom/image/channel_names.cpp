@@ -1,6 +1,7 @@
 #include "fathom/image/channel_names.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "fathom/failures/errors.h"
 #include "fathom/failures/unknown_name.h"
@@ -31,6 +32,14 @@ constexpr auto other_names = std::to_array<OtherName>({{"depth", "Z"},
                                                        {"positions", "P"},
                                                        {"points", "P"},
                                                        {"barycentric", "bary"}});
+
+/// The meanings of the channels of a depth buffer.
+constexpr auto buffer_channels = std::to_array<std::pair<std::string_view, std::string_view>>(
+    {{"Zwindow", "stored depth"},
+     {"Zdecoded", "depth decoded from the buffer"},
+     {"Zerror", "decoded minus exact depth"},
+     {"Zwinner", "triangle that wins in the buffer"},
+     {"Zfight", "where the wrong surface wins"}});
 
 /// "N" of "N.X" where the map has all parts of N; else the name.
 std::string name_for_users(const DepthMap& map, const std::string& name) {
@@ -64,6 +73,13 @@ UnknownName unknown_contents(const std::string& name) {
   std::vector<std::string> names = names_of_channels();
   for (const ContentsName& each : contents_table) names.emplace_back(each.name);
   return unknown_channel(name, names);
+}
+
+std::string meaning_of(const std::string& channel) {
+  if (const auto ours = channel_named(channel)) return std::string(description_of(*ours).meaning);
+  for (const auto& [name, meaning] : buffer_channels)
+    if (name == channel) return std::string(meaning);
+  return {};
 }
 
 std::vector<std::string> names_of_channels(const DepthMap& map) {

@@ -48,6 +48,10 @@ UnknownName unknown_channel(const std::string& name,
 /// The same, of a name that contents_named() does not know either: it has these names, too.
 UnknownName unknown_contents(const std::string& name);
 
+/// What one of Fathom's channels means, in a few words: "planar depth" of Z; also of the channels
+/// of a depth buffer. Empty for other names.
+std::string meaning_of(const std::string& channel);
+
 /// The channels of a map as users name them: N where N.X, N.Y and N.Z are there, each once.
 std::vector<std::string> names_of_channels(const DepthMap& map);
 

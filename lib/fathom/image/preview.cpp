@@ -95,23 +95,11 @@ Rgb background_colour(ColourMap colours) {
   return colours == ColourMap::diverging ? Rgb{150, 156, 164} : Rgb{206, 210, 216};
 }
 
-/// The meanings of the channels of a depth buffer.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 5> buffer_channels{
-    {{"Zwindow", "stored depth"},
-     {"Zdecoded", "depth decoded from the buffer"},
-     {"Zerror", "decoded minus exact depth"},
-     {"Zwinner", "triangle that wins in the buffer"},
-     {"Zfight", "where the wrong surface wins"}}};
-
 /// The title of the picture of a channel.
 std::string title_of(const DepthMap& map, const ImageChannel& channel) {
   std::string text = channel.name;
-  for (const auto& [name, meaning] : buffer_channels)
-    if (name == channel.name) text += " – " + std::string(meaning);
-  if (const auto ours = channel_named(channel.name)) {
-    const std::string meaning(description_of(*ours).meaning);
-    if (meaning != channel.name) text += " – " + meaning;
-  }
+  const std::string meaning = meaning_of(channel.name);
+  if (!meaning.empty() && meaning != channel.name) text += " – " + meaning;
   const bool codes = std::holds_alternative<Samples<std::uint16_t>>(channel.values);
   if (codes && !map.png_scale) text += " (codes of unknown scale)";
   return text;
