@@ -142,8 +142,9 @@ TEST(Storage, CodesAreThoseOfExactProducts) {
     const auto& codes = *stored.values<std::uint16_t>("Z");
     for (std::size_t k = 0; k < depths.size(); ++k) {
       const auto expected = round_to_integer(Dyadic(scale) * Dyadic(depths[k]), 65535);
-      EXPECT_EQ(codes[k], expected) << std::hexfloat << scale << " · " << depths[k];
-      settled_by_error += std::nearbyint(scale * depths[k]) != static_cast<double>(*expected);
+      ASSERT_TRUE(expected.has_value());
+      EXPECT_EQ(codes[k], *expected) << std::hexfloat << scale << " · " << depths[k];
+      if (std::nearbyint(scale * depths[k]) != static_cast<double>(*expected)) ++settled_by_error;
     }
   }
   EXPECT_GT(settled_by_error, 20);
