@@ -50,9 +50,9 @@ export function colourOfNumber(source, number, special) {
 
 /// The scales: where a value lies between the ends, 0 to 1 or beyond. Logarithms and inverses need ends above 0.
 const places = {
-  linear: (low, high) => (value) => (value / 2 - low / 2) / (high / 2 - low / 2),
-  log: (low, high) => (value) => Math.log(value / low) / Math.log(high / low),
-  inverse: (low, high) => (value) => (1 / low - 1 / value) / (1 / low - 1 / high) };
+  linear: (low, high, first = low / 2, length = high / 2 - first) => (value) => (value / 2 - first) / length,
+  log: (low, high, length = Math.log(high / low)) => (value) => Math.log(value / low) / length,
+  inverse: (low, high, first = 1 / low, length = first - 1 / high) => (value) => (first - 1 / value) / length };
 
 /// The share of the sorted values that are below.
 function rankIn(sorted) {

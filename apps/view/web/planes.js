@@ -13,6 +13,12 @@ async function inflated(text) {
   return new Uint8Array(inflated);
 }
 
+/// A difference of 32 bits, whose bytes begin at a place, each `count` after the previous one.
+function residual(bytes, place, count) {
+  const zigzag = bytes[place] | bytes[place + count] << 8 | bytes[place + 2 * count] << 16 | bytes[place + 3 * count] << 24;
+  return zigzag >>> 1 ^ -(zigzag & 1);
+}
+
 const arrays = { 1: Uint8Array, 2: Uint16Array, 4: Uint32Array };
 
 /// Words of 32 bits, the Z of unit vectors that have these X and Y.
@@ -27,8 +33,7 @@ function unpackedThird(bytes, columns, [x, y]) {
       third[0] = square > 0 ? Math.sqrt(square) : 0;
       expected = bits[0] | left & 0x80000000;
     }
-    const zigzag = bytes[1 + k] | bytes[1 + count + k] << 8 | bytes[1 + 2 * count + k] << 16 | bytes[1 + 3 * count + k] << 24;
-    words[k] = (zigzag >>> 1 ^ -(zigzag & 1)) + expected;
+    words[k] = residual(bytes, 1 + k, count) + expected;
   }
   return words;
 }
@@ -53,10 +58,17 @@ function unpackedDepths(bytes, columns, { normals: [xs, ys, zs], camera, left, t
     for (let column = 0; column < columns; ++column) {
       const k = first + column, at = here + column, upper = above + column, x = xs[k], y = ys[k], z = zs[k];
       const isAsLeft = column > 0 && x === xs[k - 1] && y === ys[k - 1] && z === zs[k - 1];
+      const u = us[at] = (left + column * step - cx + pixelCentre - skew * v) / fx;
+      if (isAsLeft && x === 0 && y === 0 && z === 0) { // no surface: such a plane predicts nothing
+        nx[at] = ny[at] = nz[at] = 0;
+        heights[at] = NaN;
+        words[k] = words[k - 1] + residual(bytes, next++, count);
+        known[at] = depths[k];
+        continue;
+      }
       const a = nx[at] = isAsLeft ? nx[at - 1] : p[0] * x + q[0] * y + r[0] * z;
       const b = ny[at] = isAsLeft ? ny[at - 1] : p[1] * x + q[1] * y + r[1] * z;
       const c = nz[at] = isAsLeft ? nz[at - 1] : p[2] * x + q[2] * y + r[2] * z;
-      const u = us[at] = (left + column * step - cx + pixelCentre - skew * v) / fx;
       const ownSlope = slope(orthographic, a, b, c, u, v), ownOffset = offset(orthographic, a, b, u, v);
       let sum = 0, added = 0, found = 0, place = 0;
       if (nx[at - 1] === a && ny[at - 1] === b && nz[at - 1] === c) { sum += heights[at - 1]; ++added; }
@@ -80,8 +92,7 @@ function unpackedDepths(bytes, columns, { normals: [xs, ys, zs], camera, left, t
       if (isDepth(found)) depths[k] = found;
       else if (column) words[k] = words[k - 1];
       else if (first) words[k] = words[k - columns];
-      const zigzag = bytes[place] | bytes[place + count] << 8 | bytes[place + 2 * count] << 16 | bytes[place + 3 * count] << 24;
-      words[k] += zigzag >>> 1 ^ -(zigzag & 1);
+      words[k] += residual(bytes, place, count);
       const depth = known[at] = depths[k];
       heights[at] = ownSlope * depth + ownOffset;
     }
@@ -133,10 +144,18 @@ const types = {
   f32: { bytes: 4, values: (words) => new Float32Array(words.buffer) },
   f64: { bytes: 8, values: (words) => new Float64Array(words.buffer) } };
 
+/// How often the identifier is another than that of the pixel before.
+function countRuns(identifiers) {
+  let runs = 1;
+  for (let k = 1; k < identifiers.length; ++k) runs += identifiers[k] === identifiers[k - 1] ? 0 : 1;
+  return runs;
+}
+
 /// The first pixel of each identifier, and of each pixel the place of its identifier among these.
 export function segmentsOf(identifiers) {
-  const count = identifiers.length, bits = 33 - Math.clz32(count), table = new Uint32Array(2 ** bits); // places + 1
-  const firsts = new Uint32Array(count), places = new Uint32Array(count);
+  const count = identifiers.length, runs = countRuns(identifiers), bits = 33 - Math.clz32(runs);
+  const table = new Uint32Array(2 ** bits); // places + 1, at most half full
+  const firsts = new Uint32Array(runs), places = new Uint32Array(count);
   let found = 0;
   for (let k = 0; k < count; ++k) {
     const identifier = identifiers[k];
