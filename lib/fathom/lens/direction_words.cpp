@@ -5,6 +5,7 @@
 
 #include "fathom/lens/elimination.h"
 #include "fathom/numeric/certified_rounding.h"
+#include "fathom/numeric/exact_words.h"
 #include "fathom/numeric/fused_multiply_add.h"
 
 namespace fathom::lens {
@@ -79,17 +80,6 @@ FATHOM_WITH_FMA std::optional<DirectionWords> find_words_by_fma(const Polynomial
 }
 
 }  // namespace
-
-// The bound is that of the second word: the first one is subtracted exactly.
-Certified<WordPair> words_of(const Dyadic& x) {
-  const double high = enclose(x).lower;
-  if (!std::isfinite(high)) return {};
-  const Interval rest = enclose(x - high);
-  const WordPair value = two_sum(high, rest.lower);
-  if (rest.lower == rest.upper) return {value, 0};
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  return {value, std::nextafter(rest.upper - rest.lower, infinity)};
-}
 
 DirectionWords words_of(const ExactVector3& direction) {
   return {words_of(direction[0]), words_of(direction[1]), words_of(direction[2])};

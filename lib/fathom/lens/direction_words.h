@@ -17,9 +17,6 @@ namespace fathom::lens {
 /// A positive multiple of a direction.
 using DirectionWords = std::array<Certified<WordPair>, 3>;
 
-/// The double-word nearest to a number, about; exact if it has at most 106 bits.
-Certified<WordPair> words_of(const Dyadic& x);
-
 /// Of an exact direction.
 DirectionWords words_of(const ExactVector3& direction);
 

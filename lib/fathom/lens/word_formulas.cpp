@@ -9,6 +9,7 @@
 #include "fathom/lens/turn_direction.h"
 #include "fathom/numeric/big_interval.h"
 #include "fathom/numeric/certified_value.h"
+#include "fathom/numeric/exact_words.h"
 #include "fathom/numeric/fused_multiply_add.h"
 
 namespace fathom::lens {

@@ -1,6 +1,19 @@
 #include "fathom/numeric/big_numbers.h"
 
+#include <cstdint>
+
 namespace fathom {
+
+double bits_between(mpz_srcptr m, long first, long end) {
+  constexpr long limb_bits = 64;
+  static_assert(GMP_NUMB_BITS == limb_bits);
+  const auto limb = static_cast<mp_size_t>(first / limb_bits);
+  const long offset = first % limb_bits;
+  std::uint64_t bits = mpz_getlimbn(m, limb) >> offset;
+  if (offset != 0) bits |= mpz_getlimbn(m, limb + 1) << (limb_bits - offset);
+  const std::uint64_t mask = (std::uint64_t{1} << (end - first)) - 1;
+  return static_cast<double>(bits & mask);
+}
 
 void shift(mpz_ptr numerator, mpz_ptr denominator, long power) {
   if (power >= 0) {

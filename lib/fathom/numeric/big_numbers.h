@@ -32,6 +32,9 @@ class Integer {
   mpz_t value_;
 };
 
+/// The bits of |m| from place `first` up to `end`, at most 53, as an integer.
+double bits_between(mpz_srcptr m, long first, long end);
+
 /// A non-negative quotient of integers; the denominator is positive.
 struct Fraction {
   Integer numerator;

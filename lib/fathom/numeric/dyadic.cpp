@@ -78,13 +78,8 @@ Dyadic& Dyadic::operator+=(const Dyadic& other) {
   return *this;
 }
 
-// −((−a) + b). If b is a itself, the first negation would change it too.
 Dyadic& Dyadic::operator-=(const Dyadic& other) {
-  if (this == &other) return *this = Dyadic();
-  mpz_neg(significand_, significand_);
-  *this += other;
-  mpz_neg(significand_, significand_);
-  return *this;
+  return *this = *this - other;
 }
 
 Dyadic& Dyadic::operator*=(const Dyadic& other) {
@@ -93,15 +88,42 @@ Dyadic& Dyadic::operator*=(const Dyadic& other) {
   return *this;
 }
 
+namespace {
+
+/// Sets m·2^e to operation(a, b), a sum or a difference of numbers that are not 0. Memory is
+/// requested once, with the limb more that GMP's shifts and sums may need each.
+template <class Operation>
+void combine(mpz_ptr m, long& e, const Dyadic& a, const Dyadic& b, const Operation& operation) {
+  e = std::min(a.exponent(), b.exponent());
+  const long bits = std::max(a.top(), b.top()) - e;
+  mpz_realloc2(m, static_cast<mp_bitcnt_t>(bits + 2L * GMP_NUMB_BITS));
+  if (a.exponent() > e) {
+    mpz_mul_2exp(m, a.significand(), static_cast<mp_bitcnt_t>(a.exponent() - e));
+    operation(m, m, b.significand());
+  } else if (b.exponent() > e) {
+    mpz_mul_2exp(m, b.significand(), static_cast<mp_bitcnt_t>(b.exponent() - e));
+    operation(m, a.significand(), m);
+  } else {
+    operation(m, a.significand(), b.significand());
+  }
+  if (mpz_sgn(m) == 0) e = 0;
+}
+
+}  // namespace
+
 Dyadic operator+(const Dyadic& a, const Dyadic& b) {
-  Dyadic sum = a;
-  sum += b;
+  if (a.is_zero()) return b;
+  if (b.is_zero()) return a;
+  Dyadic sum;
+  combine(sum.significand_, sum.exponent_, a, b, mpz_add);
   return sum;
 }
 
 Dyadic operator-(const Dyadic& a, const Dyadic& b) {
-  Dyadic difference = a;
-  difference -= b;
+  if (a.is_zero()) return -b;
+  if (b.is_zero()) return a;
+  Dyadic difference;
+  combine(difference.significand_, difference.exponent_, a, b, mpz_sub);
   return difference;
 }
 
@@ -147,19 +169,13 @@ Interval enclose(const Dyadic& x) {
     toward_zero = std::numeric_limits<double>::max();
     representable = false;
   } else {
-    const long kept = top - 53 < -1074 ? -1074 : top - 53;  // exponent of the last bit kept
-    const long dropped = kept - x.exponent();
-    Integer magnitude;
-    mpz_abs(magnitude, x.significand());
-    if (dropped > 0) {
-      representable = mpz_scan1(magnitude, 0) >= static_cast<mp_bitcnt_t>(dropped);
-      mpz_tdiv_q_2exp(magnitude, magnitude, static_cast<mp_bitcnt_t>(dropped));
-      toward_zero = std::ldexp(static_cast<double>(mpz_get_ui(magnitude)), static_cast<int>(kept));
-    } else {
-      representable = true;
-      toward_zero =
-          std::ldexp(static_cast<double>(mpz_get_ui(magnitude)), static_cast<int>(x.exponent()));
-    }
+    // The place of the last bit kept, in the significand.
+    const long last = std::max(0L, std::max(top - 53, -1074L) - x.exponent());
+    const long bits = top - x.exponent();
+    representable = mpz_scan1(x.significand(), 0) >= static_cast<mp_bitcnt_t>(last);
+    toward_zero = last >= bits ? 0
+                               : std::ldexp(bits_between(x.significand(), last, bits),
+                                            static_cast<int>(x.exponent() + last));
   }
   const double away = representable ? toward_zero : std::nextafter(toward_zero, infinity);
   if (x.sign() == Sign::positive) return {toward_zero, away};
