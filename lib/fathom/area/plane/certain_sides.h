@@ -37,8 +37,10 @@ struct PlaneBox {
     add(PlaneBox(r));
   }
 
-  [[nodiscard]] bool misses(const PlanePart& part) const {
-    return right < part.left || left > part.right || bottom < part.top || top > part.bottom;
+  /// Whether it has no point in common with a PlanePart or another box.
+  template <class Rectangle>
+  [[nodiscard]] bool misses(const Rectangle& other) const {
+    return right < other.left || left > other.right || bottom < other.top || top > other.bottom;
   }
   [[nodiscard]] bool is_inside(const PlanePart& part) const {
     return left > part.left && right < part.right && top > part.top && bottom < part.bottom;

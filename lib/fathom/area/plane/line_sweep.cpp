@@ -76,10 +76,59 @@ void LineSweep::find_orders() {
   changes_.erase(std::unique(changes_.begin(), changes_.end()), changes_.end());
 }
 
+/// Whether the triangles certainly have no point in common on the image.
+bool LineSweep::are_apart(std::uint32_t a, std::uint32_t b) const {
+  return mesh_.is_regular(a) && mesh_.is_regular(b) && mesh_.box(a).misses(mesh_.box(b));
+}
+
+const DepthPlane& LineSweep::depth_plane(std::uint32_t piece) {
+  Piece& its = pieces_[piece];
+  if (!its.depth_plane) its.depth_plane.emplace(mesh_, its.triangle, part_);
+  return *its.depth_plane;
+}
+
+/// Whether the place where two lines cross is a corner of both triangles.
+bool LineSweep::meet_at_corner(std::uint32_t a, std::uint32_t b, std::uint32_t e,
+                               std::uint32_t f) const {
+  const auto vertex = lines_.common_vertex(e, f);
+  if (!vertex) return false;
+  const CornerIndices &of_a = mesh_.corners(a), &of_b = mesh_.corners(b);
+  return std::ranges::find(of_a, *vertex) != of_a.end() &&
+         std::ranges::find(of_b, *vertex) != of_b.end();
+}
+
+/// The signs of in_front() where edges k and k + 1 of a polygon meet, as long as bounds or a common
+/// corner, where the sign is zero, settle all of them; otherwise nothing.
+std::vector<Sign> LineSweep::certain_signs(std::uint32_t s, std::uint32_t t,
+                                           const LinePolygon& common) {
+  const std::uint32_t a = pieces_[s].triangle, b = pieces_[t].triangle;
+  if (!mesh_.is_regular(a) || !mesh_.is_regular(b)) return {};
+  const DepthPlane::Comparison comparison(depth_plane(s), depth_plane(t));
+  std::vector<Sign> signs;
+  signs.reserve(common.size());
+  bool settles_order = false;
+  for (std::size_t k = 0; k < common.size(); ++k) {
+    const std::uint32_t e = common[k].line, f = common[(k + 1) % common.size()].line;
+    signs.push_back(comparison.sign_at(approximate_crossing(lines_[e], lines_[f])));
+    if (signs.back() != Sign::zero) {
+      settles_order = true;
+    } else if (!meet_at_corner(a, b, e, f)) {
+      return {};
+    }
+  }
+  if (!settles_order) signs.clear();
+  return signs;
+}
+
+/// The form of in_front() in the coordinates of the part.
+ExactVector3 LineSweep::in_front_here(std::uint32_t s, std::uint32_t t) {
+  return localised(in_front(surface(s), surface(t)).coefficients());
+}
+
 // The form of in_front() is affine; where the pieces overlap, its signs at the corners decide.
 LineSweep::Order LineSweep::order_of(std::uint32_t s, std::uint32_t t) {
   const Piece &a = pieces_[s], &b = pieces_[t];
-  if (a.polygon.empty() || b.polygon.empty()) return {};
+  if (a.polygon.empty() || b.polygon.empty() || are_apart(a.triangle, b.triangle)) return {};
   if (a.depths.upper < b.depths.lower) return {Sign::positive, {}};
   if (b.depths.upper < a.depths.lower) return {Sign::negative, {}};
   if (are_mates(a.triangle, b.triangle)) return {};
@@ -88,20 +137,21 @@ LineSweep::Order LineSweep::order_of(std::uint32_t s, std::uint32_t t) {
     common = clipped(lines_, std::move(common), h);
     if (common.empty()) return {};
   }
-  const LinearForm form = in_front(surface(s), surface(t));
-  const ExactVector3 local = localised(form.coefficients());
-  if (local[0].is_zero() && local[1].is_zero()) {
-    if (!local[2].is_zero()) return {local[2].sign(), {}};
-    return {mesh_.number(a.triangle) < mesh_.number(b.triangle) ? Sign::positive : Sign::negative,
-            {}};
-  }
-  const HalfPlane half(local);
-  TierCounts counts;
-  std::vector<Sign> signs;
-  for (std::size_t k = 0; k < common.size(); ++k) {
-    const OrientedLine &e = common[k], &f = common[(k + 1) % common.size()];
-    signs.push_back(oriented(sign_of_determinant(half, lines_[e.line], lines_[f.line], counts),
-                             e.reversed != f.reversed));
+  std::vector<Sign> signs = certain_signs(s, t, common);
+  if (signs.empty()) {
+    const ExactVector3 form = in_front_here(s, t);
+    if (form[0].is_zero() && form[1].is_zero()) {
+      if (!form[2].is_zero()) return {form[2].sign(), {}};
+      return {mesh_.number(a.triangle) < mesh_.number(b.triangle) ? Sign::positive : Sign::negative,
+              {}};
+    }
+    const HalfPlane half(form);
+    TierCounts counts;
+    for (std::size_t k = 0; k < common.size(); ++k) {
+      const OrientedLine &e = common[k], &f = common[(k + 1) % common.size()];
+      signs.push_back(oriented(sign_of_determinant(half, lines_[e.line], lines_[f.line], counts),
+                               e.reversed != f.reversed));
+    }
   }
   const bool in_front = std::ranges::find(signs, Sign::positive) != signs.end();
   const bool behind = std::ranges::find(signs, Sign::negative) != signs.end();
@@ -109,7 +159,7 @@ LineSweep::Order LineSweep::order_of(std::uint32_t s, std::uint32_t t) {
     find_meetings(common, signs);
     return {in_front ? Sign::positive : Sign::negative, {}};
   }
-  const OrientedLine line = lines_.add(local);
+  const OrientedLine line = lines_.add(in_front_here(s, t));
   changes_.push_back(line.line);
   return {Sign::zero, line};
 }

@@ -9,6 +9,7 @@
 #include "fathom/area/convex_union.h"
 #include "fathom/area/plane/part_lines.h"
 #include "fathom/area/plane/sheets.h"
+#include "fathom/area/plane/triangle_words.h"
 
 namespace fathom::area {
 
@@ -66,6 +67,7 @@ class LineSweep {
     std::vector<OrientedLine> region;
     LinePolygon polygon;
     Interval depths;
+    std::optional<DepthPlane> depth_plane;
     std::optional<SurfaceRegion> surface;
   };
   /// The order of two pieces where they overlap: the same everywhere, or different on the two sides
@@ -86,7 +88,14 @@ class LineSweep {
   void add_sides();
   void add_piece(std::uint32_t triangle);
   [[nodiscard]] bool are_mates(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] bool are_apart(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] const DepthPlane& depth_plane(std::uint32_t piece);
   [[nodiscard]] Order order_of(std::uint32_t s, std::uint32_t t);
+  [[nodiscard]] bool meet_at_corner(std::uint32_t a, std::uint32_t b, std::uint32_t e,
+                                    std::uint32_t f) const;
+  [[nodiscard]] std::vector<Sign> certain_signs(std::uint32_t s, std::uint32_t t,
+                                                const LinePolygon& common);
+  [[nodiscard]] ExactVector3 in_front_here(std::uint32_t s, std::uint32_t t);
   [[nodiscard]] Order& order(std::uint32_t s, std::uint32_t t) {
     return orders_[std::size_t{s} * pieces_.size() + t];
   }

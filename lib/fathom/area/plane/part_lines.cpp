@@ -18,17 +18,24 @@ OrientedLine PartLines::add(ExactVector3 coefficients, std::span<const std::uint
   HalfPlane line(std::move(coefficients));
   std::vector<Sign> turns;
   turns.reserve(lines_.size() + 1);
-  for (std::uint32_t other = 0; other < lines_.size(); ++other) {
-    turns.push_back(sign_of_turn(line, lines_[other], counts_));
-    if (turns.back() != Sign::zero || !are_same_line(line, lines_[other])) continue;
+  for (std::uint32_t other = 0; other < size(); ++other) {
+    const HalfPlane& its = *places_[other];
+    turns.push_back(sign_of_turn(line, its, counts_));
+    if (turns.back() != Sign::zero || !are_same_line(line, its)) continue;
     vertices_[other].insert(vertices_[other].end(), vertices.begin(), vertices.end());
-    return {other, !same_side(line, lines_[other])};
+    return {other, !same_side(line, its)};
   }
   turns.push_back(Sign::zero);
   turns_.push_back(std::move(turns));
-  lines_.push_back(std::move(line));
+  places_.push_back(&lines_.emplace_back(std::move(line)));
   vertices_.emplace_back(vertices.begin(), vertices.end());
   return {size() - 1, false};
+}
+
+std::optional<std::uint32_t> PartLines::common_vertex(std::uint32_t a, std::uint32_t b) const {
+  const auto& its = vertices_[a];
+  const auto found = std::ranges::find_first_of(its, vertices_[b]);
+  return found == its.end() ? std::nullopt : std::optional(*found);
 }
 
 bool PartLines::share_vertex(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
@@ -41,13 +48,13 @@ bool PartLines::share_vertex(std::uint32_t a, std::uint32_t b, std::uint32_t c) 
 }
 
 Sign PartLines::determinant(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-  const Certified<double> d = approximate_determinant(lines_[a], lines_[b], lines_[c]);
+  const Certified<double> d = approximate_determinant(*places_[a], *places_[b], *places_[c]);
   if (std::abs(d.value) > d.error) {
     ++counts_.interval;
     return d.value > 0 ? Sign::positive : Sign::negative;
   }
   if (share_vertex(a, b, c)) return Sign::zero;
-  return sign_of_determinant(lines_[a], lines_[b], lines_[c], counts_);
+  return sign_of_determinant(*places_[a], *places_[b], *places_[c], counts_);
 }
 
 // As ConvexPolygon::clip().

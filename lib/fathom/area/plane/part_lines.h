@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -25,6 +26,10 @@ struct OrientedLine {
 ///          a mesh are recognised by its number, which bounds could never decide.
 class PartLines {
  public:
+  PartLines() = default;
+  PartLines(const PartLines&) = delete;
+  PartLines& operator=(const PartLines&) = delete;
+
   /// The line of some coefficients; `vertices` are numbers of vertices on it.
   OrientedLine add(ExactVector3 coefficients, std::span<const std::uint32_t> vertices = {});
   /// The line through two vertices, with the inside on the left of the way from the first to the
@@ -44,13 +49,15 @@ class PartLines {
 
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(lines_.size()); }
   /// It stays where it is.
-  [[nodiscard]] const HalfPlane& operator[](std::uint32_t line) const { return lines_[line]; }
+  [[nodiscard]] const HalfPlane& operator[](std::uint32_t line) const { return *places_[line]; }
 
   /// The sign of turn(a, b), and of det(a, b, c), of the lines with their own insides.
   [[nodiscard]] Sign turn(std::uint32_t a, std::uint32_t b) const {
     return a < b ? -turns_[b][a] : turns_[a][b];
   }
   [[nodiscard]] Sign determinant(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+  /// A known vertex through which both lines pass.
+  [[nodiscard]] std::optional<std::uint32_t> common_vertex(std::uint32_t a, std::uint32_t b) const;
   /// Whether the lines pass through one known vertex.
   [[nodiscard]] bool share_vertex(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 
@@ -59,6 +66,8 @@ class PartLines {
 
  private:
   std::deque<HalfPlane> lines_;
+  /// Where the lines are: a deque takes longer to find them.
+  std::vector<const HalfPlane*> places_;
   std::vector<std::vector<std::uint32_t>> vertices_;
   /// turns_[a][b] for b ≤ a.
   std::vector<std::vector<Sign>> turns_;

@@ -43,6 +43,10 @@ class ProjectedScene {
   }
   [[nodiscard]] const BoundedPoint& point(std::uint32_t vertex) const { return points_[vertex]; }
   [[nodiscard]] const Interval& depth(std::uint32_t vertex) const { return depths_[vertex]; }
+  [[nodiscard]] const Dyadic& exact_depth(std::uint32_t vertex) const {
+    return vertices_[vertex].depth;
+  }
+  [[nodiscard]] bool has_perspective() const { return is_perspective_; }
   /// The whole image.
   [[nodiscard]] const PlanePart& image() const { return image_; }
 
