@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 
@@ -125,6 +126,56 @@ TEST(PlaneAreas, OfASheetThatWindsTwiceAreThoseOfPairs) {
   EXPECT_NEAR(all, 32, 1e-12);
 }
 
+/// A scene's mesh on the image.
+struct MeshOnImage {
+  TriangleSource triangles;
+  std::function<void(double)> no_report;
+  Progress progress{no_report, 1};
+  ProjectedScene projected;
+  PlaneMesh mesh;
+
+  MeshOnImage(const Scene& scene, const Camera& camera)
+      : triangles(scene),
+        projected({triangles, camera}, progress),
+        mesh(projected, numbers_of(projected)) {}
+  static std::vector<std::uint32_t> numbers_of(const ProjectedScene& scene) {
+    std::vector<std::uint32_t> numbers(scene.count());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    return numbers;
+  }
+};
+
+/// Counts the sums whose bounds are known and narrow.
+void expect_contained(const Words& sum, const Terms& terms, int& narrow) {
+  if (!std::isfinite(sum.error)) return;
+  const Ratio rest = Ratio(Dyadic(sum.value.hi) + Dyadic(sum.value.lo)) - sum_of(terms);
+  EXPECT_LE(compare(Ratio(abs(rest.numerator), rest.denominator), Dyadic(sum.error)), 0);
+  if (sum.error < 0x1p-70) ++narrow;
+}
+
+TEST(PlaneAreas, SumsContainTheExactSums) {
+  int partly = 0, narrow = 0;
+  for (const testing::Family family : testing::all_families) {
+    SCOPED_TRACE(name_of(family));
+    testing::for_each_adversary(20, [&](std::uint64_t seed) {
+      const Case c = testing::adversarial_case(family, seed);
+      const MeshOnImage image(c.scene, c.camera);
+      const PlaneAreas exact(image.mesh, {.image = false, .share = true, .moments = true}),
+          summed(image.mesh, {.image = false, .sums = true});
+      for (std::uint32_t i = 0; i < image.mesh.size(); ++i) {
+        ASSERT_EQ(summed.visibility(i), exact.visibility(i));
+        if (exact.visibility(i) != Visibility::partly) continue;
+        ++partly;
+        EXPECT_TRUE(summed.terms(i).share.empty());
+        expect_contained(summed.sums(i).share, exact.terms(i).share, narrow);
+        expect_contained(summed.sums(i).beta, exact.terms(i).beta, narrow);
+        expect_contained(summed.sums(i).gamma, exact.terms(i).gamma, narrow);
+      }
+    });
+  }
+  EXPECT_GT(narrow, partly);
+}
+
 /// Of a closed surface without arithmetic: the far side is hidden by the near one, whose inner
 /// triangles are visible as a whole.
 TEST(PlaneAreas, MostOfASphereIsSettledByItsSheets) {
@@ -132,13 +183,8 @@ TEST(PlaneAreas, MostOfASphereIsSettledByItsSheets) {
   scene.meshes.push_back(testing::sphere(60));
   scene.objects.push_back({.name = "sphere"});
   const Camera camera = in_front_of_spheres();
-  const TriangleSource triangles(scene);
-  const std::function<void(double)> no_report;
-  Progress progress(no_report, 1);
-  const ProjectedScene projected({triangles, camera}, progress);
-  std::vector<std::uint32_t> numbers(projected.count());
-  std::iota(numbers.begin(), numbers.end(), 0);
-  const PlaneMesh mesh(projected, numbers);
+  const MeshOnImage image(scene, camera);
+  const PlaneMesh& mesh = image.mesh;
   const PlaneAreas areas(mesh, {.image = true});
   std::size_t whole = 0, hidden = 0, pieces = 0;
   for (std::uint32_t i = 0; i < mesh.size(); ++i) {

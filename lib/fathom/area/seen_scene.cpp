@@ -195,7 +195,18 @@ SurfaceTerms in_order(const ProjectedScene& scene, std::uint32_t number, Surface
   return terms;
 }
 
-/// Calls visit(number, terms) for each triangle of the mesh that is not hidden for certain.
+/// The same for sums.
+SurfaceSums in_order(const ProjectedScene& scene, std::uint32_t number, SurfaceSums sums) {
+  if (scene.orientation(number) == Sign::positive) return sums;
+  if (scene.kind(number) == TriangleKind::regular) {
+    std::swap(sums.beta, sums.gamma);
+  } else {
+    for (Words* some : {&sums.share, &sums.beta, &sums.gamma}) *some = -*some;
+  }
+  return sums;
+}
+
+/// Calls visit(number, terms, sums) for each triangle of the mesh that is not hidden for certain.
 template <class Visit>
 void visit_seen(const PlaneMesh& mesh, const WantedTerms& wanted, const Visit& visit) {
   const ProjectedScene& scene = mesh.scene();
@@ -204,12 +215,17 @@ void visit_seen(const PlaneMesh& mesh, const WantedTerms& wanted, const Visit& v
     const std::uint32_t number = mesh.number(i);
     if (areas.visibility(i) == Visibility::hidden) continue;
     if (areas.visibility(i) == Visibility::whole) {
-      const Ratio one(Dyadic(1.0));
-      visit(number,
-            SurfaceTerms{
-                wanted.image ? Terms{scene.own_area(number)} : Terms(), {one}, {one}, {one}});
+      SurfaceTerms terms;
+      if (wanted.image) terms.image = {scene.own_area(number)};
+      if (wanted.on_surface() || wanted.sums) {
+        terms.share = terms.beta = terms.gamma = {Dyadic(1.0)};
+      }
+      SurfaceSums sums;
+      if (wanted.sums) sums.share = sums.beta = sums.gamma = {1.0, 0};
+      visit(number, terms, sums);
     } else {
-      visit(number, in_order(scene, number, areas.terms(i)));
+      const SurfaceSums sums = wanted.sums ? in_order(scene, number, areas.sums(i)) : SurfaceSums();
+      visit(number, in_order(scene, number, areas.terms(i)), sums);
     }
   }
 }
@@ -217,15 +233,18 @@ void visit_seen(const PlaneMesh& mesh, const WantedTerms& wanted, const Visit& v
 }  // namespace
 
 Ratio SeenTriangle::moment(std::size_t axis) const {
-  return Ratio(corner[axis]) * share + Ratio(to_second[axis]) * third(beta) +
-         Ratio(to_third[axis]) * third(gamma);
+  return Ratio(corner[axis]) * share() + Ratio(to_second[axis]) * third(sum_of(terms->beta)) +
+         Ratio(to_third[axis]) * third(sum_of(terms->gamma));
 }
 
 SeenScene::SeenScene(const TriangleSource& triangles, LightKind kind,
                      const std::vector<Camera>& cameras, const std::array<double, 3>& light,
                      Cull cull)
-    : triangles_(triangles), kind_(kind), light_(light), terms_(triangles.count()) {
-  wanted_ = {.image = kind == LightKind::camera, .share = true, .moments = true};
+    : triangles_(triangles),
+      kind_(kind),
+      light_(light),
+      sums_(triangles.count()),
+      terms_(triangles.count()) {
   if (kind == LightKind::camera) {
     unoccluded_.resize(triangles.count());
     facings_.resize(triangles.count());
@@ -233,21 +252,31 @@ SeenScene::SeenScene(const TriangleSource& triangles, LightKind kind,
   for (const Camera& camera : cameras) {
     const std::function<void(double)> no_report;
     Progress progress(no_report, 1);
-    add(scenes_.emplace_back(CoverageFrame{triangles, camera, cull}, progress));
-    if (kind == LightKind::camera) add_image(scenes_.back(), shows_mirror_image(camera));
+    const ProjectedScene& scene =
+        scenes_.emplace_back(CoverageFrame{triangles, camera, cull}, progress);
+    add(scene, {.image = kind == LightKind::camera, .sums = true});
+    if (kind == LightKind::camera) add_image(scene, shows_mirror_image(camera));
   }
+}
+
+void SeenScene::find_exact_sums() {
+  if (has_exact_sums_) return;
+  for (SurfaceTerms& terms : terms_) {
+    for (Terms* some : {&terms.share, &terms.beta, &terms.gamma}) some->clear();
+  }
+  for (const ProjectedScene& scene : scenes_) {
+    add(scene, {.image = false, .share = true, .moments = true});
+  }
+  has_exact_sums_ = true;
 }
 
 SeenTriangle SeenScene::triangle(std::uint32_t number) const {
   SeenTriangle seen = placed(number);
-  const SurfaceTerms& terms = terms_[number];
-  seen.share = sum_of(terms.share);
-  seen.beta = sum_of(terms.beta);
-  seen.gamma = sum_of(terms.gamma);
-  if (kind_ == LightKind::camera) {
-    seen.visible = sum_of(terms.image);
-    seen.unoccluded = unoccluded_[number];
-  }
+  seen.sums = sums_[number];
+  seen.terms = &terms_[number];
+  // Only triangles that are visible as a whole have terms before find_exact_sums().
+  seen.has_exact_sums = has_exact_sums_ || !seen.terms->share.empty();
+  if (kind_ == LightKind::camera) seen.unoccluded = unoccluded_[number];
   return seen;
 }
 
@@ -264,7 +293,7 @@ Terms SeenScene::alone(std::span<const std::uint32_t> numbers) const {
   const PlaneMesh mesh(scenes_.front(), numbers);
   const bool in_pixels = kind_ == LightKind::camera;
   visit_seen(mesh, {.image = in_pixels, .share = !in_pixels},
-             [&](std::uint32_t number, const SurfaceTerms& terms) {
+             [&](std::uint32_t number, const SurfaceTerms& terms, const SurfaceSums&) {
                Ratio area = in_pixels ? sum_of(terms.image)
                                       : sum_of(terms.share) * Ratio(placed(number).facing);
                if (area.sign() != Sign::zero) areas.push_back(std::move(area));
@@ -272,19 +301,14 @@ Terms SeenScene::alone(std::span<const std::uint32_t> numbers) const {
   return areas;
 }
 
-void SeenScene::add(const ProjectedScene& scene) {
+void SeenScene::add(const ProjectedScene& scene, const WantedTerms& wanted) {
   std::vector<std::uint32_t> numbers(scene.count());
   std::iota(numbers.begin(), numbers.end(), 0);
-  visit_seen(PlaneMesh(scene, numbers), wanted_,
-             [&](std::uint32_t number, const SurfaceTerms& terms) { add(number, terms); });
-}
-
-void SeenScene::add(std::uint32_t number, const SurfaceTerms& some) {
-  SurfaceTerms& all = terms_[number];
-  all.image.insert(all.image.end(), some.image.begin(), some.image.end());
-  all.share.insert(all.share.end(), some.share.begin(), some.share.end());
-  all.beta.insert(all.beta.end(), some.beta.begin(), some.beta.end());
-  all.gamma.insert(all.gamma.end(), some.gamma.begin(), some.gamma.end());
+  visit_seen(PlaneMesh(scene, numbers), wanted,
+             [&](std::uint32_t number, const SurfaceTerms& terms, const SurfaceSums& sums) {
+               append(terms_[number], SurfaceTerms(terms));
+               if (wanted.sums) sums_[number] += sums;
+             });
 }
 
 void SeenScene::add_image(const ProjectedScene& scene, bool is_mirrored) {

@@ -28,23 +28,30 @@ Camera camera_of_direction(const TriangleSource& triangles, const std::array<dou
 /// Fails    UsageError if the point is not finite.
 std::vector<Camera> cameras_of_point(const std::array<double, 3>& point);
 
-// The parts of triangles that a light sees, as exact numbers. The caller computes the irrational
-// factors of an area: the length of a direction and the lengths of normals.
+// The parts of triangles that a light sees, as sums with bounds, and as exact numbers on request.
+// The caller computes the irrational factors of an area: the length of a direction and the lengths
+// of normals.
 
 enum class LightKind : std::uint8_t { direction, point, camera };
 
-/// The part of a triangle that a light sees, exactly.
+/// The part of a triangle that a light sees.
 struct SeenTriangle {
   LitSide side = LitSide::edge;
-  /// The visible share of the triangle's area, and this share times 3β and 3γ of its centre, as in
-  /// SurfaceTerms.
-  Ratio share, beta, gamma;
-  /// From a camera, in pixels: the visible area, and the area with all other triangles removed.
-  Ratio visible, unoccluded;
+  /// The visible share of the triangle's area, and this share times 3β and 3γ of its centre.
+  SurfaceSums sums;
+  /// Exact terms of the sums, unless they are still unknown, and of the visible area in pixels from
+  /// a camera. The scene keeps them.
+  const SurfaceTerms* terms = nullptr;
+  bool has_exact_sums = false;
+  /// From a camera, in pixels: the area with all other triangles removed.
+  Ratio unoccluded;
   ExactVector3 corner, to_second, to_third, normal;
   /// |n·d| of a direction.
   Dyadic facing;
 
+  // Exact sums, which take long. share() and moment() need has_exact_sums.
+  [[nodiscard]] Ratio share() const { return sum_of(terms->share); }
+  [[nodiscard]] Ratio visible() const { return sum_of(terms->image); }
   /// The share times the centre.
   [[nodiscard]] Ratio moment(std::size_t axis) const;
 };
@@ -57,8 +64,12 @@ class SeenScene {
             const std::array<double, 3>& light, Cull cull);
 
   /// Whether nothing is visible of a triangle, for certain.
-  [[nodiscard]] bool is_hidden(std::uint32_t number) const { return terms_[number].share.empty(); }
+  [[nodiscard]] bool is_hidden(std::uint32_t number) const {
+    return is_exact_zero(sums_[number].share);
+  }
   [[nodiscard]] SeenTriangle triangle(std::uint32_t number) const;
+  /// Computes the exact terms of all sums, which takes about as long as the scene did.
+  void find_exact_sums();
 
   /// From a camera, terms whose sum is the area of the image in which something is visible.
   [[nodiscard]] Terms image_terms() const;
@@ -68,8 +79,7 @@ class SeenScene {
   [[nodiscard]] Terms alone(std::span<const std::uint32_t> numbers) const;
 
  private:
-  void add(const ProjectedScene& scene);
-  void add(std::uint32_t number, const SurfaceTerms& some);
+  void add(const ProjectedScene& scene, const WantedTerms& wanted);
   void add_image(const ProjectedScene& scene, bool is_mirrored);
   /// The triangle's place and facing; nothing that depends on other triangles.
   [[nodiscard]] SeenTriangle placed(std::uint32_t number) const;
@@ -78,9 +88,10 @@ class SeenScene {
   const TriangleSource& triangles_;
   LightKind kind_;
   std::array<double, 3> light_;
-  WantedTerms wanted_;
   std::deque<ProjectedScene> scenes_;
+  std::vector<SurfaceSums> sums_;
   std::vector<SurfaceTerms> terms_;
+  bool has_exact_sums_ = false;
   /// From a camera.
   std::vector<Ratio> unoccluded_;
   /// The sign of n·d.

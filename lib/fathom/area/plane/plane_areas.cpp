@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "fathom/area/image_cell.h"
-#include "fathom/area/plane/line_sweep.h"
+#include "fathom/area/plane/triangle_words.h"
 #include "fathom/area/visible_fragments.h"
 #include "fathom/threads/interruption.h"
 
@@ -88,6 +88,8 @@ void append(Terms& all, Terms&& some) {
   }
 }
 
+}  // namespace
+
 void append(SurfaceTerms& all, SurfaceTerms&& some) {
   append(all.image, std::move(some.image));
   append(all.share, std::move(some.share));
@@ -95,22 +97,80 @@ void append(SurfaceTerms& all, SurfaceTerms&& some) {
   append(all.gamma, std::move(some.gamma));
 }
 
+namespace {
+
 void add_terms(SurfaceTerms& terms, const Boundary& boundary, const SurfaceOnPart& on,
                const WantedTerms& wanted) {
   if (wanted.image) add_image_terms(terms, boundary);
   if (wanted.on_surface()) add_surface_terms(terms, boundary, on, wanted);
 }
 
-SurfaceTerms terms_of_clip(const SurfaceRegion& surface, const PlanePart& part,
-                           const WantedTerms& wanted) {
-  SurfaceTerms terms;
-  ImageCell cell = cell_of(part);
-  TierCounts counts;
-  if (const auto piece = cell.clip(surface.region, counts)) {
-    add_terms(terms, boundary_of(piece->polygon), {surface, part}, wanted);
+/// The exact terms of which sums are made.
+constexpr WantedTerms all_on_surface{.image = false, .share = true, .moments = true};
+
+/// The sums of regular triangles over the lines of a sweep, as add_surface_terms().
+class SweptSums {
+ public:
+  SweptSums(const PlaneMesh& mesh, const CrowdedPart& crowded, const PartLines& lines)
+      : mesh_(mesh),
+        crowded_(crowded),
+        lines_(lines),
+        words_(lines.size()),
+        pieces_(crowded.triangles.size()) {}
+
+  /// Adds what a part of a line contributes to the piece on its left and to that on its right.
+  void add(const LineSweep::Span& span) {
+    const WordVector from = cross(line(span.along), line(span.from)),
+                     to = cross(line(span.along), line(span.to));
+    if (span.left.piece != LineSweep::none) add(span.left.piece, from, to);
+    if (span.right.piece != LineSweep::none) add(span.right.piece, to, from);
   }
-  return terms;
-}
+  [[nodiscard]] const SurfaceSums& sums(std::size_t piece) const { return pieces_[piece].sums; }
+
+ private:
+  /// β and γ.
+  struct Place {
+    Words b, c;
+  };
+  struct Piece {
+    struct Forms {
+      WordVector b, c, sigma;
+    };
+    std::optional<Forms> forms;
+    SurfaceSums sums;
+
+    [[nodiscard]] Place at(const WordVector& place) const {
+      const Words sigma = dot(forms->sigma, place);
+      return {dot(forms->b, place) / sigma, dot(forms->c, place) / sigma};
+    }
+  };
+
+  const WordVector& line(std::uint32_t number) {
+    auto& its = words_[number];
+    if (!its) its = in_words(lines_[number].exact());
+    return *its;
+  }
+
+  void add(std::uint32_t number, const WordVector& from, const WordVector& to) {
+    Piece& piece = pieces_[number];
+    if (!piece.forms) {
+      const auto [a, b, c] = edges_in_words(mesh_, crowded_.triangles[number], crowded_.part);
+      piece.forms =
+          Piece::Forms{b, c, {a[0] + b[0] + c[0], a[1] + b[1] + c[1], a[2] + b[2] + c[2]}};
+    }
+    const Place p = piece.at(from), q = piece.at(to);
+    const Words product = p.b * q.c - p.c * q.b;
+    piece.sums.share = piece.sums.share + product;
+    piece.sums.beta = piece.sums.beta + product * (p.b + q.b);
+    piece.sums.gamma = piece.sums.gamma + product * (p.c + q.c);
+  }
+
+  const PlaneMesh& mesh_;
+  const CrowdedPart& crowded_;
+  const PartLines& lines_;
+  std::vector<std::optional<WordVector>> words_;
+  std::vector<Piece> pieces_;
+};
 
 }  // namespace
 
@@ -130,6 +190,7 @@ PlaneAreas::PlaneAreas(const PlaneMesh& mesh, const WantedTerms& wanted,
     if (!is_whole) place_[i] = places++;
   }
   terms_.resize(places);
+  if (wanted.sums) sums_.resize(places);
   // Pieces of about equal size, in reported steps.
   const std::size_t crowded = resolved_.crowded.size(), all = crowded + resolved_.clips.size();
   for (std::size_t step = 0; step < parts; ++step) {
@@ -151,9 +212,31 @@ const SurfaceTerms& PlaneAreas::terms(std::uint32_t i) const {
   return visibility_[i] == Visibility::partly ? terms_[place_[i]] : none;
 }
 
-void PlaneAreas::add(std::uint32_t i, SurfaceTerms&& terms) {
+void PlaneAreas::add(std::uint32_t i, SurfaceTerms&& terms, const SurfaceSums& sums) {
   const std::lock_guard lock(mutexes_[i % mutexes_.size()]);
   append(terms_[place_[i]], std::move(terms));
+  if (wanted_.sums) sums_[place_[i]] += sums;
+}
+
+void PlaneAreas::add_terms(std::uint32_t i, const Boundary& boundary, const SurfaceOnPart& on) {
+  SurfaceTerms terms;
+  area::add_terms(terms, boundary, on, wanted_);
+  SurfaceSums sums;
+  if (wanted_.sums) {
+    SurfaceTerms summed;
+    area::add_terms(summed, boundary, on, all_on_surface);
+    sums = SurfaceSums(summed);
+  }
+  add(i, std::move(terms), sums);
+}
+
+void PlaneAreas::add_sums(const CrowdedPart& crowded, LineSweep& swept) {
+  SweptSums sums(mesh_, crowded, swept.lines());
+  for (const LineSweep::Span& span : swept.spans()) sums.add(span);
+  for (std::size_t piece = 0; piece < crowded.triangles.size(); ++piece) {
+    const SurfaceSums& its = sums.sums(piece);
+    if (!is_exact_zero(its.share)) add(crowded.triangles[piece], {}, its);
+  }
 }
 
 void PlaneAreas::add_crowded(const CrowdedPart& crowded) {
@@ -164,16 +247,16 @@ void PlaneAreas::add_crowded(const CrowdedPart& crowded) {
 bool PlaneAreas::sweep(const CrowdedPart& crowded) {
   LineSweep swept(mesh_, crowded.part, crowded.triangles);
   if (!swept.is_simple()) return false;
+  const bool only_sums = wanted_.sums && !wanted_.image && !wanted_.on_surface();
+  if (only_sums && std::ranges::all_of(crowded.triangles,
+                                       [&](std::uint32_t i) { return mesh_.is_regular(i); })) {
+    add_sums(crowded, swept);
+    return true;
+  }
   const std::vector<Boundary> boundaries = swept.boundaries();
   for (std::size_t piece = 0; piece < boundaries.size(); ++piece) {
-    const Boundary& boundary = boundaries[piece];
-    if (boundary.empty()) continue;
-    SurfaceTerms terms;
-    if (wanted_.image) add_image_terms(terms, boundary);
-    if (wanted_.on_surface()) {
-      add_surface_terms(terms, boundary, {swept.surface(piece), crowded.part}, wanted_);
-    }
-    add(crowded.triangles[piece], std::move(terms));
+    if (boundaries[piece].empty()) continue;
+    add_terms(crowded.triangles[piece], boundaries[piece], {swept.surface(piece), crowded.part});
   }
   return true;
 }
@@ -195,10 +278,8 @@ void PlaneAreas::divide_crowd(const CrowdedPart& crowded) {
       const Boundary boundary = part.visible(piece);
       if (boundary.empty()) continue;
       const SurfaceRegion& surface = part.surface(piece);
-      SurfaceTerms terms;
-      add_terms(terms, boundary, {surface, crowded.part}, wanted_);
-      add(crowded.triangles[static_cast<std::size_t>(&surface - surfaces.data())],
-          std::move(terms));
+      add_terms(crowded.triangles[static_cast<std::size_t>(&surface - surfaces.data())], boundary,
+                {surface, crowded.part});
     }
   });
 }
@@ -206,7 +287,11 @@ void PlaneAreas::divide_crowd(const CrowdedPart& crowded) {
 void PlaneAreas::add_clip(const VisibleClip& clip) {
   if (visibility_[clip.triangle] != Visibility::partly) return;
   const SurfaceRegion surface = mesh_.scene().surface(mesh_.number(clip.triangle));
-  add(clip.triangle, terms_of_clip(surface, clip.part, wanted_));
+  ImageCell cell = cell_of(clip.part);
+  TierCounts counts;
+  if (const auto piece = cell.clip(surface.region, counts)) {
+    add_terms(clip.triangle, boundary_of(piece->polygon), {surface, clip.part});
+  }
 }
 
 Ratio unoccluded_area(const ProjectedScene& scene, std::uint32_t number) {
@@ -218,7 +303,10 @@ Ratio unoccluded_area(const ProjectedScene& scene, std::uint32_t number) {
     case TriangleExtent::elsewhere:
       break;
   }
-  return sum_of(terms_of_clip(scene.surface(number), scene.image(), {.image = true}).image);
+  ImageCell cell = cell_of(scene.image());
+  TierCounts counts;
+  const auto piece = cell.clip(scene.surface(number).region, counts);
+  return piece ? exact_area(boundary_of(piece->polygon)) : Ratio();
 }
 
 }  // namespace fathom::area
