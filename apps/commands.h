@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/camera/shutter_command.h"
 #include "apps/shell/command.h"
 
 /// Commands of `fathom` and `fathom-textbook`. `render` is in render/render_arguments.h, and
@@ -39,7 +40,9 @@ void add_doctor(Command& program);
 void add_depth(Command& program);
 
 /// `fathom camera look-at | orbit | directions | shutter | import …`: makes camera files and rays.
-void add_camera(Command& program);
+void add_camera(Command& program, const ShutterRun& shutter);
+/// `fathom camera shutter` alone, as fathom-surfaces has it.
+void add_camera_shutter(Command& program);
 
 // The algorithms of the textbooks, by themselves and as a pipeline.
 

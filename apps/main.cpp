@@ -54,12 +54,23 @@ Render by_textbook(const std::vector<std::string>& arguments) {
   };
 }
 
+/// `camera shutter` is carried out by fathom-surfaces, which has rays.
+ShutterRun by_surfaces(const std::vector<std::string>& arguments) {
+  return [arguments](const ShutterArguments&, const Console&) -> int {
+    start_companion("fathom-surfaces", arguments);
+    throw UsageError(not_built("'camera shutter'", "fathom-surfaces", "camera shutter"));
+  };
+}
+
 std::vector<AddCommand> commands(const std::vector<std::string>& arguments) {
   const auto add_render_command = [arguments](Command& program) {
     add_render(program, render_exactly, by_textbook(arguments));
   };
-  return {add_render_command, add_probe,  add_info,    add_preview, add_compare,
-          add_convert,        add_camera, add_dataset, add_depth};
+  const auto add_camera_command = [arguments](Command& program) {
+    add_camera(program, by_surfaces(arguments));
+  };
+  return {add_render_command, add_probe,          add_info,    add_preview, add_compare,
+          add_convert,        add_camera_command, add_dataset, add_depth};
 }
 
 }  // namespace

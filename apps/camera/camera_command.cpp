@@ -5,32 +5,23 @@
 #include <optional>
 
 #include "apps/camera/import_sources.h"
+#include "apps/camera/shutter_command.h"
 #include "apps/commands.h"
 #include "apps/options/camera_options.h"
 #include "apps/options/scene_options.h"
-#include "apps/rays/ray_file.h"
 #include "apps/shell/command.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/values.h"
 #include "fathom/camera/camera_files.h"
-#include "fathom/camera/trajectory.h"
 #include "fathom/camera_directions.h"
 #include "fathom/failures/errors.h"
 #include "fathom/image/directions.h"
 #include "fathom/image/map_files.h"
-#include "fathom/rays/shutter_rays.h"
 #include "fathom/scene/framing.h"
 
 namespace fathom::app {
 namespace {
-
-Camera read_one_camera(const std::string& file, const ReadLimits& limits, const Console& console) {
-  const std::vector<Camera> cameras = read_cameras_with_lenses(file, limits, console);
-  if (cameras.size() == 1) return cameras.front();
-  throw InputError(
-      fmt::format("{}: a path of {} cameras, expected a single camera", file, cameras.size()));
-}
 
 // fathom camera directions
 
@@ -67,7 +58,7 @@ void write_table(const std::string& file, const DirectionTable& table) {
 
 // EXR has no binary64.
 int run_directions(const DirectionsArguments& arguments, const Console& console) {
-  const Camera camera = read_one_camera(arguments.camera, arguments.limits, console);
+  const Camera camera = read_camera_with_lens(arguments.camera, arguments.limits, console);
   const auto rounding = map_format_of(arguments.output) == MapFormat::exr
                             ? DirectionRounding::binary32
                             : DirectionRounding::binary64;
@@ -94,62 +85,6 @@ void add_directions(Command& camera) {
                     "pixel)")
       .required();
   command.runs([arguments](const Console& console) { return run_directions(*arguments, console); });
-}
-
-// fathom camera shutter
-
-struct ShutterArguments {
-  std::string camera, poses, output;
-  double readout = 0;
-  std::optional<double> start;
-  ReadLimits limits;
-};
-
-std::string parse_ray_file(const std::string& text) {
-  if (map_format_of(text) == MapFormat::npy) return text;
-  throw UsageError("'" + text + "' does not end in .npy");
-}
-
-int run_shutter(const ShutterArguments& arguments, const Console& console) {
-  const Camera camera = read_one_camera(arguments.camera, arguments.limits, console);
-  const Trajectory path = Trajectory::read(arguments.poses);
-  OutputFile output(arguments.output);
-  const RollingShutter shutter{arguments.start.value_or(path.first_time()), arguments.readout};
-  output.write(npy_of_rays(shutter_rays(camera, path, shutter)));
-  output.commit();
-  return done;
-}
-
-void add_shutter(Command& camera) {
-  const auto arguments = std::make_shared<ShutterArguments>();
-  Command& command = camera.command(
-      "shutter", "Write the rays of a moving camera with a rolling shutter",
-      "  fathom camera shutter camera.json --poses path.txt --readout 0.03 -o rays.npy\n"
-      "  fathom cast room.json --rays rays.npy -o hits.npz\n"
-      "\nEach row of the image has its own pose. Ray row*width + column is of the pixel in this "
-      "row and column; for a pinhole, t of a hit is its planar depth. The pose of a row and each "
-      "number of its rays are rounded once.");
-  command
-      .argument("CAMERA", arguments->camera,
-                "Camera file without a lens, or a map, which contains its camera")
-      .required();
-  arguments->limits.add_confine_to(command);
-  command
-      .option(
-          "--poses", "FILE", arguments->poses,
-          "Path of the camera, lines `time tx ty tz qx qy qz qw` (seconds), camera to world, if "
-          "the pose of CAMERA is the identity. Otherwise the path of what CAMERA is mounted on")
-      .required();
-  command
-      .option("--readout", "SECONDS", into(arguments->readout, parse_number),
-              "Time from the top row to the bottom row; negative if the bottom row comes first")
-      .required();
-  command.option("--start", "SECONDS", into(arguments->start, parse_number),
-                 "Time of the top row (default: the first of --poses)");
-  add_output_option(command, "FILE", into(arguments->output, parse_ray_file),
-                    "Write the rays to this NPY file, as `fathom cast --rays` reads it")
-      .required();
-  command.runs([arguments](const Console& console) { return run_shutter(*arguments, console); });
 }
 
 // fathom camera look-at
@@ -250,7 +185,7 @@ void add_orbit(Command& camera) {
 
 }  // namespace
 
-void add_camera(Command& program) {
+void add_camera(Command& program, const ShutterRun& shutter) {
   Command& family =
       program.command("camera", "Make or import a camera file, or write its rays",
                       "  fathom camera look-at --eye 2,1,3 --target 0,0,0 -o camera.json\n"
@@ -266,7 +201,7 @@ void add_camera(Command& program) {
   add_look_at(family);
   add_orbit(family);
   add_directions(family);
-  add_shutter(family);
+  add_shutter(family, shutter);
   add_import(family);
 }
 

@@ -337,4 +337,12 @@ std::vector<Camera> read_cameras_with_lenses(const std::string& file, const Read
   return read_any_cameras(file, limits.directions_beside(file), console);
 }
 
+Camera read_camera_with_lens(const std::string& file, const ReadLimits& limits,
+                             const Console& console) {
+  const std::vector<Camera> cameras = read_cameras_with_lenses(file, limits, console);
+  if (cameras.size() == 1) return cameras.front();
+  throw InputError(
+      fmt::format("{}: a path of {} cameras, expected a single camera", file, cameras.size()));
+}
+
 }  // namespace fathom::app

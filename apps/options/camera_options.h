@@ -87,6 +87,11 @@ std::vector<Camera> read_camera_file(const std::string& file, const Console& con
 std::vector<Camera> read_cameras_with_lenses(const std::string& file, const ReadLimits& limits,
                                              const Console& console);
 
+/// The single camera of a file.
+/// Fails    InputError also for a path of several cameras.
+Camera read_camera_with_lens(const std::string& file, const ReadLimits& limits,
+                             const Console& console);
+
 /// The camera of a path whose name is the file name of a map: images/a.jpg for views/a.npy and for
 /// a.jpg.geometric.bin.
 /// Fails    UsageError unless there is exactly one.

@@ -7,8 +7,8 @@ namespace fathom::app {
 namespace {
 
 std::vector<AddCommand> commands(const std::vector<std::string>&) {
-  return {add_visible,  add_areas, add_sun,  add_draw,  add_evaluate,
-          add_coplanar, add_cast,  add_sees, add_doctor};
+  return {add_visible,  add_areas, add_sun,  add_draw,   add_evaluate,
+          add_coplanar, add_cast,  add_sees, add_doctor, add_camera_shutter};
 }
 
 }  // namespace

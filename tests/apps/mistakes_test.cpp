@@ -235,9 +235,10 @@ TEST_F(Mistakes, TheProgramByItselfListsItsCommands) {
   const Outcome outcome = fathom({});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.out, fathom({"--help"}).out);
-  EXPECT_EQ(refusal({"camera"}, 2),
-            "'fathom camera' needs a command: look-at, orbit, directions or import; see 'fathom "
-            "camera --help'\n");
+  EXPECT_EQ(
+      refusal({"camera"}, 2),
+      "'fathom camera' needs a command: look-at, orbit, directions, shutter or import; see 'fathom "
+      "camera --help'\n");
 }
 
 TEST_F(Mistakes, TheOtherSpellingOfOutput) {

@@ -32,7 +32,9 @@ std::vector<Usage> wrong_usages() {
     return more;
   };
   return {
-      {"NoCommand", {"camera"}, "needs a command: look-at, orbit, directions or import; see"},
+      {"NoCommand",
+       {"camera"},
+       "needs a command: look-at, orbit, directions, shutter or import; see"},
       {"UnknownCommand", {"rendre", "square.obj"}, "did you mean 'render'"},
       {"UnknownOption", render({"--frobnicate"}), "--frobnicate"},
       {"NoOutput", {"render", "square.obj"}, "--output"},

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "fathom/numeric/standard_arithmetic.h"
+
 namespace fathom::attribution {
 namespace {
 
@@ -19,6 +21,7 @@ double median_of(std::vector<double>& values) {
 }
 
 Location location_of(std::vector<double> values) {
+  const StandardArithmetic standard;
   const double median = median_of(values);
   for (double& value : values) value = std::abs(value - median);
   return {.median = median, .spread = deviations_per_median_distance * median_of(values)};

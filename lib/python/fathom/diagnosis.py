@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import shlex
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
 
@@ -187,6 +186,8 @@ def _command_of(scene: object, cameras: object, depths: list[Any], png_scale: fl
     words = ["fathom", "doctor", scene, "--camera", cameras, "--depth", *depths]
     if png_scale is not None:
         words += ["--png-scale", repr(float(png_scale))]
+    import shlex  # at the call: import fathom stays quick
+
     return shlex.join(os.fspath(word) for word in [*words, "-o", "corrected"])
 
 

@@ -1,4 +1,5 @@
-// Studies whose pages no test of their commands makes: their pages have all parts, and these are among the files.
+// Studies whose pages no test of their commands makes: the pages have all parts, and these are
+// among the files.
 
 #include <gtest/gtest.h>
 
