@@ -90,6 +90,10 @@ class IdleArenas {
 /// What calls of one process share.
 struct ProcessThreads {
   pid_t process = ::getpid();
+  /// Whether the process was forked off from one that had used TBB. TBB's threads do not exist in
+  /// it, and a thread of the parent may have held one of TBB's locks: the calling thread does all
+  /// work itself, without TBB.
+  bool is_forked = false;
   PossibleThreads possible;
   IdleArenas arenas;
 };
@@ -101,6 +105,7 @@ ProcessThreads& process_threads() {
   ProcessThreads* found = current.load();
   while (found == nullptr || found->process != ::getpid()) {
     auto fresh = std::make_unique<ProcessThreads>();
+    fresh->is_forked = found != nullptr;
     if (current.compare_exchange_strong(found, fresh.get())) return *fresh.release();
   }
   return *found;
@@ -121,21 +126,27 @@ void run_in_arena(int threads, const Work& work) {
   arena->execute(work);
 }
 
+/// Does some pieces of the work in the calling thread.
+void do_pieces(std::size_t begin, std::size_t end, const std::function<void(std::size_t)>& work,
+               InterruptionRequest request) {
+  const StandardArithmetic standard;
+  const Interruptible here(request);
+  for (std::size_t i = begin; i != end; ++i) {
+    check_interruption();
+    work(i);
+  }
+}
+
 void spread(std::size_t count, const std::function<void(std::size_t)>& work) {
   const InterruptionRequest request = current_interruption();
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& some) {
-    const StandardArithmetic standard;
-    const Interruptible here(request);
-    for (std::size_t i = some.begin(); i != some.end(); ++i) {
-      check_interruption();
-      work(i);
-    }
-  });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count),
+                    [&](const auto& some) { do_pieces(some.begin(), some.end(), work, request); });
 }
 
 }  // namespace
 
 void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) {
+  if (process_threads().is_forked) return do_pieces(0, count, work, current_interruption());
   const int wanted = tbb::this_task_arena::max_concurrency();
   if (process_threads().possible.of(wanted) == wanted) return spread(count, work);
   run_in_arena(wanted, [&] { spread(count, work); });
@@ -143,11 +154,13 @@ void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work
 
 void run_with_threads(int threads, const std::function<void()>& work) {
   require_thread_count(threads);
-  run_in_arena(size_of_arena(threads), [&, request = current_interruption()] {
+  const auto work_here = [&, request = current_interruption()] {
     const StandardArithmetic standard;
     const Interruptible here(request);
     work();
-  });
+  };
+  if (process_threads().is_forked) return work_here();
+  run_in_arena(size_of_arena(threads), work_here);
 }
 
 }  // namespace fathom
