@@ -147,11 +147,17 @@ class LightAreas {
     return area;
   }
 
-  /// The area of triangles each of which is at least partly visible.
-  [[nodiscard]] LitArea of(const std::vector<SeenTriangle>& group, Rounding& round) const {
-    LitArea area;
+  /// The sums of a group.
+  [[nodiscard]] AreaWords words_of(const std::vector<SeenTriangle>& group) const {
     AreaWords words;
     for (const SeenTriangle& seen : group) words += AreaWords(seen, kind_, weight_);
+    return words;
+  }
+
+  /// The area of triangles each of which is at least partly visible.
+  [[nodiscard]] LitArea of(const std::vector<SeenTriangle>& group, const AreaWords& words,
+                           Rounding& round) const {
+    LitArea area;
     if (kind_ != LightKind::point) {
       area.visible = rounded(round, words.visible, [&] { return real_sum(visible_terms(group)); });
     }
@@ -173,13 +179,11 @@ class LightAreas {
   }
 
   /// Adds the values that a group has if its areas with all other triangles removed are known.
-  void add_alone(LitArea& area, const std::vector<SeenTriangle>& group, const Terms& alone,
-                 Rounding& round) const {
+  void add_alone(LitArea& area, const std::vector<SeenTriangle>& group, const AreaWords& words,
+                 const Terms& alone, Rounding& round) const {
     const Words projected = sum_in_words(alone);
     area.projected = rounded(round, projected, [&] { return real_sum(alone); });
     if (!alone.empty()) {
-      AreaWords words;
-      for (const SeenTriangle& seen : group) words += AreaWords(seen, kind_, weight_);
       area.fraction = round(words.visible / projected, [&] {
         return group.empty() ? 0 : round_to_binary64(real_quotient(visible_terms(group), alone));
       });
@@ -329,11 +333,15 @@ std::vector<LitArea> measure(const TriangleSource& triangles, LightKind kind,
   }
   const auto members = members_of(options);
   const bool alone = options.alone && kind != LightKind::point;
+  std::vector<Terms> areas_alone(alone ? members.size() : 0);
+  in_parallel(areas_alone.size(),
+              [&](std::size_t group) { areas_alone[group] = scene.alone(members[group]); });
   return rounded_areas(
       scene, options.group_count, options.exact, [&](std::uint32_t group, Rounding& round) {
         const std::vector<SeenTriangle> seen = seen_among(scene, members[group], round);
-        LitArea area = areas.of(seen, round);
-        if (alone) areas.add_alone(area, seen, scene.alone(members[group]), round);
+        const AreaWords words = areas.words_of(seen);
+        LitArea area = areas.of(seen, words, round);
+        if (alone) areas.add_alone(area, seen, words, areas_alone[group], round);
         return area;
       });
 }

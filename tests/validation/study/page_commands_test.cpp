@@ -34,17 +34,6 @@ std::string unescaped(std::string text) {
   return text;
 }
 
-/// All that stands between two marks.
-std::vector<std::string> texts_between(const std::string& page, const std::string& begin,
-                                       const std::string& end) {
-  std::vector<std::string> texts;
-  for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
-    at += begin.size();
-    texts.push_back(page.substr(at, page.find(end, at) - at));
-  }
-  return texts;
-}
-
 /// A shell's command line, with this build's program on the PATH.
 Outcome run_by_shell(const std::string& command, const fs::path& folder) {
   RunOptions options{.folder = folder};
@@ -80,11 +69,11 @@ std::map<std::string, std::string> expect_pictures_by_commands(
   fs::create_directory(shown);
   for (const fs::path& scene : scenes) fs::copy(scene, beside);
   std::set<std::string> pictures;
-  for (const std::string& picture : texts_between(page, "<img src=\"", "\"")) {
+  for (const std::string& picture : testing::texts_between(page, "<img src=\"", "\"")) {
     fs::rename(beside / picture, shown / picture);
     pictures.insert(picture);
   }
-  const std::vector<std::string> commands = texts_between(page, "<code>", "</code>");
+  const std::vector<std::string> commands = testing::texts_between(page, "<code>", "</code>");
   EXPECT_GE(commands.size(), least_commands);
   for (const std::string& command : commands) {
     // The study itself, which has been run; another renderer, which has tests of its own.

@@ -21,22 +21,23 @@ void expect_command(const std::string& figure) {
 
 }  // namespace
 
+std::vector<std::string> texts_between(const std::string& page, const std::string& begin,
+                                       const std::string& end) {
+  std::vector<std::string> texts;
+  for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
+    at += begin.size();
+    texts.push_back(page.substr(at, page.find(end, at) - at));
+  }
+  return texts;
+}
+
 std::size_t expect_pictures(const std::string& page,
                             const std::function<bool(const std::string& name)>& is_file) {
-  for (std::size_t at = page.find("<figure"); at != std::string::npos;
-       at = page.find("<figure", at + 1)) {
-    const std::string figure = page.substr(at, page.find("</figure>", at) - at);
+  for (const std::string& figure : texts_between(page, "<figure", "</figure>"))
     if (figure.find("<img src=") != std::string::npos) expect_command(figure);
-  }
-  const std::string mark = "<img src=\"";
-  std::size_t pictures = 0;
-  for (std::size_t at = page.find(mark); at != std::string::npos; at = page.find(mark, at + 1)) {
-    const std::size_t begin = at + mark.size();
-    const std::string name = page.substr(begin, page.find('"', begin) - begin);
-    EXPECT_TRUE(is_file(name)) << name;
-    ++pictures;
-  }
-  return pictures;
+  const std::vector<std::string> pictures = texts_between(page, "<img src=\"", "\"");
+  for (const std::string& name : pictures) EXPECT_TRUE(is_file(name)) << name;
+  return pictures.size();
 }
 
 }  // namespace fathom::testing
