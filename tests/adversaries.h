@@ -14,7 +14,7 @@
 ///   FATHOM_ADVERSARIES    scenes of each family (default 900; scripts/check-long has more); of
 ///                         other things than scenes a test draws a number in proportion
 ///   FATHOM_FIRST_SEED     of the first case of each family (default 0)
-namespace fathom::testing {
+namespace fathom::checks {
 
 inline std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
   const char* text = std::getenv(name);
@@ -38,4 +38,4 @@ void for_each_adversary(std::uint64_t by_default, const Check& check) {
   }
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// Sanitizers make the code ten to fifty times slower: fewer of the random cases are run under
 /// them, of the same kinds.
@@ -10,4 +10,4 @@ inline constexpr int effort = 20;
 inline constexpr int effort = 1;
 #endif
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

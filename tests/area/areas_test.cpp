@@ -20,9 +20,9 @@
 namespace fathom {
 namespace {
 
+using checks::Case;
+using checks::rational;
 using oracle::Q;
-using testing::Case;
-using testing::rational;
 
 double nearest(const Q& q) {
   return oracle::quotient(oracle::binary64, q.get_mpq_t());
@@ -63,7 +63,7 @@ std::vector<oracle::Triangle> triangles_of(const Scene& scene) {
     const auto corners = source.world_corners(number);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& [x, y, z] = corners[k];
-      t[k] = {testing::rational(x), testing::rational(y), testing::rational(z)};
+      t[k] = {checks::rational(x), checks::rational(y), checks::rational(z)};
     }
   }
   return triangles;
@@ -72,7 +72,7 @@ std::vector<oracle::Triangle> triangles_of(const Scene& scene) {
 void expect_in_direction(const Scene& scene, const AreaDirection& direction) {
   const std::vector<oracle::Triangle> triangles = triangles_of(scene);
   const oracle::Vector d = vector_of(direction);
-  const std::vector<testing::SlabArea> expected = testing::slab_areas(triangles, d);
+  const std::vector<checks::SlabArea> expected = checks::slab_areas(triangles, d);
   const std::vector<LitArea> found = areas_in_direction(scene, direction, {.threads = 1});
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t t = 0; t < found.size(); ++t) {
@@ -111,10 +111,10 @@ AreaDirection direction_of(std::mt19937_64& random) {
 }
 
 TEST(AreasAdversaries, InADirectionAreThoseOfSlabs) {
-  for (const testing::Kind kind : {testing::Kind::few_bits, testing::Kind::neighbours}) {
+  for (const checks::Kind kind : {checks::Kind::few_bits, checks::Kind::neighbours}) {
     std::mt19937_64 random(6);
-    testing::CaseMaker maker(99, kind);
-    for (std::uint64_t i = 0; i < testing::number_of_adversaries(60) && !HasFailure(); ++i) {
+    checks::CaseMaker maker(99, kind);
+    for (std::uint64_t i = 0; i < checks::number_of_adversaries(60) && !HasFailure(); ++i) {
       SCOPED_TRACE(i);
       const Case c = maker.make();
       const AreaDirection d = direction_of(random);
@@ -142,7 +142,7 @@ Scene satellite() {
   add({-5, -5, -5}, {-5, 5, -5}, {5, 5, -5}, {5, -5, -5});
   add({0, 6, -5}, {0, 26, -5}, {0, 26, 5}, {0, 6, 5});
   add({0, -26, -5}, {0, -6, -5}, {0, -6, 5}, {0, -26, 5});
-  return testing::scene_of(v, t);
+  return checks::scene_of(v, t);
 }
 
 /// Every two triangles a face.
@@ -226,7 +226,7 @@ TEST(Areas, OfASatelliteBeforeRounding) {
 /// A group's projected area is what is visible of it in a scene without the other triangles.
 TEST(Areas, AloneAreThoseOfASceneWithoutTheRest) {
   std::mt19937_64 random(12);
-  testing::CaseMaker maker(31, testing::Kind::few_bits);
+  checks::CaseMaker maker(31, checks::Kind::few_bits);
   for (int i = 0; i < 40 && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
     const Case c = maker.make();
@@ -249,7 +249,7 @@ TEST(Areas, AloneAreThoseOfASceneWithoutTheRest) {
       one.groups.push_back(0);
     }
     if (c.scene.objects.size() != 1 || !c.scene.objects[0].placed_as_is) continue;
-    const Scene half = testing::scene_of(v, t);
+    const Scene half = checks::scene_of(v, t);
     const AreaDirection d = direction_of(random);
     for (const Cull cull : {Cull::none, Cull::back}) {
       two.cull = one.cull = cull;
@@ -295,7 +295,7 @@ TEST(Areas, OfSymmetricGroupsHaveCentresOfZero) {
       t.push_back({n, n + 1, n + 2});
     }
   }
-  const Scene ring = testing::scene_of(v, t);
+  const Scene ring = checks::scene_of(v, t);
   AreaOptions all;
   all.groups.assign(t.size(), 0);
   all.group_count = 1;
@@ -311,7 +311,7 @@ TEST(Areas, OfSymmetricGroupsHaveCentresOfZero) {
 /// Whatever the length of the direction.
 TEST(Areas, DependOnTheDirectionOnly) {
   std::mt19937_64 random(3);
-  testing::CaseMaker maker(5, testing::Kind::few_bits);
+  checks::CaseMaker maker(5, checks::Kind::few_bits);
   for (int i = 0; i < 20; ++i) {
     const Case c = maker.make();
     const AreaDirection d = direction_of(random);
@@ -333,13 +333,13 @@ TEST(Areas, DependOnTheDirectionOnly) {
 
 /// The shares that six cameras see are those that pairs of triangles leave.
 TEST(Areas, FromACameraAreThoseOfPairs) {
-  for (const testing::Family family :
-       {testing::Family::slivers, testing::Family::ties, testing::Family::around_the_eye,
-        testing::Family::range_ends, testing::Family::placements}) {
+  for (const checks::Family family :
+       {checks::Family::slivers, checks::Family::ties, checks::Family::around_the_eye,
+        checks::Family::range_ends, checks::Family::placements}) {
     SCOPED_TRACE(name_of(family));
-    testing::for_each_adversary(30, [&](std::uint64_t seed) {
-      const Case c = testing::adversarial_case(family, seed);
-      const VisibleAreas expected = testing::rounded_pairwise_areas(c.scene, c.camera);
+    checks::for_each_adversary(30, [&](std::uint64_t seed) {
+      const Case c = checks::adversarial_case(family, seed);
+      const VisibleAreas expected = checks::rounded_pairwise_areas(c.scene, c.camera);
       const auto found = areas_from_camera(c.scene, c.camera, {.threads = 1});
       AreaOptions by_object;
       const TriangleSource source(c.scene);
@@ -371,7 +371,7 @@ TEST(Areas, FromACameraAreThoseOfPairs) {
 /// Also where the pose or the projection mirrors the image: the side is one of the surface.
 TEST(Areas, FromAMirroringCameraAreOnTheSameSide) {
   const Scene scene =
-      testing::scene_of({{-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}}, {{0, 2, 1}, {0, 2, 3}});
+      checks::scene_of({{-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}}, {{0, 2, 1}, {0, 2, 3}});
   for (const ProjectionModel model :
        {ProjectionModel::perspective, ProjectionModel::orthographic}) {
     for (const bool projection_mirrors : {false, true}) {
@@ -398,15 +398,15 @@ TEST(Areas, FromAMirroringCameraAreOnTheSameSide) {
 // A wall z = 2 with |x|, |y| ≤ 4 behind a square z = 1 with |x|, |y| ≤ ½, seen from the origin: the
 // square hides |x|, |y| ≤ 1 of it.
 TEST(Areas, FromAPointAreOnTheSurface) {
-  const Scene scene = testing::scene_of({{-4, -4, 2},
-                                         {4, -4, 2},
-                                         {4, 4, 2},
-                                         {-4, 4, 2},
-                                         {-0.5, -0.5, 1},
-                                         {0.5, -0.5, 1},
-                                         {0.5, 0.5, 1},
-                                         {-0.5, 0.5, 1}},
-                                        {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}});
+  const Scene scene = checks::scene_of({{-4, -4, 2},
+                                        {4, -4, 2},
+                                        {4, 4, 2},
+                                        {-4, 4, 2},
+                                        {-0.5, -0.5, 1},
+                                        {0.5, -0.5, 1},
+                                        {0.5, 0.5, 1},
+                                        {-0.5, 0.5, 1}},
+                                       {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}});
   const auto areas = areas_from_point(scene, {0, 0, 0});
   for (const std::size_t t : {0, 1}) {
     EXPECT_EQ(areas[t].side, LitSide::back);
@@ -447,8 +447,8 @@ TEST(Areas, FromInsideAllIsSeen) {
 /// Of triangles that reach behind the cameras of a point, seen from either side.
 TEST(Areas, FromAPointAreTheSameFromBothSides) {
   const std::vector<MeshPoint> wall{{-4, -4, 2}, {4, -4, 2}, {4, 4, 2}, {-4, 4, 2}};
-  const Scene backs = testing::scene_of(wall, {{0, 1, 2}, {0, 2, 3}}),
-              fronts = testing::scene_of(wall, {{0, 2, 1}, {0, 3, 2}});
+  const Scene backs = checks::scene_of(wall, {{0, 1, 2}, {0, 2, 3}}),
+              fronts = checks::scene_of(wall, {{0, 2, 1}, {0, 3, 2}});
   AreaOptions all;
   all.groups = {0, 0};
   all.group_count = 1;

@@ -14,23 +14,23 @@ namespace fathom {
 namespace {
 
 using namespace area;
+using checks::Crowd;
+using checks::plain_camera;
+using checks::surfaces_of;
 using oracle::Q;
-using testing::Crowd;
-using testing::plain_camera;
-using testing::surfaces_of;
 
 Q area_of(const Boundary& boundary) {
-  return testing::rational(exact_area(boundary));
+  return checks::rational(exact_area(boundary));
 }
 
 class Crowded : public ::testing::TestWithParam<DivisionLimits> {};
 
 TEST_P(Crowded, VisibleAreasAreTheOracles) {
   const Camera camera = plain_camera(1, 1);
-  for (const Crowd& crowd : testing::crowds()) {
+  for (const Crowd& crowd : checks::crowds()) {
     SCOPED_TRACE(crowd.name);
     const std::vector<SurfaceRegion> surfaces = surfaces_of(crowd.scene, camera);
-    const oracle::Areas areas = testing::areas_at(crowd.scene, camera);
+    const oracle::Areas areas = checks::areas_at(crowd.scene, camera);
     ImageCell pixel(0, 0);
     CellVisibility all(pixel);
     for (const SurfaceRegion& surface : surfaces) all.add(surface);
@@ -68,15 +68,15 @@ INSTANTIATE_TEST_SUITE_P(Limits, Crowded,
 
 TEST(CellDivision, CoverageOfACrowdIsTheOracles) {
   const Camera camera = plain_camera(1, 1);
-  for (const Crowd& crowd : testing::crowds(4)) {
+  for (const Crowd& crowd : checks::crowds(4)) {
     SCOPED_TRACE(crowd.name);
     ImageCell pixel(0, 0);
     CellCoverage coverage(pixel);
     for (const SurfaceRegion& surface : surfaces_of(crowd.scene, camera)) {
       coverage.add(surface.region);
     }
-    EXPECT_EQ(testing::rational(coverage.area()),
-              testing::areas_at(crowd.scene, camera).coverage(0, 0));
+    EXPECT_EQ(checks::rational(coverage.area()),
+              checks::areas_at(crowd.scene, camera).coverage(0, 0));
   }
 }
 
@@ -84,8 +84,8 @@ TEST(CellDivision, CoverageOfACrowdIsTheOracles) {
 TEST(CellDivision, PartsStayFewWhereFewAreVisible) {
   const Camera camera = plain_camera(1, 1);
   for (const Crowd& crowd :
-       {Crowd{"equal triangles", testing::equal_triangles(2000)},
-        Crowd{"coins", testing::coins(60, 32)}, Crowd{"facades", testing::facades(1000)}}) {
+       {Crowd{"equal triangles", checks::equal_triangles(2000)},
+        Crowd{"coins", checks::coins(60, 32)}, Crowd{"facades", checks::facades(1000)}}) {
     SCOPED_TRACE(crowd.name);
     const std::vector<SurfaceRegion> surfaces = surfaces_of(crowd.scene, camera);
     ImageCell pixel(0, 0);
@@ -104,7 +104,7 @@ TEST(CellDivision, PartsStayFewWhereFewAreVisible) {
 // Surfaces from front to back, without those of which nothing is left: the same is visible.
 TEST(CellDivision, WhatIsHiddenByMostIsLeftOut) {
   const Camera camera = plain_camera(1, 1);
-  for (const Crowd& crowd : testing::crowds(2)) {
+  for (const Crowd& crowd : checks::crowds(2)) {
     SCOPED_TRACE(crowd.name);
     const std::vector<SurfaceRegion> surfaces = surfaces_of(crowd.scene, camera);
     std::vector<const SurfaceRegion*> pointers;

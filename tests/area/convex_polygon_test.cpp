@@ -13,26 +13,26 @@ namespace fathom {
 namespace {
 
 using namespace area;
+using checks::Lines;
 using oracle::Q;
-using testing::Lines;
 
 Q area_of(const ConvexPolygon& polygon) {
   TierCounts counts;
-  return testing::rational(exact_area(boundary_of_union(std::span(&polygon, 1), counts)));
+  return checks::rational(exact_area(boundary_of_union(std::span(&polygon, 1), counts)));
 }
 
 TEST(ConvexPolygon, IsCutAsItsCornersAre) {
   std::mt19937_64 random(131);
   TierCounts counts;
   int empty = 0, touched = 0;
-  for (int i = 0; i < 3000 / testing::effort; ++i) {
+  for (int i = 0; i < 3000 / checks::effort; ++i) {
     Lines lines;
     Lines::Both polygon = lines.rectangle(-4, -4, 4, 4);
     for (int cut = 0; cut < 6; ++cut) {
-      const testing::Line l = testing::random_line(random);
+      const checks::Line l = checks::random_line(random);
       const std::size_t before = polygon.ours.edges().size();
       const bool left = lines.clip(polygon, l, counts);
-      ASSERT_EQ(left, sgn(testing::area_of(polygon.exact)) > 0);
+      ASSERT_EQ(left, sgn(checks::area_of(polygon.exact)) > 0);
       if (!left) {
         ++empty;
         break;
@@ -40,7 +40,7 @@ TEST(ConvexPolygon, IsCutAsItsCornersAre) {
       // None of the edges is superfluous.
       polygon.exact = oracle::without_superfluous(polygon.exact);
       ASSERT_EQ(polygon.ours.edges().size(), polygon.exact.size());
-      ASSERT_EQ(area_of(polygon.ours), testing::area_of(polygon.exact));
+      ASSERT_EQ(area_of(polygon.ours), checks::area_of(polygon.exact));
       touched += polygon.ours.edges().size() == before;
       const BoundingRectangle& box = polygon.ours.bounds();
       for (const oracle::Point& p : polygon.exact) {
@@ -49,9 +49,9 @@ TEST(ConvexPolygon, IsCutAsItsCornersAre) {
       }
     }
   }
-  EXPECT_GT(empty, 200 / testing::effort);
-  EXPECT_GT(touched, 200 / testing::effort);
-  EXPECT_GT(counts.exact, 800U / testing::effort);
+  EXPECT_GT(empty, 200 / checks::effort);
+  EXPECT_GT(touched, 200 / checks::effort);
+  EXPECT_GT(counts.exact, 800U / checks::effort);
 }
 
 TEST(ConvexPolygon, NeighboursFollowEachOtherAround) {
@@ -78,7 +78,7 @@ TEST(ConvexPolygon, CrossingsLieWithinTheirBounds) {
   std::mt19937_64 random(132);
   int known = 0;
   for (int i = 0; i < 3000; ++i) {
-    const testing::Line l = testing::random_line(random), m = testing::random_line(random);
+    const checks::Line l = checks::random_line(random), m = checks::random_line(random);
     const Q turn = Q(l.a) * Q(m.b) - Q(l.b) * Q(m.a);
     if (sgn(turn) == 0) continue;
     const Q u = (Q(l.b) * Q(m.c) - Q(l.c) * Q(m.b)) / turn,

@@ -14,13 +14,13 @@ namespace fathom {
 namespace {
 
 using namespace area;
+using checks::Line;
+using checks::Lines;
 using oracle::Q;
-using testing::Line;
-using testing::Lines;
 
 /// The exact area of a boundary, which the approximate one encloses.
 Q checked_area(const Boundary& boundary) {
-  const Q exact = testing::rational(exact_area(boundary));
+  const Q exact = checks::rational(exact_area(boundary));
   const Certified<double> approximate = approximate_area(boundary);
   if (std::isfinite(approximate.error)) {
     EXPECT_LE(abs(Q(Q(approximate.value) - exact)), Q(approximate.error));
@@ -85,7 +85,7 @@ Cut random_cut(Lines& lines, std::mt19937_64& random, TierCounts& counts) {
   Cut result;
   Lines::Both polygon = lines.rectangle(-2, -2, 2, 2);
   for (int k = 0; k < 3; ++k) {
-    result.cuts.push_back(testing::random_line(random));
+    result.cuts.push_back(checks::random_line(random));
     if (!lines.clip(polygon, result.cuts.back(), counts)) return result;
   }
   result.polygon = std::move(polygon);
@@ -102,7 +102,7 @@ TEST(ConvexUnion, IsInclusionAndExclusion) {
   std::mt19937_64 random(141);
   TierCounts counts;
   int triples = 0, overlaps = 0;
-  for (int i = 0; i < 3000 / testing::effort; ++i) {
+  for (int i = 0; i < 3000 / checks::effort; ++i) {
     Lines lines;
     const Cut a = random_cut(lines, random, counts), b = random_cut(lines, random, counts),
               c = random_cut(lines, random, counts);
@@ -110,7 +110,7 @@ TEST(ConvexUnion, IsInclusionAndExclusion) {
     ++triples;
     const oracle::Polygon ab = common(a.polygon->exact, b), ac = common(a.polygon->exact, c),
                           bc = common(b.polygon->exact, c), abc = common(ab, c);
-    const auto area = [](const oracle::Polygon& p) { return testing::area_of(p); };
+    const auto area = [](const oracle::Polygon& p) { return checks::area_of(p); };
     const Q A = area(a.polygon->exact), B = area(b.polygon->exact), C = area(c.polygon->exact);
     overlaps += sgn(area(abc)) > 0;
     ASSERT_EQ(union_of({a.polygon->ours, b.polygon->ours}), A + B - area(ab));
@@ -120,8 +120,8 @@ TEST(ConvexUnion, IsInclusionAndExclusion) {
     ASSERT_EQ(difference_of(a.polygon->ours, {b.polygon->ours, c.polygon->ours}),
               A - area(ab) - area(ac) + area(abc));
   }
-  EXPECT_GT(triples, 500 / testing::effort);
-  EXPECT_GT(overlaps, 100 / testing::effort);
+  EXPECT_GT(triples, 500 / checks::effort);
+  EXPECT_GT(overlaps, 100 / checks::effort);
 }
 
 }  // namespace

@@ -14,17 +14,16 @@
 #include "tests/inputs/floating_point_modes.h"
 #include "tests/oracle/against_oracle.h"
 #include "tests/oracle/close_behind.h"
+#include "tests/special_values.h"
 
 namespace fathom {
 namespace {
 
+using checks::Case;
+using checks::Draw;
+using checks::Family;
 using oracle::Behind;
 using oracle::Q;
-using testing::Case;
-using testing::Draw;
-using testing::Family;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Corners of its own for each triangle, drawn within it; where corners have few bits, in its
 /// plane.
@@ -50,7 +49,7 @@ void take_corners_apart(Draw& draw, Mesh& mesh) {
 
 /// Pairs that share a corner do not count: most draw corners from a few.
 Case scene_of(Family family, std::uint64_t seed, Draw& draw) {
-  Case c = testing::adversarial_case(family, seed);
+  Case c = checks::adversarial_case(family, seed);
   if (!draw.one_in(4)) take_corners_apart(draw, c.scene.meshes[0]);
   return c;
 }
@@ -70,7 +69,7 @@ std::vector<Behind> truth_of(const Case& c, Cull cull) {
   // v grows downwards: a front, which turns against the clock, has a negative area.
   const int way = cull == Cull::back ? -1 : cull == Cull::front ? 1 : 0;
   std::vector<Behind> all = oracle::behind_visible(
-      testing::areas_at(c.scene, c.camera), is_perspective(c.camera.projection),
+      checks::areas_at(c.scene, c.camera), is_perspective(c.camera.projection),
       static_cast<int>(c.camera.width), static_cast<int>(c.camera.height), way);
   std::erase_if(all, [&](const Behind& pair) {
     return share_a_corner(triangles, pair.visible, pair.behind);
@@ -109,7 +108,7 @@ std::vector<CoplanarPair> pairs_of(const Case& c, Cull cull, double within, Draw
   RenderOptions options;
   options.cull = cull;
   options.threads = draw.between(1, 3);
-  const testing::InMode mode(testing::any_mode(draw.generator()));
+  const checks::InMode mode(checks::any_mode(draw.generator()));
   return coplanar_pairs(TriangleSource(c.scene), c.camera, within, options);
 }
 
@@ -150,7 +149,7 @@ class CoplanarAdversaries : public ::testing::TestWithParam<Family> {};
 TEST_P(CoplanarAdversaries, AreThoseOfRationalNumbers) {
   const std::uint64_t scenes = GetParam() == Family::coplanar_heaps ? 60 : 30;
   std::size_t pairs = 0;
-  testing::for_each_adversary(scenes, [&](std::uint64_t seed) {
+  checks::for_each_adversary(scenes, [&](std::uint64_t seed) {
     Draw draw(seed);
     const Case c = scene_of(GetParam(), seed, draw);
     const Cull cull = draw.one_in(5) ? Cull::back : draw.one_in(5) ? Cull::front : Cull::none;
@@ -167,13 +166,12 @@ TEST_P(CoplanarAdversaries, AreThoseOfRationalNumbers) {
   });
   // Of two families next to nothing is seen.
   if (GetParam() == Family::around_the_eye || GetParam() == Family::exponents) return;
-  if (testing::number_of_adversaries(scenes) < scenes) return;
+  if (checks::number_of_adversaries(scenes) < scenes) return;
   EXPECT_GT(pairs, 3U);
 }
 
-INSTANTIATE_TEST_SUITE_P(EachFamily, CoplanarAdversaries,
-                         ::testing::ValuesIn(testing::all_families),
-                         [](const auto& test) { return testing::name_of(test.param); });
+INSTANTIATE_TEST_SUITE_P(EachFamily, CoplanarAdversaries, ::testing::ValuesIn(checks::all_families),
+                         [](const auto& test) { return checks::name_of(test.param); });
 
 }  // namespace
 }  // namespace fathom

@@ -11,8 +11,8 @@
 namespace fathom {
 namespace {
 
-using testing::camera_of;
-using testing::scene_of;
+using checks::camera_of;
+using checks::scene_of;
 
 Camera orthographic(std::uint32_t width, std::uint32_t height) {
   Camera camera = camera_of(width, height, 1);

@@ -15,8 +15,8 @@ namespace fathom {
 namespace {
 
 using namespace area;
-using testing::CaseMaker;
-using testing::Kind;
+using checks::CaseMaker;
+using checks::Kind;
 
 std::vector<std::uint32_t> all_triangles(const CoverageFrame& frame) {
   std::vector<std::uint32_t> numbers(frame.triangles.count());
@@ -27,8 +27,8 @@ std::vector<std::uint32_t> all_triangles(const CoverageFrame& frame) {
 /// Every triangle alone is looked for in each pixel that it covers a part of.
 TEST(TriangleBands, HoldEveryTriangleThatMeetsThem) {
   std::mt19937_64 random(171);
-  const Scene scene = testing::soup(random, 24, false);
-  const Camera camera = testing::camera_of(160, 37, 64);
+  const Scene scene = checks::soup(random, 24, false);
+  const Camera camera = checks::camera_of(160, 37, 64);
   const CoverageFrame frame{scene, camera};
   const TriangleBands bands(frame);
   ASSERT_EQ(bands.count(), 5U);
@@ -40,7 +40,7 @@ TEST(TriangleBands, HoldEveryTriangleThatMeetsThem) {
     EXPECT_TRUE(std::is_sorted(
         triangles.begin(), triangles.end(),
         [](const BoxedTriangle& a, const BoxedTriangle& b) { return a.number < b.number; }));
-    for (std::uint32_t row = bands[k].first_row; row < bands[k].end_row; row += testing::effort) {
+    for (std::uint32_t row = bands[k].first_row; row < bands[k].end_row; row += checks::effort) {
       for (std::uint32_t column = 0; column < camera.width; column += 3) {
         for (const std::uint32_t number : all_triangles(frame)) {
           if (pixel_coverage(frame, {{number}}, column, row).sign() == Sign::zero) continue;
@@ -59,8 +59,8 @@ TEST(TriangleBands, HoldEveryTriangleThatMeetsThem) {
 
 TEST(CoverageImage, IsWhatItsPixelsAre) {
   CaseMaker maker(172, Kind::neighbours);
-  for (int i = 0; i < 60 / testing::effort + 1; ++i) {
-    const testing::Case c = maker.make();
+  for (int i = 0; i < 60 / checks::effort + 1; ++i) {
+    const checks::Case c = maker.make();
     const CoverageFrame frame{c.scene, c.camera, i % 3 == 0 ? Cull::back : Cull::none};
     const std::uint32_t width = c.camera.width, height = c.camera.height;
     std::vector<float> values(std::size_t{width} * height);
@@ -78,8 +78,8 @@ TEST(CoverageImage, IsWhatItsPixelsAre) {
 
 TEST(CoverageImage, EachPixelIsVisitedOnceWithItsTrianglesInOrder) {
   std::mt19937_64 random(173);
-  const Scene scene = testing::soup(random, 30, true);
-  const Camera camera = testing::camera_of(60, 50, 24);
+  const Scene scene = checks::soup(random, 30, true);
+  const Camera camera = checks::camera_of(60, 50, 24);
   const CoverageFrame frame{scene, camera};
   std::vector<std::atomic<int>> visits(60 * 50);
   for_each_pixel(frame, [&](std::uint32_t column, std::uint32_t row, auto triangles) {

@@ -10,7 +10,7 @@
 
 /// Scenes in which many surfaces lie in one pixel, seen by an orthographic camera of 1×1 pixel that
 /// leaves x, y and z as u, v and D. Cutting the pixel in halves does not separate them.
-namespace fathom::testing {
+namespace fathom::checks {
 
 class CrowdBuilder {
  public:
@@ -131,4 +131,4 @@ inline std::vector<Crowd> crowds(int scale = 1) {
           {"crossing planes", crossing_planes(10 * scale)}};
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

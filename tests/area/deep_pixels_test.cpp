@@ -13,8 +13,8 @@ namespace fathom {
 namespace {
 
 using namespace area;
-using testing::plain_camera;
-using testing::scene_of;
+using checks::plain_camera;
+using checks::scene_of;
 
 /// Pixel (0, 0): triangle 0 at depth 2 covers its lower left half; behind it, at depth 3 + v, lies
 /// triangle 1, which covers the left three quarters of pixel (1, 0) too, and all of (0, 0).

@@ -13,17 +13,17 @@ namespace {
 
 using namespace area;
 using namespace triangle;
+using checks::camera_of;
+using checks::Case;
+using checks::CaseMaker;
+using checks::Kind;
+using checks::scene_of;
+using checks::surfaces_by_number;
 using oracle::Q;
-using testing::camera_of;
-using testing::Case;
-using testing::CaseMaker;
-using testing::Kind;
-using testing::scene_of;
-using testing::surfaces_by_number;
 
 /// The area that both triangles of a scene cover in the image.
 Q common_area(const Scene& scene, const Camera& camera) {
-  const oracle::Areas areas = testing::areas_at(scene, camera);
+  const oracle::Areas areas = checks::areas_at(scene, camera);
   Q sum = 0;
   for (int y = 0; y < static_cast<int>(camera.height); ++y) {
     for (int x = 0; x < static_cast<int>(camera.width); ++x) {
@@ -38,7 +38,7 @@ class Disjoint : public ::testing::TestWithParam<Kind> {};
 TEST_P(Disjoint, IsSaidOnlyOfTrianglesWithoutACommonArea) {
   CaseMaker maker(1977 + static_cast<std::uint64_t>(GetParam()), GetParam());
   int apart = 0, overlapping = 0;
-  for (int i = 0; i < 2000 / testing::effort; ++i) {
+  for (int i = 0; i < 2000 / checks::effort; ++i) {
     Case c = maker.make();
     auto& triangles = c.scene.meshes[0].triangles;
     triangles.resize(2);
@@ -51,7 +51,7 @@ TEST_P(Disjoint, IsSaidOnlyOfTrianglesWithoutACommonArea) {
     apart += disjoint;
     overlapping += overlap;
   }
-  if (testing::effort > 1) return;
+  if (checks::effort > 1) return;
   EXPECT_GT(apart, 50);
   EXPECT_GT(overlapping, 50);
 }

@@ -11,8 +11,8 @@ using area::EqualTriangles;
 
 TEST(EqualTriangles, HaveTheSameCornersInTheSameOrderRound) {
   Scene scene =
-      testing::scene_of({{0, 0, 1}, {1, 0, 1}, {0, 1, 2}, {0, 0, 1}, {0, 1, 2.0000000000000004}},
-                        {{0, 1, 2}, {1, 2, 3}, {2, 1, 0}, {0, 1, 4}, {2, 0, 1}, {1, 0, 2}});
+      checks::scene_of({{0, 0, 1}, {1, 0, 1}, {0, 1, 2}, {0, 0, 1}, {0, 1, 2.0000000000000004}},
+                       {{0, 1, 2}, {1, 2, 3}, {2, 1, 0}, {0, 1, 4}, {2, 0, 1}, {1, 0, 2}});
   const TriangleSource triangles(scene);
   EqualTriangles equal(triangles);
   EXPECT_TRUE(equal.is_first(0));
@@ -25,7 +25,7 @@ TEST(EqualTriangles, HaveTheSameCornersInTheSameOrderRound) {
 
 // Placed so that they come to lie on each other, exactly or nearly.
 TEST(EqualTriangles, AreComparedInTheWorld) {
-  Scene scene = testing::scene_of({{0, 0, 1}, {1, 0, 1}, {0, 1, 2}}, {{0, 1, 2}});
+  Scene scene = checks::scene_of({{0, 0, 1}, {1, 0, 1}, {0, 1, 2}}, {{0, 1, 2}});
   const auto place = [&](double scale, double x) {
     Mesh mesh = scene.meshes[0];
     for (MeshPoint& p : mesh.vertices) p = {(p.x - x) / scale, p.y / scale, p.z / scale};
@@ -49,7 +49,7 @@ TEST(EqualTriangles, AreComparedInTheWorld) {
 // More than any first table has room for.
 TEST(EqualTriangles, AreFoundAmongMany) {
   constexpr std::uint32_t count = 1000;
-  Scene scene = testing::scene_of({{0, 0, 1}, {1, 0, 1}}, {});
+  Scene scene = checks::scene_of({{0, 0, 1}, {1, 0, 1}}, {});
   Mesh& mesh = scene.meshes[0];
   for (std::uint32_t i = 0; i < count; ++i) {
     mesh.vertices.push_back({i * 0.5, 1, 2});

@@ -11,8 +11,8 @@ namespace fathom {
 namespace {
 
 using namespace area;
+using checks::Line;
 using oracle::Q;
-using testing::Line;
 
 Q turn_of(const Line& a, const Line& b) {
   return Q(a.a) * Q(b.b) - Q(a.b) * Q(b.a);
@@ -47,8 +47,8 @@ TEST(HalfPlane, SignsAreThoseOfRationalNumbers) {
   TierCounts counts;
   int zero_turns = 0, zero_determinants = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Line l = testing::random_line(random), m = testing::random_line(random),
-               n = testing::random_line(random);
+    const Line l = checks::random_line(random), m = checks::random_line(random),
+               n = checks::random_line(random);
     const HalfPlane a({l.a, l.b, l.c}), b({m.a, m.b, m.c}), c({n.a, n.b, n.c});
     const Sign turned = sign_of_turn(a, b, counts);
     ASSERT_EQ(turned, sign(turn_of(l, m)));

@@ -15,16 +15,16 @@ namespace {
 
 using namespace area;
 using namespace triangle;
+using checks::CaseMaker;
+using checks::Kind;
+using checks::plain_camera;
+using checks::scene_of;
+using checks::surfaces_of;
 using oracle::Q;
-using testing::CaseMaker;
-using testing::Kind;
-using testing::plain_camera;
-using testing::scene_of;
-using testing::surfaces_of;
 
 Q area_of(const ConvexPolygon& polygon) {
   TierCounts counts;
-  return testing::rational(exact_area(boundary_of_union(std::span(&polygon, 1), counts)));
+  return checks::rational(exact_area(boundary_of_union(std::span(&polygon, 1), counts)));
 }
 
 /// Points with D > 0 in the range are those at which no form is negative.
@@ -33,8 +33,8 @@ TEST(CoveredRegion, IsWhatCoversAndCounts) {
   for (const Kind kind : {Kind::few_bits, Kind::neighbours}) {
     CaseMaker maker(151 + static_cast<std::uint64_t>(kind), kind);
     std::mt19937_64 random(5);
-    for (int i = 0; i < 300 / testing::effort; ++i) {
-      const testing::Case c = maker.make();
+    for (int i = 0; i < 300 / checks::effort; ++i) {
+      const checks::Case c = maker.make();
       const TriangleSource triangles(c.scene);
       for (std::uint32_t number = 0; number < triangles.count(); ++number) {
         TierCounts counts;
@@ -58,8 +58,8 @@ TEST(CoveredRegion, IsWhatCoversAndCounts) {
       }
     }
   }
-  EXPECT_GT(inside, 500 / testing::effort);
-  EXPECT_GT(outside, 5000 / testing::effort);
+  EXPECT_GT(inside, 500 / checks::effort);
+  EXPECT_GT(outside, 5000 / checks::effort);
 }
 
 TEST(ImageCell, FormsAreTakenToItsOwnCorner) {
@@ -81,9 +81,9 @@ TEST(ImageCell, FormsAreTakenToItsOwnCorner) {
 TEST(ImageCell, CutsOutWhatATriangleCovers) {
   int pieces = 0, wholes = 0;
   CaseMaker maker(152, Kind::few_bits);
-  for (int i = 0; i < 60 / testing::effort + 1; ++i) {
-    const testing::Case c = maker.make();
-    const auto areas = testing::areas_at(c.scene, c.camera);
+  for (int i = 0; i < 60 / checks::effort + 1; ++i) {
+    const checks::Case c = maker.make();
+    const auto areas = checks::areas_at(c.scene, c.camera);
     for (const SurfaceRegion& surface : surfaces_of(c.scene, c.camera)) {
       for (std::uint32_t y = 0; y < c.camera.height; ++y) {
         for (std::uint32_t x = 0; x < c.camera.width; ++x) {
@@ -102,8 +102,8 @@ TEST(ImageCell, CutsOutWhatATriangleCovers) {
       }
     }
   }
-  EXPECT_GT(pieces, 100 / testing::effort);
-  EXPECT_GT(wholes, 10 / testing::effort);
+  EXPECT_GT(pieces, 100 / checks::effort);
+  EXPECT_GT(wholes, 10 / checks::effort);
 }
 
 TEST(ImageCell, HalvesAreHalves) {
@@ -154,11 +154,11 @@ TEST(CellCoverage, IsCompleteOnceOneCoversAll) {
   CellCoverage coverage(pixel);
   coverage.add(surfaces[0].region);
   EXPECT_FALSE(coverage.is_complete());
-  EXPECT_EQ(testing::rational(coverage.area()), Q(1, 2));
+  EXPECT_EQ(checks::rational(coverage.area()), Q(1, 2));
   EXPECT_EQ(coverage.rounded_area(), 0.5F);
   coverage.add(surfaces[1].region);
   EXPECT_TRUE(coverage.is_complete());
-  EXPECT_EQ(testing::rational(coverage.area()), 1);
+  EXPECT_EQ(checks::rational(coverage.area()), 1);
   EXPECT_EQ(coverage.rounded_area(), 1);
 }
 

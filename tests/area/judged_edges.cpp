@@ -4,7 +4,7 @@
 #include <functional>
 #include <set>
 
-namespace fathom::testing {
+namespace fathom::checks {
 namespace {
 
 using oracle::Point;
@@ -255,4 +255,4 @@ std::vector<JudgedEdge> judged_edges(const JudgedScene& scene) {
   return Judge(scene).edges();
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -9,7 +9,7 @@
 /// The slow answer to which edges are visible, in GMP's rational numbers: every line along which
 /// something may change is cut at every other, and at the middle of each piece all triangles are
 /// compared, on both sides. No parts, sheets or sweeps.
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// A piece of a line with different visible triangles on its sides, or nothing on one.
 struct JudgedEdge {
@@ -30,4 +30,4 @@ struct JudgedScene {
 
 std::vector<JudgedEdge> judged_edges(const JudgedScene& scene);
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

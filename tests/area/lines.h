@@ -8,7 +8,7 @@
 #include "fathom/area/convex_polygon.h"
 #include "tests/oracle/clipped_polygon.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// a·u + b·v + c ≥ 0.
 struct Line {
@@ -60,4 +60,4 @@ inline Line random_line(std::mt19937_64& random) {
   return l;
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -5,7 +5,7 @@
 #include "fathom/area/visible_fragments.h"
 #include "fathom/numeric/rounding.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 using namespace area;
 
 namespace {
@@ -122,4 +122,4 @@ VisibleAreas rounded_pairwise_areas(const Scene& scene, const Camera& camera, Cu
   return result;
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

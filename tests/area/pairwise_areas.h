@@ -8,7 +8,7 @@
 
 /// Visible areas triangle by triangle: each is cut by every other that may hide a part of it. It
 /// shares the polygons of exact lines with visible_areas(), but no parts, sheets or sweeps.
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// Exact areas of a triangle.
 struct PairwiseAreas {
@@ -23,4 +23,4 @@ std::vector<PairwiseAreas> pairwise_areas(const CoverageFrame& frame);
 VisibleAreas rounded_pairwise_areas(const Scene& scene, const Camera& camera,
                                     Cull cull = Cull::none);
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

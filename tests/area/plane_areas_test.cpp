@@ -21,7 +21,7 @@ namespace fathom {
 namespace {
 
 using namespace area;
-using testing::Case;
+using checks::Case;
 
 void expect_same(const VisibleArea& found, const VisibleArea& expected) {
   EXPECT_EQ(found.visible, expected.visible);
@@ -34,7 +34,7 @@ void expect_as_pairwise(const Scene& scene, const Camera& camera, Cull cull = Cu
   options.cull = cull;
   options.threads = 1;
   const VisibleAreas found = visible_areas(scene, camera, options);
-  const VisibleAreas expected = testing::rounded_pairwise_areas(scene, camera, cull);
+  const VisibleAreas expected = checks::rounded_pairwise_areas(scene, camera, cull);
   ASSERT_EQ(found.triangles.size(), expected.triangles.size());
   for (std::size_t t = 0; t < found.triangles.size(); ++t) {
     SCOPED_TRACE("triangle " + std::to_string(t));
@@ -48,20 +48,20 @@ void expect_as_pairwise(const Scene& scene, const Camera& camera, Cull cull = Cu
 }
 
 TEST(PlaneAreasAdversaries, AreThoseOfPairs) {
-  for (const testing::Family family : testing::all_families) {
+  for (const checks::Family family : checks::all_families) {
     SCOPED_TRACE(name_of(family));
-    testing::for_each_adversary(60, [&](std::uint64_t seed) {
-      const Case c = testing::adversarial_case(family, seed);
+    checks::for_each_adversary(60, [&](std::uint64_t seed) {
+      const Case c = checks::adversarial_case(family, seed);
       expect_as_pairwise(c.scene, c.camera, static_cast<Cull>(seed % 3));
     });
   }
 }
 
 TEST(PlaneAreas, OfRandomScenesAreThoseOfPairs) {
-  for (const testing::Kind kind : {testing::Kind::few_bits, testing::Kind::neighbours,
-                                   testing::Kind::huge, testing::Kind::tiny}) {
-    testing::CaseMaker maker(417 + static_cast<std::uint64_t>(kind), kind);
-    for (int i = 0; i < 200 / testing::effort && !HasFailure(); ++i) {
+  for (const checks::Kind kind :
+       {checks::Kind::few_bits, checks::Kind::neighbours, checks::Kind::huge, checks::Kind::tiny}) {
+    checks::CaseMaker maker(417 + static_cast<std::uint64_t>(kind), kind);
+    for (int i = 0; i < 200 / checks::effort && !HasFailure(); ++i) {
       SCOPED_TRACE(i);
       const Case c = maker.make();
       expect_as_pairwise(c.scene, c.camera);
@@ -71,10 +71,10 @@ TEST(PlaneAreas, OfRandomScenesAreThoseOfPairs) {
 
 TEST(PlaneAreas, OfCrowdsAreThoseOfPairs) {
   for (const int scale : {1, 6}) {
-    for (const testing::Crowd& crowd : testing::crowds(scale)) {
+    for (const checks::Crowd& crowd : checks::crowds(scale)) {
       SCOPED_TRACE(crowd.name);
-      expect_as_pairwise(crowd.scene, testing::plain_camera(1, 1));
-      expect_as_pairwise(crowd.scene, testing::plain_camera(3, 2), Cull::back);
+      expect_as_pairwise(crowd.scene, checks::plain_camera(1, 1));
+      expect_as_pairwise(crowd.scene, checks::plain_camera(3, 2), Cull::back);
     }
   }
 }
@@ -83,25 +83,25 @@ TEST(PlaneAreas, OfSoupsAreThoseOfPairs) {
   std::mt19937_64 random(20);
   for (int i = 0; i < 6 && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
-    const Scene scene = testing::soup(random, 60 + 40 * i, i % 2 == 0);
-    expect_as_pairwise(scene, testing::camera_of(160, 140, 64));
+    const Scene scene = checks::soup(random, 60 + 40 * i, i % 2 == 0);
+    expect_as_pairwise(scene, checks::camera_of(160, 140, 64));
   }
 }
 
 Camera in_front_of_spheres() {
-  Camera camera = testing::camera_of(60, 50, 40);
+  Camera camera = checks::camera_of(60, 50, 40);
   camera.world_to_camera = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 4}}};
   return camera;
 }
 
 TEST(PlaneAreas, OfSpheresThatPenetrateEachOtherAreThoseOfPairs) {
   for (const Cull cull : {Cull::none, Cull::back, Cull::front}) {
-    expect_as_pairwise(testing::two_spheres(12), in_front_of_spheres(), cull);
+    expect_as_pairwise(checks::two_spheres(12), in_front_of_spheres(), cull);
   }
-  Camera inside = testing::camera_of(60, 50, 20);
+  Camera inside = checks::camera_of(60, 50, 20);
   inside.world_to_camera = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0.25}}};
   inside.near = 0.125;
-  expect_as_pairwise(testing::two_spheres(12), inside);
+  expect_as_pairwise(checks::two_spheres(12), inside);
 }
 
 /// A fan that winds twice around a point of the image is one sheet, which covers each part twice:
@@ -116,8 +116,8 @@ TEST(PlaneAreas, OfASheetThatWindsTwiceAreThoseOfPairs) {
         {2.125 + 9 * std::cos(turn), 2.25 + 9 * std::sin(turn), 5 + 2 * std::sin(turn / 2 + 0.3)});
     fan.push_back({0, k + 1, (k + 1) % triangles + 1});
   }
-  const Scene scene = testing::scene_of(vertices, fan);
-  const Camera camera = testing::plain_camera(4, 4);
+  const Scene scene = checks::scene_of(vertices, fan);
+  const Camera camera = checks::plain_camera(4, 4);
   expect_as_pairwise(scene, camera);
   const VisibleAreas found = visible_areas(scene, camera, {});
   EXPECT_EQ(found.objects[0].visible, 16);
@@ -155,10 +155,10 @@ void expect_contained(const Words& sum, const Terms& terms, int& narrow) {
 
 TEST(PlaneAreas, SumsContainTheExactSums) {
   int partly = 0, narrow = 0;
-  for (const testing::Family family : testing::all_families) {
+  for (const checks::Family family : checks::all_families) {
     SCOPED_TRACE(name_of(family));
-    testing::for_each_adversary(20, [&](std::uint64_t seed) {
-      const Case c = testing::adversarial_case(family, seed);
+    checks::for_each_adversary(20, [&](std::uint64_t seed) {
+      const Case c = checks::adversarial_case(family, seed);
       const MeshOnImage image(c.scene, c.camera);
       const PlaneAreas exact(image.mesh, {.image = false, .share = true, .moments = true}),
           summed(image.mesh, {.image = false, .sums = true});
@@ -180,7 +180,7 @@ TEST(PlaneAreas, SumsContainTheExactSums) {
 /// triangles are visible as a whole.
 TEST(PlaneAreas, MostOfASphereIsSettledByItsSheets) {
   Scene scene;
-  scene.meshes.push_back(testing::sphere(60));
+  scene.meshes.push_back(checks::sphere(60));
   scene.objects.push_back({.name = "sphere"});
   const Camera camera = in_front_of_spheres();
   const MeshOnImage image(scene, camera);

@@ -15,8 +15,8 @@ namespace fathom {
 namespace {
 
 using namespace triangle;
-using testing::all_patterns;
-using testing::Kind;
+using checks::all_patterns;
+using checks::Kind;
 
 Samples<float> shares(const Scene& scene, const Camera& camera, const std::string& pattern,
                       Engine engine, Cull cull = Cull::none) {
@@ -46,9 +46,9 @@ bool is_covered(const std::vector<ProjectedTriangle>& triangles, const Camera& c
 
 TEST(SampledCoverage, IsTheShareOfSamplesThatCount) {
   std::uint64_t partial = 0;
-  for (int i = 0; i < 300 / testing::effort; ++i) {
+  for (int i = 0; i < 300 / checks::effort; ++i) {
     const Kind kind = i % 3 == 0 ? Kind::neighbours : i % 29 == 1 ? Kind::huge : Kind::few_bits;
-    const testing::Case c = testing::CaseMaker(5000 + static_cast<std::uint64_t>(i), kind).make();
+    const checks::Case c = checks::CaseMaker(5000 + static_cast<std::uint64_t>(i), kind).make();
     const std::string& name = all_patterns[static_cast<std::size_t>(i) % all_patterns.size()];
     const Cull cull = i % 7 == 0 ? Cull::back : Cull::none;
     const SamplePattern pattern = sample_pattern(name);
@@ -75,17 +75,17 @@ TEST(SampledCoverage, IsTheShareOfSamplesThatCount) {
       }
     }
   }
-  EXPECT_GT(partial, 500U / testing::effort);
+  EXPECT_GT(partial, 500U / checks::effort);
 }
 
 /// An edge that cuts pixels of column 2 at u = 2.375: samples left of it, and on it, as it is a
 /// right edge, not.
 TEST(SampledCoverage, OfAnUprightEdge) {
-  Camera camera = testing::camera_of(4, 4, 1);
+  Camera camera = checks::camera_of(4, 4, 1);
   camera.projection.model = ProjectionModel::orthographic;
   camera.projection.cx = camera.projection.cy = 0;
-  const Scene scene = testing::scene_of({{-9, -9, 1}, {2.375, -9, 1}, {2.375, 99, 1}, {-9, 99, 1}},
-                                        {{0, 1, 2}, {0, 2, 3}});
+  const Scene scene = checks::scene_of({{-9, -9, 1}, {2.375, -9, 1}, {2.375, 99, 1}, {-9, 99, 1}},
+                                       {{0, 1, 2}, {0, 2, 3}});
   const auto share = [&](const std::string& pattern) {
     return shares(scene, camera, pattern, Engine::fast)[1 * 4 + 2];
   };

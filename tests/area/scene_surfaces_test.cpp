@@ -13,8 +13,8 @@ namespace {
 
 using namespace area;
 using namespace triangle;
-using testing::CaseMaker;
-using testing::Kind;
+using checks::CaseMaker;
+using checks::Kind;
 
 void check(const Scene& scene, const Camera& camera, Cull cull, int& pairs) {
   const CoverageFrame frame{scene, camera, cull};
@@ -59,11 +59,11 @@ TEST(SceneSurfaces, NeighboursAreThoseWhoseBoxesMeet) {
   int pairs = 0;
   CaseMaker maker(161, Kind::few_bits);
   for (int i = 0; i < 100 && !HasFatalFailure(); ++i) {
-    const testing::Case c = maker.make();
+    const checks::Case c = maker.make();
     check(c.scene, c.camera, i % 3 == 0 ? Cull::back : Cull::none, pairs);
   }
   std::mt19937_64 random(162);  // on several tiles of the index
-  check(testing::soup(random, 40, true), testing::camera_of(160, 140, 64), Cull::none, pairs);
+  check(checks::soup(random, 40, true), checks::camera_of(160, 140, 64), Cull::none, pairs);
   EXPECT_GT(pairs, 500);
 }
 

@@ -10,9 +10,9 @@ namespace fathom {
 namespace {
 
 using namespace area;
-using testing::plain_camera;
-using testing::scene_of;
-using testing::surfaces_of;
+using checks::plain_camera;
+using checks::scene_of;
+using checks::surfaces_of;
 
 /// Two planes z = f(x, y) over the pixel (0, 0) of a camera, the first in front.
 struct Planes {
@@ -83,7 +83,7 @@ TEST(Separation, OfSlantedPlanesIsLeastInACorner) {
 /// Seen in perspective D is a quotient; rounded once where the least value is no binary64 number.
 /// On the rays (u, v, 1): 4/(4 − u) in front, 2/(1 + u) behind.
 TEST(Separation, InPerspectiveIsThatOfQuotients) {
-  Camera camera = testing::camera_of(1, 1, 1);
+  Camera camera = checks::camera_of(1, 1, 1);
   camera.projection.cx = camera.projection.cy = 0;
   // z·(1 − u/4) = 1 with u = x/z is the plane z = 1 + x/4, z·(1 + u) = 2 the plane z = 2 − x.
   const Scene scene = scene_of({{-0.5, -4, 0.875},

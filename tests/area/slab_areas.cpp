@@ -5,7 +5,7 @@
 
 #include "tests/oracle/clipped_polygon.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 namespace {
 
 using oracle::Point;
@@ -178,4 +178,4 @@ std::vector<SlabArea> slab_areas(const std::vector<Triangle>& triangles, const V
   return areas;
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

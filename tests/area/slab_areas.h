@@ -9,7 +9,7 @@
 /// The slow answer to what a distant light sees of triangles, straight from the definition: the
 /// plane is cut into slabs between which nothing crosses, in GMP's rational numbers. No cameras, no
 /// forms, no parts.
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// What is visible of a triangle: its share of the triangle, and its centre times that.
 struct SlabArea {
@@ -21,4 +21,4 @@ struct SlabArea {
 std::vector<SlabArea> slab_areas(const std::vector<oracle::Triangle>& triangles,
                                  const oracle::Vector& direction);
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -9,7 +9,7 @@
 #include "fathom/scene/triangle_source.h"
 #include "tests/inputs/scene_building.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// Each triangle of a scene by its number; nothing where it projects to no area.
 inline std::vector<std::optional<area::SurfaceRegion>> surfaces_by_number(const Scene& scene,
@@ -41,4 +41,4 @@ inline Camera plain_camera(std::uint32_t width, std::uint32_t height) {
   return camera;
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

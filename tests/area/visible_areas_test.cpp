@@ -16,10 +16,10 @@
 namespace fathom {
 namespace {
 
+using checks::Case;
+using checks::CaseMaker;
+using checks::Kind;
 using oracle::Q;
-using testing::Case;
-using testing::CaseMaker;
-using testing::Kind;
 
 double nearest(const Q& q) {
   return oracle::quotient(oracle::binary64, q.get_mpq_t());
@@ -30,7 +30,7 @@ struct Truth {
 };
 
 Truth truth_of(const Scene& scene, const Camera& camera) {
-  const oracle::Areas areas = testing::areas_at(scene, camera);
+  const oracle::Areas areas = checks::areas_at(scene, camera);
   const auto count = static_cast<std::uint32_t>(triangle_count(scene));
   Truth truth{std::vector<Q>(count), std::vector<Q>(count)};
   for (int y = 0; y < static_cast<int>(camera.height); ++y) {
@@ -75,7 +75,7 @@ TEST(VisibleAreas, AreTheOraclesSumsRoundedOnce) {
   int partly = 0;
   for (const Kind kind : {Kind::few_bits, Kind::neighbours}) {
     CaseMaker maker(616 + static_cast<std::uint64_t>(kind), kind);
-    for (int i = 0; i < 60 / testing::effort && !HasFailure(); ++i) {
+    for (int i = 0; i < 60 / checks::effort && !HasFailure(); ++i) {
       SCOPED_TRACE(i);
       const Case c = maker.make();
       const Scene scene = in_two_objects(c.scene);
@@ -98,21 +98,21 @@ TEST(VisibleAreas, AreTheOraclesSumsRoundedOnce) {
       }
     }
   }
-  if (testing::effort > 1) return;
+  if (checks::effort > 1) return;
   EXPECT_GT(partly, 20);
 }
 
 // Two triangles make a rectangle of width w whose diagonal leaves the image at w/3: the areas are
 // no binary fractions, their sum w lies in the middle between two binary64 numbers.
 TEST(VisibleAreas, SumsInTheMiddleAreRoundedToEven) {
-  Camera camera = testing::camera_of(2, 1, 1);
+  Camera camera = checks::camera_of(2, 1, 1);
   camera.projection.model = ProjectionModel::orthographic;
   camera.projection.cx = camera.projection.cy = 0;
   const double left = 0x1p-53;
   for (const auto& [right, expected] : {std::pair(1 + 0x1p-52, 1.0),  // w = 1 + 2⁻⁵³
                                         std::pair(1 + 0x1p-51, 1 + 0x1p-51)}) {  // 1 + 3·2⁻⁵³
-    const Scene scene = testing::scene_of(
-        {{left, 0, 1}, {right, 0, 1}, {right, 3, 1}, {left, 3, 1}}, {{0, 1, 2}, {0, 2, 3}});
+    const Scene scene = checks::scene_of({{left, 0, 1}, {right, 0, 1}, {right, 3, 1}, {left, 3, 1}},
+                                         {{0, 1, 2}, {0, 2, 3}});
     const VisibleAreas found = visible_areas(scene, camera, {});
     EXPECT_EQ(found.objects[0].visible, expected);
     EXPECT_EQ(found.objects[0].unoccluded, expected);
@@ -132,13 +132,13 @@ TEST(VisibleAreas, ProgressIsReportedFromTheBeginning) {
   RenderOptions options;
   options.threads = 1;
   const auto progress = [&](double share) { shares.push_back(share); };
-  visible_areas(scene, testing::camera_of(4, 4, 2), options, progress);
+  visible_areas(scene, checks::camera_of(4, 4, 2), options, progress);
   EXPECT_TRUE(std::ranges::is_sorted(shares));
   EXPECT_EQ(shares.back(), 1);
   EXPECT_GT(shares.size(), count / 64 + 4);
   const std::size_t of_areas = shares.size();
   shares.clear();
-  coplanar_pairs(scene, testing::camera_of(4, 4, 2), 0, options, progress);
+  coplanar_pairs(scene, checks::camera_of(4, 4, 2), 0, options, progress);
   EXPECT_EQ(shares.back(), 1);
   EXPECT_EQ(shares.size() - (count / 8 + 1), of_areas - (count / 64 + 1) - 64);
 }

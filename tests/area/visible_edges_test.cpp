@@ -22,10 +22,10 @@
 namespace fathom {
 namespace {
 
+using checks::Case;
+using checks::JudgedEdge;
 using oracle::Point;
 using oracle::Q;
-using testing::Case;
-using testing::JudgedEdge;
 
 std::vector<VisibleEdge> edges_of(const Scene& scene, const Camera& camera,
                                   const EdgeOptions& options = {.edges = EdgeSelection::all}) {
@@ -35,12 +35,12 @@ std::vector<VisibleEdge> edges_of(const Scene& scene, const Camera& camera,
 }
 
 Point point_of(const ImagePlace& place) {
-  return {testing::rational(place.u), testing::rational(place.v)};
+  return {checks::rational(place.u), checks::rational(place.v)};
 }
 
-testing::JudgedScene judged_scene(const Scene& scene, const Camera& camera) {
-  testing::JudgedScene judged{
-      testing::ray_camera(camera), camera.width, camera.height, testing::triangles_of(scene), {}};
+checks::JudgedScene judged_scene(const Scene& scene, const Camera& camera) {
+  checks::JudgedScene judged{
+      checks::ray_camera(camera), camera.width, camera.height, checks::triangles_of(scene), {}};
   const TriangleSource triangles(scene);
   for (std::uint32_t number = 0; number < triangles.count(); ++number)
     judged.objects.push_back(triangles.origin(number).object);
@@ -87,7 +87,7 @@ void expect_merged(const std::vector<VisibleEdge>& edges) {
 }
 
 void expect_as_judged(const Scene& scene, const Camera& camera) {
-  const std::vector<JudgedEdge> pieces = testing::judged_edges(judged_scene(scene, camera));
+  const std::vector<JudgedEdge> pieces = checks::judged_edges(judged_scene(scene, camera));
   const std::vector<VisibleEdge> edges = edges_of(scene, camera);
   // Only so few triangles may all be hidden, culled or seen edge on.
   EXPECT_TRUE(TriangleSource(scene).count() <= 20 || pieces.size() > 3U);
@@ -100,20 +100,20 @@ void expect_as_judged(const Scene& scene, const Camera& camera) {
 }
 
 TEST(VisibleEdgesAdversaries, AreJudged) {
-  for (const testing::Family family : testing::all_families) {
+  for (const checks::Family family : checks::all_families) {
     SCOPED_TRACE(name_of(family));
-    testing::for_each_adversary(12, [&](std::uint64_t seed) {
-      const Case c = testing::adversarial_case(family, seed);
+    checks::for_each_adversary(12, [&](std::uint64_t seed) {
+      const Case c = checks::adversarial_case(family, seed);
       expect_as_judged(c.scene, c.camera);
     });
   }
 }
 
 TEST(VisibleEdges, OfRandomScenesAreJudged) {
-  for (const testing::Kind kind : {testing::Kind::few_bits, testing::Kind::neighbours,
-                                   testing::Kind::huge, testing::Kind::tiny}) {
-    testing::CaseMaker maker(54 + static_cast<std::uint64_t>(kind), kind);
-    for (int i = 0; i < 60 / testing::effort && !HasFailure(); ++i) {
+  for (const checks::Kind kind :
+       {checks::Kind::few_bits, checks::Kind::neighbours, checks::Kind::huge, checks::Kind::tiny}) {
+    checks::CaseMaker maker(54 + static_cast<std::uint64_t>(kind), kind);
+    for (int i = 0; i < 60 / checks::effort && !HasFailure(); ++i) {
       SCOPED_TRACE(i);
       const Case c = maker.make();
       expect_as_judged(c.scene, c.camera);
@@ -122,10 +122,10 @@ TEST(VisibleEdges, OfRandomScenesAreJudged) {
 }
 
 TEST(VisibleEdges, OfCrowdsAreJudged) {
-  for (const testing::Crowd& crowd : testing::crowds()) {
+  for (const checks::Crowd& crowd : checks::crowds()) {
     SCOPED_TRACE(crowd.name);
-    expect_as_judged(crowd.scene, testing::plain_camera(1, 1));
-    expect_as_judged(crowd.scene, testing::plain_camera(3, 2));
+    expect_as_judged(crowd.scene, checks::plain_camera(1, 1));
+    expect_as_judged(crowd.scene, checks::plain_camera(3, 2));
   }
 }
 
@@ -133,7 +133,7 @@ TEST(VisibleEdges, OfCrowdsAreJudged) {
 // image of 8×8 pixels, parts end at whole numbers.
 
 /// Adds triangles with corners at halves, in a slab of depths.
-void add_triangles(testing::CrowdBuilder& crowd, std::mt19937_64& random, int count, double size) {
+void add_triangles(checks::CrowdBuilder& crowd, std::mt19937_64& random, int count, double size) {
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   for (int i = 0; i < count; ++i) {
     const double u = below(17) / 2.0, v = below(17) / 2.0;
@@ -147,7 +147,7 @@ void add_triangles(testing::CrowdBuilder& crowd, std::mt19937_64& random, int co
 }
 
 /// A surface over a grid of whole numbers; `scale` grid lines of 8 are left out.
-void add_terrain(testing::CrowdBuilder& crowd, std::mt19937_64& random, int step, double depth) {
+void add_terrain(checks::CrowdBuilder& crowd, std::mt19937_64& random, int step, double depth) {
   std::vector<double> heights(81);
   for (double& height : heights) height = depth + static_cast<double>(random() % 3) / 2;
   const auto at = [&](int x, int y) {
@@ -168,21 +168,21 @@ Scene in_perspective(Scene scene) {
 }
 
 Camera eye(std::uint32_t size) {
-  Camera camera = testing::camera_of(size, size, 1);
+  Camera camera = checks::camera_of(size, size, 1);
   camera.projection.cx = camera.projection.cy = 0;
   return camera;
 }
 
 void expect_as_judged_by_both(const Scene& scene) {
-  expect_as_judged(scene, testing::plain_camera(8, 8));
+  expect_as_judged(scene, checks::plain_camera(8, 8));
   expect_as_judged(in_perspective(scene), eye(8));
 }
 
 TEST(VisibleEdges, OfTerrainsAreJudged) {
   std::mt19937_64 random(81);
-  for (int i = 0; i < 4 / std::min(testing::effort, 4) && !HasFailure(); ++i) {
+  for (int i = 0; i < 4 / std::min(checks::effort, 4) && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
-    testing::CrowdBuilder crowd;
+    checks::CrowdBuilder crowd;
     add_terrain(crowd, random, i % 2 == 0 ? 1 : 2, 6);
     add_triangles(crowd, random, i % 2 == 0 ? 3 : 12, 3);
     expect_as_judged_by_both(crowd.scene());
@@ -191,9 +191,9 @@ TEST(VisibleEdges, OfTerrainsAreJudged) {
 
 TEST(VisibleEdges, OfManyTrianglesAreJudged) {
   std::mt19937_64 random(82);
-  for (int i = 0; i < 4 / std::min(testing::effort, 4) && !HasFailure(); ++i) {
+  for (int i = 0; i < 4 / std::min(checks::effort, 4) && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
-    testing::CrowdBuilder crowd;
+    checks::CrowdBuilder crowd;
     add_triangles(crowd, random, 50, 1);
     expect_as_judged_by_both(crowd.scene());
   }
@@ -202,7 +202,7 @@ TEST(VisibleEdges, OfManyTrianglesAreJudged) {
 /// Planes that cross exactly where the image is cut, behind triangles that make it be cut.
 TEST(VisibleEdges, OfPlanesThatCrossAtASideOfPartsAreJudged) {
   std::mt19937_64 random(83);
-  testing::CrowdBuilder crowd;
+  checks::CrowdBuilder crowd;
   for (const double slope : {1.0, -1.0}) {
     const auto at = [&](double x, double y) { return MeshPoint{x, y, 20 + slope * (x - 4)}; };
     crowd.add(at(-1, -1), at(19, -1), at(-1, 19));
@@ -217,7 +217,7 @@ TEST(VisibleEdges, OfASheetInManyPartsAreJudged) {
   std::mt19937_64 random(84);
   for (const double tilt : {0.0, 0.125}) {
     SCOPED_TRACE(tilt);
-    testing::CrowdBuilder crowd;
+    checks::CrowdBuilder crowd;
     std::vector<double> depths(64);
     for (double& depth : depths) depth = 12 + static_cast<double>(random() % 5) / 4;
     const auto at = [&](int x, int y) {
@@ -234,7 +234,7 @@ TEST(VisibleEdges, OfASheetInManyPartsAreJudged) {
       const double u = k % 6 / 16.0, v = k / 6 / 16.0;
       crowd.add({u, v, 4}, {u + 0.0625, v, 4}, {u, v + 0.0625, 4});
     }
-    expect_as_judged(crowd.scene(), testing::plain_camera(4, 4));
+    expect_as_judged(crowd.scene(), checks::plain_camera(4, 4));
     expect_as_judged(in_perspective(crowd.scene()), eye(4));
   }
 }
@@ -273,7 +273,7 @@ TEST(VisibleEdges, OfBoxesThatPenetrateEachOtherAreJudged) {
   scene.objects[1].placed_as_is = false;
   scene.objects[1].world_from_mesh.rows = {
       {{0.5, 0, 0.25, 0.75}, {0, 0.5, 0, -0.5}, {-0.25, 0, 0.5, -0.75}}};
-  Camera camera = testing::plain_camera(8, 8);
+  Camera camera = checks::plain_camera(8, 8);
   camera.projection.cx = camera.projection.cy = 4;
   camera.world_to_camera = {{{2, 1, 0, 0}, {-0.5, 1, 2, 0}, {1, -2, 1, 8}}};
   expect_as_judged(scene, camera);
@@ -308,14 +308,14 @@ Scene dodecahedron() {
                                      : CornerIndices{first, first + 3, first + 2});
     }
   }
-  return testing::scene_of(std::move(vertices), std::move(triangles));
+  return checks::scene_of(std::move(vertices), std::move(triangles));
 }
 
 TEST(VisibleEdges, CreasesAreEdgesThatTurnByTheAngle) {
   const Scene scene = dodecahedron();
-  Camera camera = testing::camera_of(16, 16, 12);
+  Camera camera = checks::camera_of(16, 16, 12);
   camera.world_to_camera = {{{3, 1, 0, 0}, {-1, 3, 1, 0}, {0.5, -1, 3, 16}}};
-  const std::vector<oracle::Triangle> triangles = testing::triangles_of(scene);
+  const std::vector<oracle::Triangle> triangles = checks::triangles_of(scene);
   const auto normal_of = [&](std::uint32_t number) {
     const auto& [a, b, c] = triangles[number];
     oracle::Vector n;
@@ -359,8 +359,8 @@ TEST(VisibleEdges, CreasesAreEdgesThatTurnByTheAngle) {
 }
 
 TEST(VisibleEdges, RefuseAnglesAndLenses) {
-  const Scene scene = testing::box_scene(1, 1, 1);
-  Camera camera = testing::camera_of(4, 4, 4);
+  const Scene scene = checks::box_scene(1, 1, 1);
+  Camera camera = checks::camera_of(4, 4, 4);
   EXPECT_THROW(edges_of(scene, camera, {.crease_angle = 180.5}), UsageError);
   camera.projection.lens = Lens{.model = LensModel::opencv, .distortion = {0.1}};
   EXPECT_THROW(edges_of(scene, camera), UsageError);

@@ -18,13 +18,13 @@ namespace {
 
 using namespace area;
 using namespace triangle;
+using checks::camera_of;
+using checks::Case;
+using checks::CaseMaker;
+using checks::Kind;
+using checks::scene_of;
+using checks::surfaces_of;
 using oracle::Q;
-using testing::camera_of;
-using testing::Case;
-using testing::CaseMaker;
-using testing::Kind;
-using testing::scene_of;
-using testing::surfaces_of;
 
 struct Tally {
   int fragments = 0, partly_hidden = 0, hidden = 0, crossing = 0;
@@ -49,7 +49,7 @@ void check_pixel(const std::vector<SurfaceRegion>& surfaces, const oracle::Areas
   for (std::size_t piece = 0; piece < visibility.size(); ++piece) {
     const std::uint32_t number = visibility.surface(piece).number;
     const Boundary boundary = visibility.visible(piece);
-    const Q found = testing::rational(exact_area(boundary));
+    const Q found = checks::rational(exact_area(boundary));
     ASSERT_EQ(found, expected[number]) << "triangle " << number;
     EXPECT_EQ(boundary.empty(), sgn(found) == 0);
     const Interval around = enclose(approximate_area(boundary));
@@ -66,7 +66,7 @@ void check_pixel(const std::vector<SurfaceRegion>& surfaces, const oracle::Areas
   for (const auto& [number, area] : expected) {
     ASSERT_EQ(sgn(area), 0) << "triangle " << number << " is visible and has no piece";
   }
-  const Q rest = testing::rational(exact_area(visibility.uncovered()));
+  const Q rest = checks::rational(exact_area(visibility.uncovered()));
   EXPECT_EQ(sum, areas.coverage(column, row));
   EXPECT_EQ(sum + rest, 1);
 }
@@ -76,16 +76,16 @@ class Visible : public ::testing::TestWithParam<Kind> {};
 TEST_P(Visible, AreasAreTheOraclesAndAddUpToCoverage) {
   CaseMaker maker(4004 + static_cast<std::uint64_t>(GetParam()), GetParam());
   Tally tally;
-  for (int i = 0; i < 400 / testing::effort && !HasFatalFailure(); ++i) {
+  for (int i = 0; i < 400 / checks::effort && !HasFatalFailure(); ++i) {
     SCOPED_TRACE("scene " + std::to_string(i) + " of this seed");
     const Case c = maker.make();
     const std::vector<SurfaceRegion> surfaces = surfaces_of(c.scene, c.camera);
-    const oracle::Areas areas = testing::areas_at(c.scene, c.camera);
+    const oracle::Areas areas = checks::areas_at(c.scene, c.camera);
     for (std::uint32_t pixel = 0; pixel < 30; pixel += 4) {
       check_pixel(surfaces, areas, pixel % 6, pixel / 6, i % 2 == 0, tally);
     }
   }
-  if (testing::effort > 1) return;
+  if (checks::effort > 1) return;
   EXPECT_GT(tally.fragments, 50);
   EXPECT_GT(tally.partly_hidden, 50);
   EXPECT_GT(tally.hidden, 50);
@@ -113,7 +113,7 @@ TEST(VisibleFragments, ACycleAndAPenetration) {
                                {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}});
   const Camera camera = camera_of(4, 4, 4);
   const std::vector<SurfaceRegion> surfaces = surfaces_of(scene, camera);
-  const oracle::Areas areas = testing::areas_at(scene, camera);
+  const oracle::Areas areas = checks::areas_at(scene, camera);
   Tally tally;
   for (std::uint32_t pixel = 0; pixel < 16; ++pixel) {
     check_pixel(surfaces, areas, pixel % 4, pixel / 4, true, tally);
@@ -159,7 +159,7 @@ TEST(VisibleFragments, DivisionChangesNothing) {
         visibility,
         [&](CellVisibility& part) {
           ++parts;
-          uncovered += testing::rational(exact_area(part.uncovered()));
+          uncovered += checks::rational(exact_area(part.uncovered()));
           for (std::size_t piece = 0; piece < part.size(); ++piece) {
             const Boundary more = part.visible(piece);
             Boundary& all = divided[&part.surface(piece)];
@@ -168,7 +168,7 @@ TEST(VisibleFragments, DivisionChangesNothing) {
         },
         limits);
     EXPECT_GT(parts, 1);
-    EXPECT_EQ(uncovered, testing::rational(exact_area(visibility.uncovered())));
+    EXPECT_EQ(uncovered, checks::rational(exact_area(visibility.uncovered())));
     std::vector<ConvexPolygon> polygons;
     for (std::size_t piece = 0; piece < visibility.size(); ++piece) {
       SCOPED_TRACE(piece);
@@ -176,7 +176,7 @@ TEST(VisibleFragments, DivisionChangesNothing) {
       const SurfaceRegion& surface = visibility.surface(piece);
       const Boundary whole = visibility.visible(piece);
       const Boundary& found = divided[&surface];
-      ASSERT_EQ(testing::rational(exact_area(found)), testing::rational(exact_area(whole)));
+      ASSERT_EQ(checks::rational(exact_area(found)), checks::rational(exact_area(whole)));
       ASSERT_EQ(found.empty(), whole.empty());
       if (whole.empty()) continue;
       const CellDepths depths(pixel, surface);
@@ -186,7 +186,7 @@ TEST(VisibleFragments, DivisionChangesNothing) {
     TierCounts counts;
     Q covered = 0;
     for_each_simple_part(pixel, polygons, counts, [&](std::span<const ConvexPolygon> part) {
-      covered += testing::rational(exact_area(boundary_of_union(part, counts)));
+      covered += checks::rational(exact_area(boundary_of_union(part, counts)));
     });
     EXPECT_EQ(covered, 1 - uncovered);
   }
@@ -211,7 +211,7 @@ TEST(VisibleFragments, DepthsAreThoseOfTheVisiblePartAlone) {
   CellVisibility visibility(pixel);
   for (const SurfaceRegion& surface : surfaces) visibility.add(surface);
   const Boundary boundary = visibility.visible(0);
-  EXPECT_EQ(testing::rational(exact_area(boundary)), Q(1, 2));
+  EXPECT_EQ(checks::rational(exact_area(boundary)), Q(1, 2));
   const CellDepths::Extent extent = CellDepths(pixel, surfaces[0]).extent(boundary);
   EXPECT_EQ(extent.nearest, 2.5F);
   EXPECT_EQ(extent.farthest, 3.0F);

@@ -7,11 +7,10 @@
 
 #include "fathom/attribution/diagnosis.h"
 #include "tests/attribution/hand_made.h"
+#include "tests/special_values.h"
 
 namespace fathom::attribution {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A surface at depth 3 in the left half of 20 × 10 pixels.
 Truth half_a_sheet() {
@@ -30,17 +29,17 @@ OtherMap with_background(const Truth& truth, double value) {
   return map;
 }
 
-struct Case {
+struct BackgroundValue {
   const char* name;
   double value;
   const char* text;
 };
 
-void PrintTo(const Case& c, std::ostream* stream) {
+void PrintTo(const BackgroundValue& c, std::ostream* stream) {
   *stream << c.name;
 }
 
-class Background : public testing::TestWithParam<Case> {};
+class Background : public testing::TestWithParam<BackgroundValue> {};
 
 TEST_P(Background, IsToldFromSurfaces) {
   const Truth truth = half_a_sheet();
@@ -54,12 +53,13 @@ TEST_P(Background, IsToldFromSurfaces) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, Background,
-    testing::Values(Case{"Zero", 0, "0"}, Case{"MinusOne", -1, "-1"}, Case{"One", 1, "1"},
-                    Case{"NotANumber", std::numeric_limits<double>::quiet_NaN(), "NaN"},
-                    Case{"Far", 100.0001, "100.0001, the depth of the far plane"},
-                    Case{"Greatest", double{std::numeric_limits<float>::max()},
-                         "3.40282347e+38, the greatest binary32"},
-                    Case{"MinusInfinity", -infinity, "-inf"}),
+    testing::Values(BackgroundValue{"Zero", 0, "0"}, BackgroundValue{"MinusOne", -1, "-1"},
+                    BackgroundValue{"One", 1, "1"},
+                    BackgroundValue{"NotANumber", std::numeric_limits<double>::quiet_NaN(), "NaN"},
+                    BackgroundValue{"Far", 100.0001, "100.0001, the depth of the far plane"},
+                    BackgroundValue{"Greatest", double{std::numeric_limits<float>::max()},
+                                    "3.40282347e+38, the greatest binary32"},
+                    BackgroundValue{"MinusInfinity", -infinity, "-inf"}),
     [](const auto& c) { return c.param.name; });
 
 TEST(BackgroundOfAMap, ThatIsInfiniteIsOurs) {

@@ -7,9 +7,19 @@
 #include "fathom/attribution/attribution.h"
 #include "fathom/attribution/other_map.h"
 #include "fathom/attribution/truth.h"
+#include "fathom/camera/camera_making.h"
 
 /// What is known of a map, made by hand where a renderer would take long to come by it.
 namespace fathom::test {
+
+/// A camera of 96 × 72 pixels that looks down at the origin from a distance of 3, near 0.5, far 20.
+inline Camera level_camera() {
+  Camera camera = look_from({.azimuth = 35, .elevation = 25}, {0.1, -0.05, 0.2}, 3,
+                            {.width = 96, .height = 72, .vertical_fov = 45});
+  camera.near = 0.5;
+  camera.far = 20;
+  return camera;
+}
 
 /// An image of width × height pixels, each with the depth of its own that `depth(column, row)`
 /// says; infinite is background, the rest triangle 0.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +14,8 @@
 #include "fathom/camera/camera_making.h"
 #include "tests/attribution/float_rasterizer.h"
 #include "tests/attribution/halfs.h"
+#include "tests/attribution/hand_made.h"
+#include "tests/special_values.h"
 #include "validation/scenes/shapes.h"
 
 /// Maps that were drawn by a camera that is a little off, or changed afterwards: the fault is
@@ -24,23 +25,13 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Camera level_camera() {
-  Camera camera = look_from({.azimuth = 35, .elevation = 25}, {0.1, -0.05, 0.2}, 3,
-                            {.width = 96, .height = 72, .vertical_fov = 45});
-  camera.near = 0.5;
-  camera.far = 20;
-  return camera;
-}
-
 /// A sphere above a sheet.
 const Truth& sphere_and_sheet() {
   static const Truth truth = [] {
     Mesh sheet;
     sheet.vertices = {{-1.4, -1.1, -1.2}, {1.2, -1.1, -1.1}, {1.3, -0.9, 1.0}, {-1.1, -1.05, 1.2}};
     sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
-    return make_truth(bench::as_scene({bench::sphere(300), sheet}, "sphere"), level_camera());
+    return make_truth(bench::as_scene({bench::sphere(300), sheet}, "sphere"), test::level_camera());
   }();
   return truth;
 }

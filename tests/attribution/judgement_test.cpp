@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "fathom/attribution/model_survey.h"
 #include "fathom/attribution/other_scene.h"
 #include "tests/attribution/sphere_maps.h"
+#include "tests/special_values.h"
 
 /// What is said of maps whose renderer was called by a wrong name.
 namespace fathom::attribution {
@@ -21,8 +21,6 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 using namespace fathom::test;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Judgement judged(const std::shared_ptr<const Truth>& truth, const OtherMap& map,
                  const std::string& model) {

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "fathom/attribution/judgement.h"
 #include "fathom/failures/errors.h"
 #include "fathom/render.h"
+#include "tests/special_values.h"
 #include "validation/scenes/shapes.h"
 
 namespace fathom::attribution {
@@ -22,7 +22,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t width = 80, height = 60;
 
 Mesh quad(const MeshPoint& a, const MeshPoint& b, const MeshPoint& c, const MeshPoint& d) {

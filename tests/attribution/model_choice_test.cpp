@@ -3,15 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "fathom/attribution/model/named_models.h"
 #include "tests/attribution/sphere_maps.h"
+#include "tests/special_values.h"
 
 namespace fathom::attribution {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Truth sphere(double near, double far) {
   return *test::sphere_seen_by(test::sphere_camera(near, far));

@@ -11,13 +11,13 @@
 namespace fathom::attribution {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float infinity_32 = std::numeric_limits<float>::infinity();
 
 DepthMap two_pixels() {
   DepthMap map{.width = 2, .height = 1};
-  map.channels.push_back({"Z", Samples<float>{1.5F, infinity}});
+  map.channels.push_back({"Z", Samples<float>{1.5F, infinity_32}});
   map.channels.push_back({"id", Samples<std::uint32_t>{7, no_surface}});
-  map.channels.push_back({"far.Z", Samples<float>{3, infinity}});
+  map.channels.push_back({"far.Z", Samples<float>{3, infinity_32}});
   return map;
 }
 
@@ -34,7 +34,7 @@ TEST(OtherMaps, AreReadAndWritten) {
   const OtherMap other = other_map(two_pixels());
   EXPECT_EQ(other.width, 2U);
   EXPECT_EQ(other.height, 1U);
-  EXPECT_EQ(other.depths, (std::vector<double>{1.5, infinity}));
+  EXPECT_EQ(other.depths, (std::vector<double>{1.5, infinity_32}));
   EXPECT_EQ(other.triangles, (std::vector<std::uint32_t>{7, no_surface}));
   EXPECT_TRUE(other.windows.empty());
   const DepthMap map = as_depth_map(other);
@@ -59,7 +59,7 @@ TEST(OtherMaps, SayWhatTheirBackgroundIs) {
   map.channels.push_back({"Z", Samples<float>{1.5F, 7, 8}});
   EXPECT_EQ(other_map(map).depths, (std::vector<double>{1.5, 7, 8}));
   map.texts["fathom.background"] = "7";
-  EXPECT_EQ(other_map(map).depths, (std::vector<double>{1.5, infinity, 8}));
+  EXPECT_EQ(other_map(map).depths, (std::vector<double>{1.5, infinity_32, 8}));
 }
 
 TEST(OtherMaps, OfIntegersNeedAScale) {
@@ -68,7 +68,7 @@ TEST(OtherMaps, OfIntegersNeedAScale) {
   EXPECT_EQ(refusal_of(codes, ""),
             "png_scale: the map holds integers and does not say how many are a unit of depth");
   codes.png_scale = 1000;
-  EXPECT_EQ(other_map(codes).depths, (std::vector<double>{1.5, infinity}));
+  EXPECT_EQ(other_map(codes).depths, (std::vector<double>{1.5, infinity_32}));
 }
 
 }  // namespace

@@ -9,12 +9,12 @@
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/rounding.h"
 #include "tests/scratch_folder.h"
+#include "tests/special_values.h"
 
 namespace fathom {
 namespace {
 
 using testing::HasSubstr;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Vector3 y_up{0, 1, 0}, z_up{0, 0, 1};
 constexpr std::array<Vector3, 6> directions_of_axes{
     {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}};

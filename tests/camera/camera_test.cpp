@@ -4,18 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "fathom/failures/errors.h"
+#include "tests/special_values.h"
 
 namespace fathom {
 namespace {
 
 using testing::HasSubstr;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 Camera small_camera() {
   Camera camera;
   camera.width = 4;

@@ -13,7 +13,7 @@
 namespace fathom {
 namespace {
 
-using testing::any_double;
+using checks::any_double;
 using ::testing::HasSubstr;
 
 std::uint64_t bits(double x) {

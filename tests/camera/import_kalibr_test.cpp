@@ -32,12 +32,13 @@ std::string cam(const std::string& model, const std::string& intrinsics,
 
 const std::string pinhole = cam("pinhole", "5, 6, 3.25, 2.5", "none", "");
 
-std::vector<ImportedCamera> import(const std::string& json, const CalibrationPoses& poses = {}) {
+std::vector<ImportedCamera> import_calibration(const std::string& json,
+                                               const CalibrationPoses& poses = {}) {
   return cameras_of_kalibr(json, "camchain.yaml", {}, poses);
 }
 
 ImportedCamera first_of(const std::string& cam0) {
-  return import(R"({"cam0": )" + cam0 + "}").at(0);
+  return import_calibration(R"({"cam0": )" + cam0 + "}").at(0);
 }
 
 Camera valid(const ImportedCamera& one) {
@@ -167,7 +168,7 @@ constexpr Pose both{{{0, 0, 1, 2.5}, {0, 1, 0, 3}, {-1, 0, 0, -4}}};
 
 // T_cn_cnm1 takes points from camera n − 1 to camera n.
 TEST(ImportKalibr, EachCameraStandsOnThePreviousOne) {
-  const auto cameras = judged(import(chain_of({quarter, step})));
+  const auto cameras = judged(import_calibration(chain_of({quarter, step})));
   ASSERT_EQ(cameras.size(), 3U);
   EXPECT_EQ(cameras[0].camera.world_to_camera, Camera().world_to_camera);
   EXPECT_EQ(cameras[1].camera.world_to_camera, quarter);
@@ -176,7 +177,7 @@ TEST(ImportKalibr, EachCameraStandsOnThePreviousOne) {
 }
 
 TEST(ImportKalibr, ChainsOfMoreThanTenCamerasAreInOrder) {
-  const auto cameras = judged(import(chain_of(std::vector<Pose>(11, step))));
+  const auto cameras = judged(import_calibration(chain_of(std::vector<Pose>(11, step))));
   ASSERT_EQ(cameras.size(), 12U);
   for (int n = 0; n < 12; ++n) {
     EXPECT_EQ(cameras[n].camera.name, "cam" + std::to_string(n));
@@ -185,7 +186,8 @@ TEST(ImportKalibr, ChainsOfMoreThanTenCamerasAreInOrder) {
 }
 
 TEST(ImportKalibr, PosesMoveTheWholeRig) {
-  const auto cameras = judged(import(chain_of({step}), {{{"a", quarter}, {"b", step}}}));
+  const auto cameras =
+      judged(import_calibration(chain_of({step}), {{{"a", quarter}, {"b", step}}}));
   ASSERT_EQ(cameras.size(), 4U);
   EXPECT_EQ(cameras[0].camera.name, "cam0/a");
   EXPECT_EQ(cameras[0].camera.world_to_camera, quarter);
@@ -193,8 +195,8 @@ TEST(ImportKalibr, PosesMoveTheWholeRig) {
   EXPECT_EQ(cameras[1].camera.world_to_camera, both);
   EXPECT_EQ(cameras[3].camera.name, "cam1/b");
   const Pose inverse{{{0, 0, -1, 4}, {0, 1, 0, -3}, {1, 0, 0, -2}}};
-  const auto inverted =
-      judged(import(chain_of({quarter}), {{{"a", inverse}}, PoseDirection::camera_to_world}));
+  const auto inverted = judged(
+      import_calibration(chain_of({quarter}), {{{"a", inverse}}, PoseDirection::camera_to_world}));
   EXPECT_EQ(inverted[0].camera.world_to_camera, quarter);
 }
 
@@ -217,7 +219,8 @@ TEST(ImportKalibr, ProductsAreRoundedOnce) {
         if (Real(product[i][k]) != sum) ++rounded;
       }
     }
-    EXPECT_EQ(judged(import(chain_of({first, second}))).at(2).camera.world_to_camera, product);
+    EXPECT_EQ(judged(import_calibration(chain_of({first, second}))).at(2).camera.world_to_camera,
+              product);
   }
   EXPECT_GT(rounded, 300);
 }
@@ -242,26 +245,27 @@ TEST(ImportKalibr, FaultsAreNamed) {
   EXPECT_THAT(fault(cam("eucm", "1.5, 1, " + K, "none", "")),
               HasSubstr("camchain.yaml: cam0: alpha is not between 0 and 1"));
   EXPECT_THAT(fault("{}"), HasSubstr("camchain.yaml: cam0: the key"));
-  EXPECT_THAT(message_of<InputError>([] { import("{}"); }),
+  EXPECT_THAT(message_of<InputError>([] { import_calibration("{}"); }),
               HasSubstr("camchain.yaml: has no camera: expected cam0, cam1, …"));
 }
 
 TEST(ImportKalibr, FaultsOfPosesBelongToTheirCameras) {
   const std::string alone =
       R"({"cam0": )" + pinhole + R"(, "cam1": )" + pinhole + R"(, "cam2": )" + pinhole + "}";
-  const auto cameras = import(alone);
+  const auto cameras = import_calibration(alone);
   ASSERT_EQ(cameras.size(), 3U);
   EXPECT_EQ(cameras[0].fault, "");
   EXPECT_THAT(cameras[1].fault, HasSubstr("cam1: the key \"T_cn_cnm1\" is missing"));
   EXPECT_THAT(cameras[2].fault,
               HasSubstr("cam2: stands on the previous camera, whose pose has a fault"));
   const Pose flat{{{1, 0, 0, 0}, {2, 0, 0, 0}, {0, 0, 1, 0}}};
-  EXPECT_THAT(import(chain_of({flat})).at(1).fault, HasSubstr("camchain.yaml: "));
-  EXPECT_THAT(import(chain_of({}), {{{"0", flat}}, PoseDirection::camera_to_world}).at(0).fault,
-              HasSubstr("the matrix is singular"));
+  EXPECT_THAT(import_calibration(chain_of({flat})).at(1).fault, HasSubstr("camchain.yaml: "));
+  EXPECT_THAT(
+      import_calibration(chain_of({}), {{{"0", flat}}, PoseDirection::camera_to_world}).at(0).fault,
+      HasSubstr("the matrix is singular"));
   Pose endless = step;
   endless[0][3] = std::numeric_limits<double>::infinity();
-  EXPECT_THAT(import(chain_of({}), {{{"0", endless}}}).at(0).fault,
+  EXPECT_THAT(import_calibration(chain_of({}), {{{"0", endless}}}).at(0).fault,
               HasSubstr("the pose has a number that is not finite"));
 }
 

@@ -31,7 +31,7 @@ std::string mei(const std::string& distortion, const std::string& mirror = R"("x
 const std::string straight = mei(R"("k1": 0, "k2": 0, "p1": 0, "p2": 0)");
 const std::string bent = mei(R"("k1": 0.0168, "k2": 1.6549, "p1": 0.00042, "p2": 0.000425)");
 
-ImportedCamera import(const std::string& json) {
+ImportedCamera import_folder(const std::string& json) {
   return parse_kitti360({json, "image_02.yaml"}, {}, std::nullopt, std::nullopt).at(0);
 }
 
@@ -45,7 +45,7 @@ PixelPoint in_image(double x, double y) {
 }
 
 TEST(ImportKitti360, MirrorsProjectAsMeiDoes) {
-  const ImportedCamera one = import(straight);
+  const ImportedCamera one = import_folder(straight);
   ASSERT_EQ(one.fault + one.absence, "");
   EXPECT_EQ(one.camera.name, "image_02");
   EXPECT_EQ(one.camera.width, 8U);
@@ -58,7 +58,7 @@ TEST(ImportKitti360, MirrorsProjectAsMeiDoes) {
 }
 
 TEST(ImportKitti360, DistortionFollowsTheMirror) {
-  const ImportedCamera one = import(bent);
+  const ImportedCamera one = import_folder(bent);
   if (entry_of(LensModel::omni).distortion.size() == 1) {
     EXPECT_EQ(one.absence, "image_02.yaml: the lens model OMNI has no parameter k1");
     return;
@@ -110,16 +110,16 @@ TEST(ImportKitti360, FilesAreRead) {
 }
 
 TEST(ImportKitti360, FaultsAreNamed) {
-  EXPECT_THAT(import(R"({"model_type": "KANNALA_BRANDT"})").fault,
+  EXPECT_THAT(import_folder(R"({"model_type": "KANNALA_BRANDT"})").fault,
               HasSubstr("\"image_width\" is missing"));
   std::string other = straight;
   other.replace(other.find("MEI"), 3, "PINHOLE");
-  EXPECT_EQ(import(other).fault, "image_02.yaml: model_type: found PINHOLE, expected MEI");
-  EXPECT_THAT(import(mei(R"("k1": 0)")).fault,
+  EXPECT_EQ(import_folder(other).fault, "image_02.yaml: model_type: found PINHOLE, expected MEI");
+  EXPECT_THAT(import_folder(mei(R"("k1": 0)")).fault,
               HasSubstr("image_02.yaml: distortion_parameters: the key \"k2\" is missing"));
-  EXPECT_THAT(import(mei(R"("k1": 0, "k2": 0, "p1": 0, "p2": ".nan")")).fault,
+  EXPECT_THAT(import_folder(mei(R"("k1": 0, "k2": 0, "p1": 0, "p2": ".nan")")).fault,
               HasSubstr("distortion_parameters.p2: is a string, expected a number"));
-  EXPECT_EQ(import(mei(R"("k1": 0, "k2": 0, "p1": 0, "p2": 0)", R"("xi": -1)")).fault,
+  EXPECT_EQ(import_folder(mei(R"("k1": 0, "k2": 0, "p1": 0, "p2": 0)", R"("xi": -1)")).fault,
             "image_02.yaml: xi is less than 0");
   const auto fault = [](const auto& run) { return message_of<InputError>(run); };
   EXPECT_EQ(fault([] { drive(poses, "image_00: 1 0 0 0 0 1 0 0 0 0 1 0\n"); }),

@@ -32,7 +32,7 @@ std::vector<ImportedCamera> import(const std::string& keys, const std::string& l
   return judged(parse_nerf("{" + keys + ", " + lists + "}", "transforms.json", 0, 0, warnings));
 }
 
-Camera one(const std::string& keys) {
+Camera only_camera(const std::string& keys) {
   return import(keys, R"("frames": [)" + frame("a.jpg") + "]").at(0).camera;
 }
 
@@ -40,8 +40,8 @@ Camera one(const std::string& keys) {
 // direction (−sin theta·sin phi, cos phi, −cos theta·sin phi) with y up and z backward. Its tool
 // writes fl_x = fl_y = height for 2:1 images.
 TEST(ImportWideNerf, EquirectangularShowsATurn) {
-  const Camera camera =
-      one(R"("camera_model": "EQUIRECTANGULAR", "fl_x": 8, "fl_y": 8, "cx": 8, "cy": 4, "w": 16,
+  const Camera camera = only_camera(
+      R"("camera_model": "EQUIRECTANGULAR", "fl_x": 8, "fl_y": 8, "cx": 8, "cy": 4, "w": 16,
           "h": 8)");
   EXPECT_EQ(camera.projection.lens, Lens{LensModel::equirectangular});
   EXPECT_EQ(camera.projection.pixel_centre, 0.5);
@@ -56,15 +56,15 @@ TEST(ImportWideNerf, EquirectangularShowsATurn) {
 
 TEST(ImportWideNerf, PanoramasMayBeParts) {
   const Camera camera =
-      one(R"("camera_model": "EQUIRECTANGULAR", "fl_x": 20, "fl_y": 12, "cx": 7, "cy": 2.5,
+      only_camera(R"("camera_model": "EQUIRECTANGULAR", "fl_x": 20, "fl_y": 12, "cx": 7, "cy": 2.5,
           "w": 10, "h": 5, "k1": 0.5)");
   EXPECT_EQ(camera.projection.fx, 40);
   EXPECT_EQ(camera.projection.fy, 12);
   EXPECT_EQ(camera.projection.cx, 7);
   EXPECT_EQ(camera.projection.cy, 2.5);
-  EXPECT_THAT(
-      message_of<InputError>([] { one(R"("camera_model": "EQUIRECTANGULAR", "w": 8, "h": 4)"); }),
-      HasSubstr("the focal length is missing"));
+  EXPECT_THAT(message_of<InputError>(
+                  [] { only_camera(R"("camera_model": "EQUIRECTANGULAR", "w": 8, "h": 4)"); }),
+              HasSubstr("the focal length is missing"));
 }
 
 // As ScanNet++ has it: one lens for all frames, which are in two lists.

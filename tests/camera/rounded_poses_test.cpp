@@ -31,7 +31,7 @@ TEST(Pose, RotationsOfQuaternionsAreRoundedOnce) {
 
 /// Rounded to nearest: (e ± ½ ulp)² encloses the exact square vᵢ²/v·v.
 TEST(Pose, EntriesOfUnitVectorsAreTheNearest) {
-  testing::Numbers n(91);
+  checks::Numbers n(91);
   for (int i = 0; i < 3000; ++i) {
     const ExactVector3 v{n.unit(), n.unit() * std::ldexp(1, -n.below(40)), n.unit()};
     const std::array<double, 3> unit = unit_vector(v);
@@ -51,7 +51,7 @@ TEST(Pose, EntriesOfUnitVectorsAreTheNearest) {
 }
 
 TEST(Pose, TakesThePointToItsTarget) {
-  testing::Numbers n(92);
+  checks::Numbers n(92);
   for (int i = 0; i < 2000; ++i) {
     Matrix3 R;
     for (auto& row : R) {

@@ -124,7 +124,7 @@ TEST(BadRings, RoundingEndsInAnAnswerOrARefusal) {
   std::mt19937_64 random(41);
   const auto below = [&](unsigned n) { return static_cast<double>(random() % n); };
   int answers = 0, refusals = 0;
-  for (int i = 0; i < 3000 / testing::effort; ++i) {
+  for (int i = 0; i < 3000 / checks::effort; ++i) {
     // Fans over nearly the same line y = x/3, every corner off it by a few ulps.
     const auto ring = [&] {
       Ring<double> corners;
@@ -145,8 +145,8 @@ TEST(BadRings, RoundingEndsInAnAnswerOrARefusal) {
     }
     EXPECT_NO_THROW(weiler_atherton(to_exact(a), to_exact(b), SetOperation::intersection));
   }
-  EXPECT_GT(answers, 500 / testing::effort);
-  EXPECT_GT(refusals, 10 / testing::effort);
+  EXPECT_GT(answers, 500 / checks::effort);
+  EXPECT_GT(refusals, 10 / checks::effort);
 }
 
 }  // namespace

@@ -41,14 +41,14 @@ TEST(SettledSign, IsThatOfExactNumbers) {
   std::mt19937 random(35);
   const auto number = [&] { return Rational(static_cast<int>(random() % 41) - 20, 7); };
   int told = 0;
-  for (int i = 0; i < 3000 / testing::effort; ++i) {
+  for (int i = 0; i < 3000 / checks::effort; ++i) {
     const P a{number(), number()}, b{number(), number()}, c{number(), number()};
     const auto sign = settled(a, b, c);
     if (!sign) continue;
     ++told;
     ASSERT_EQ(*sign, sign_of(cross(a, b, c)));
   }
-  EXPECT_GT(told, 2000 / testing::effort);
+  EXPECT_GT(told, 2000 / checks::effort);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ TEST(ConvexPieces, AnLIsTwoWhicheverCornerComesFirst) {
 TEST(ConvexPieces, OfRandomRingsAreConvexAndFillThem) {
   PolygonMaker maker(51);
   std::size_t most = 0;
-  for (int i = 0; i < 1500 / testing::effort; ++i) {
+  for (int i = 0; i < 1500 / checks::effort; ++i) {
     const Ring<Rational> ring = checked_rings(
         to_exact(maker.polygon(7, 14, [](const auto&) { return true; })), "random")[0];
     const auto pieces = convex_pieces(ring);
@@ -59,7 +59,7 @@ TEST(ConvexPieces, OfRandomRingsAreConvexAndFillThem) {
 TEST(ConvexPieces, CureSutherlandHodgman) {
   PolygonMaker maker(52);
   const Ring<Rational> window{{2, 1}, {5, 1}, {5, 5}, {2, 5}};
-  for (int i = 0; i < 500 / testing::effort; ++i) {
+  for (int i = 0; i < 500 / checks::effort; ++i) {
     const Ring<Rational> ring = checked_rings(
         to_exact(maker.polygon(7, 14, [](const auto&) { return true; })), "random")[0];
     Rings<Rational> clipped;

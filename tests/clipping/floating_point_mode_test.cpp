@@ -34,7 +34,7 @@ TEST(FloatingPointMode, ChangesNoClippedLine) {
   for (const Segment2<double>& segment :
        {Segment2<double>{{-1, 0.1}, {4, 0.7}}, Segment2<double>{{0, 0}, {3 * tiny, tiny}},
         Segment2<double>{{0.1, -1}, {0.3, 7}}}) {
-    testing::expect_same_in_all_modes([&] {
+    checks::expect_same_in_all_modes([&] {
       Numbers numbers;
       add(numbers, cohen_sutherland(segment, window));
       add(numbers, liang_barsky(segment, window));
@@ -55,7 +55,7 @@ void add(Numbers& numbers, const Rings<double>& rings) {
 }
 
 TEST(FloatingPointMode, ChangesNoClippedPolygon) {
-  testing::expect_same_in_all_modes([] {
+  checks::expect_same_in_all_modes([] {
     Numbers numbers;
     for (const auto operation : {SetOperation::intersection, SetOperation::difference}) {
       const auto polygons = weiler_atherton(Rings<double>{dart}, {square}, operation);
@@ -68,7 +68,7 @@ TEST(FloatingPointMode, ChangesNoClippedPolygon) {
 
 TEST(FloatingPointMode, ChangesNothingOfRings) {
   for (const Ring<double>& ring : {dart, speck}) {
-    testing::expect_same_in_all_modes([&] {
+    checks::expect_same_in_all_modes([&] {
       Numbers numbers;
       add(numbers, checked_rings(Rings<double>{ring}, "subject"));
       numbers.push_back(signed_area(ring));
@@ -79,7 +79,7 @@ TEST(FloatingPointMode, ChangesNothingOfRings) {
 }
 
 TEST(FloatingPointMode, ChangesNothingOfExactPolygons) {
-  testing::expect_same_in_all_modes([] {
+  checks::expect_same_in_all_modes([] {
     Numbers numbers;
     const auto add_answer = [&](const std::vector<Polygon<Rational>>& polygons) {
       for (const Polygon<Rational>& polygon : polygons) {
@@ -112,7 +112,7 @@ TEST(FloatingPointMode, ChangesNothingInSpace) {
   const std::vector<Corner4<double>> triangle{
       {{-3, 0.1, 0.2, 1}, {0.1}}, {{3, 0.3, tiny, 1.1}, {tiny}}, {{0.7, 5, 0.4, 0.9}, {0.7}}};
   const Plane<double> plane{0.1, 0.7, tiny, -0.3};
-  testing::expect_same_in_all_modes([&] {
+  checks::expect_same_in_all_modes([&] {
     Numbers numbers;
     for (const auto& [p, attributes] : clip_homogeneous(triangle, Volume::opengl)) {
       numbers.insert(numbers.end(), {p.x, p.y, p.z, p.w});

@@ -104,7 +104,7 @@ TEST(Homogeneous, SegmentsInFrontOfTheEyeAreClippedAlikeInBothOrders) {
     return {number(), number(), number(), Rational(static_cast<int>(random() % 6) + 1, 2)};
   };
   int visible = 0;
-  for (int i = 0; i < 2000 / testing::effort; ++i)
+  for (int i = 0; i < 2000 / checks::effort; ++i)
     for (const Volume volume : {Volume::opengl, Volume::zero_one}) {
       const Segment4<Rational> segment{in_front(), in_front()};
       const auto before = clip_homogeneous(segment, volume);
@@ -119,7 +119,7 @@ TEST(Homogeneous, SegmentsInFrontOfTheEyeAreClippedAlikeInBothOrders) {
       expect_same(before->start, after->start);
       expect_same(before->end, after->end);
     }
-  EXPECT_GT(visible, 300 / testing::effort);
+  EXPECT_GT(visible, 300 / checks::effort);
 }
 
 /// Random triangles in front of, behind and across the eye, clipped by the frustum's planes in
@@ -130,7 +130,7 @@ TEST(Homogeneous, IsClippingByTheFrustumInSpace) {
   std::mt19937 random(31);
   const auto number = [&] { return Rational(static_cast<int>(random() % 13) - 6, 2); };
   int visible = 0, across = 0;
-  for (int i = 0; i < 3000 / testing::effort; ++i) {
+  for (int i = 0; i < 3000 / checks::effort; ++i) {
     std::vector<Corner3<Rational>> in_space;
     std::vector<Corner4<Rational>> in_clip_space;
     bool behind = false, in_front = false;
@@ -154,15 +154,15 @@ TEST(Homogeneous, IsClippingByTheFrustumInSpace) {
     visible += clipped.empty() ? 0 : 1;
     across += !clipped.empty() && behind && in_front ? 1 : 0;
   }
-  EXPECT_GT(visible, 300 / testing::effort);
-  EXPECT_GT(across, 100 / testing::effort);
+  EXPECT_GT(visible, 300 / checks::effort);
+  EXPECT_GT(across, 100 / checks::effort);
 }
 
 TEST(Homogeneous, LowerHalfIsTheUpperOneOfTheNegatives) {
   std::mt19937 random(32);
   const auto number = [&] { return Rational(static_cast<int>(random() % 9) - 4); };
   int lower = 0;
-  for (int i = 0; i < 2000 / testing::effort; ++i)
+  for (int i = 0; i < 2000 / checks::effort; ++i)
     for (const Volume volume : {Volume::opengl, Volume::zero_one}) {
       std::vector<P4> points, negatives;
       while (points.size() < 3) {
@@ -182,7 +182,7 @@ TEST(Homogeneous, LowerHalfIsTheUpperOneOfTheNegatives) {
       }
       lower += below.empty() ? 0 : 1;
     }
-  EXPECT_GT(lower, 100 / testing::effort);
+  EXPECT_GT(lower, 100 / checks::effort);
 }
 
 TEST(Homogeneous, SegmentThroughBothHalvesHasAPartInEach) {
@@ -240,7 +240,7 @@ TEST(Homogeneous, PolygonsInFrontOfTheEyeAreClippedAlikeInBothOrders) {
   std::mt19937 random(34);
   const auto number = [&] { return Rational(static_cast<int>(random() % 13) - 6, 2); };
   int visible = 0;
-  for (int i = 0; i < 1000 / testing::effort; ++i)
+  for (int i = 0; i < 1000 / checks::effort; ++i)
     for (const Volume volume : {Volume::opengl, Volume::zero_one}) {
       std::vector<P4> points;
       for (int k = 0; k < 3; ++k)
@@ -255,7 +255,7 @@ TEST(Homogeneous, PolygonsInFrontOfTheEyeAreClippedAlikeInBothOrders) {
       }
       visible += before.empty() ? 0 : 1;
     }
-  EXPECT_GT(visible, 100 / testing::effort);
+  EXPECT_GT(visible, 100 / checks::effort);
 }
 
 TEST(Homogeneous, TheTraceNamesTheBoundaries) {

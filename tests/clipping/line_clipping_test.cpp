@@ -88,7 +88,7 @@ TEST(LineClipping, AgreesFarFromEveryGrid) {
     const int power = static_cast<int>(random() % 400) - 200;
     return std::ldexp(static_cast<double>(static_cast<std::int64_t>(random())), power);
   };
-  for (int i = 0; i < 2000 / testing::effort; ++i) {
+  for (int i = 0; i < 2000 / checks::effort; ++i) {
     const double x0 = number(), x1 = number(), y0 = number(), y1 = number();
     const Segment2<Rational> s{{number(), number()}, {number(), number()}};
     ASSERT_NO_FATAL_FAILURE(expect_all_agree(
@@ -125,7 +125,7 @@ TEST(LineClipping, CohenSutherlandInBinary64EndsInsideTheWindow) {
   std::uniform_real_distribution<double> number(-3, 3);
   const Window<double> window{-1, -1, 1, 1};
   int accepted = 0;
-  for (int i = 0; i < 20000 / testing::effort; ++i) {
+  for (int i = 0; i < 20000 / checks::effort; ++i) {
     const Segment2<double> s{{number(random), number(random)}, {number(random), number(random)}};
     const auto part = cohen_sutherland(s, window);
     if (!part) continue;
@@ -133,7 +133,7 @@ TEST(LineClipping, CohenSutherlandInBinary64EndsInsideTheWindow) {
     EXPECT_EQ(outcode_of(part->start, window), outcode::inside);
     EXPECT_EQ(outcode_of(part->end, window), outcode::inside);
   }
-  EXPECT_GT(accepted, 1000 / testing::effort);
+  EXPECT_GT(accepted, 1000 / checks::effort);
 }
 
 TEST(CohenSutherland, OutcodesOfTheNineRegions) {

@@ -110,7 +110,7 @@ bool lies_on_both_sides(const NumberedRing& ring, const NumberedRing& other,
 TEST(RingCrossings, AreWhereARingLiesOnBothSidesOfAnother) {
   PolygonMaker maker(78);
   std::size_t crossing = 0, touching = 0;
-  for (int i = 0; i < 6000 / testing::effort; ++i) {
+  for (int i = 0; i < 6000 / checks::effort; ++i) {
     const auto crosses = [](const Rings<double>& rings) {
       return !Entered(to_exact(rings)).rings.has_value();
     };
@@ -124,8 +124,8 @@ TEST(RingCrossings, AreWhereARingLiesOnBothSidesOfAnother) {
     ASSERT_EQ(found.has_value(), expected) << "polygon " << i;
     ++(expected ? crossing : touching);
   }
-  EXPECT_GT(crossing, 100U / testing::effort);
-  EXPECT_GT(touching, 1000U / testing::effort);
+  EXPECT_GT(crossing, 100U / checks::effort);
+  EXPECT_GT(touching, 1000U / checks::effort);
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ Ring<Rational> random_convex(PolygonMaker& maker) {
 TEST(SutherlandHodgman, AgreesWithWeilerAthertonInArea) {
   PolygonMaker maker(21);
   int concave_in_pieces = 0;
-  for (int i = 0; i < 2000 / testing::effort; ++i) {
+  for (int i = 0; i < 2000 / checks::effort; ++i) {
     const bool convex_subject = i % 2 == 0;
     const Ring<Rational> clip = random_convex(maker);
     const Ring<Rational> subject =
@@ -79,7 +79,7 @@ TEST(SutherlandHodgman, AgreesWithWeilerAthertonInArea) {
     }
     concave_in_pieces += pieces.size() > 1 ? 1 : 0;
   }
-  EXPECT_GT(concave_in_pieces, 20 / testing::effort);
+  EXPECT_GT(concave_in_pieces, 20 / checks::effort);
 }
 
 TEST(SutherlandHodgman, ConcavePolygonComesOutAsOneRingWithBridges) {

@@ -81,7 +81,7 @@ TEST(Sweep, ATriangleInASquareOnPaper) {
 TEST(Sweep, IsTheHighestEdgeBelow) {
   PolygonMaker maker(231);
   std::size_t tested = 0;
-  for (int i = 0; i < 2000 / testing::effort; ++i) {
+  for (int i = 0; i < 2000 / checks::effort; ++i) {
     const auto never = [](const Rings<double>&) { return false; };
     const Edges all = edges_of(to_exact(maker.polygon(4 + i % 5, 10, never)));
     std::vector<bool> met(all.edges.size(), false);
@@ -96,7 +96,7 @@ TEST(Sweep, IsTheHighestEdgeBelow) {
     }
     EXPECT_EQ(std::count(met.begin(), met.end(), true), std::ssize(all.edges));
   }
-  EXPECT_GT(tested, 3000U / testing::effort);
+  EXPECT_GT(tested, 3000U / checks::effort);
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST(Touches, OnPaper) {
 TEST(Touches, AreThoseOfAllPairs) {
   PolygonMaker maker(77);
   std::size_t crossing = 0, touching = 0;
-  for (int i = 0; i < 4000 / testing::effort; ++i) {
+  for (int i = 0; i < 4000 / checks::effort; ++i) {
     // Every other one does not cross within edges.
     const auto crosses = [&](const Rings<double>& rings) {
       return i % 2 == 0 && look_at_all_pairs(to_exact(rings)).cross;
@@ -92,8 +92,8 @@ TEST(Touches, AreThoseOfAllPairs) {
                 direction_of(corners.rings[r], PointOrder(corners.points)));
     }
   }
-  EXPECT_GT(crossing, 500U / testing::effort);
-  EXPECT_GT(touching, 300U / testing::effort);
+  EXPECT_GT(crossing, 500U / checks::effort);
+  EXPECT_GT(touching, 300U / checks::effort);
 }
 
 /// Triangles in one corner of a square, each with its legs on those of the next: the legs of the

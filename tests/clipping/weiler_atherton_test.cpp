@@ -97,7 +97,7 @@ class WeilerAthertonRandom : public ::testing::TestWithParam<RandomPairs> {};
 TEST_P(WeilerAthertonRandom, IsAsCgal) {
   const RandomPairs& random = GetParam();
   PolygonMaker maker(random.seed);
-  for (int i = 0; i < random.pairs / testing::effort && !HasFatalFailure(); ++i) {
+  for (int i = 0; i < random.pairs / checks::effort && !HasFatalFailure(); ++i) {
     const auto side = [&] {
       return maker.polygon(random.size, 3 + maker.below(random.corners - 2), cross_each_other);
     };
@@ -238,7 +238,7 @@ TEST(WeilerAtherton, AUnionWalksOutsideOfTheOther) {
 
 TEST(WeilerAtherton, Laws) {
   PolygonMaker maker(7);
-  for (int i = 0; i < 500 / testing::effort; ++i) {
+  for (int i = 0; i < 500 / checks::effort; ++i) {
     const auto A = to_exact(maker.polygon(5, 9, cross_each_other));
     const auto B = to_exact(maker.polygon(5, 9, cross_each_other));
     const auto both = weiler_atherton(A, B, SetOperation::intersection);
@@ -272,7 +272,7 @@ TEST(WeilerAtherton, Laws) {
 // Binary64 agrees where nothing is rounded.
 TEST(WeilerAtherton, WithoutRoundingBothKernelsAgree) {
   PolygonMaker maker(8);
-  for (int i = 0; i < 500 / testing::effort; ++i) {
+  for (int i = 0; i < 500 / checks::effort; ++i) {
     // Axis-parallel rectangles: all crossings have integer coordinates.
     const auto box = [&] {
       const double x = maker.below(6), y = maker.below(6);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <string>
 
 #include "fathom/depth_format/encode.h"
@@ -15,13 +14,12 @@
 #include "tests/engines/expect_same_map.h"
 #include "tests/inputs/random_scenes.h"
 #include "tests/inputs/soup.h"
+#include "tests/special_values.h"
 
 namespace fathom {
 namespace {
 
-using testing::Kind;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using checks::Kind;
 
 struct Buffered {
   DepthMap map;
@@ -113,9 +111,9 @@ DepthFormat random_format(std::mt19937_64& random, const Camera& camera) {
 TEST(DepthBuffer, BothEnginesHoldWhatTheSpecificationSays) {
   std::mt19937_64 random(31);
   std::uint64_t fighting = 0;
-  for (int i = 0; i < 1500 / testing::effort; ++i) {
+  for (int i = 0; i < 1500 / checks::effort; ++i) {
     const Kind kind = i % 3 == 0 ? Kind::neighbours : Kind::few_bits;
-    testing::Case c = testing::CaseMaker(1000 + static_cast<std::uint64_t>(i), kind).make();
+    checks::Case c = checks::CaseMaker(1000 + static_cast<std::uint64_t>(i), kind).make();
     c.camera.near = std::ldexp(1, -static_cast<int>(random() % 26));
     c.camera.far = std::ldexp(1, static_cast<int>(random() % 30) + 1);
     const DepthFormat format = random_format(random, c.camera);
@@ -127,13 +125,13 @@ TEST(DepthBuffer, BothEnginesHoldWhatTheSpecificationSays) {
         buffered(c.scene, c.camera, format, Engine::reference, cull, equal_depths);
     ASSERT_NO_FATAL_FAILURE(expect_true(exact, c.scene, c.camera, format, cull, equal_depths));
     const Buffered fast = buffered(c.scene, c.camera, format, Engine::fast, cull, equal_depths);
-    ASSERT_NO_FATAL_FAILURE(testing::expect_same_map(fast.map, exact.map));
+    ASSERT_NO_FATAL_FAILURE(checks::expect_same_map(fast.map, exact.map));
     ASSERT_FALSE(::testing::Test::HasFailure());
     EXPECT_EQ(fast.statistics.fighting, exact.statistics.fighting);
     fighting += exact.statistics.fighting;
   }
   // Among the few cases that are run under sanitizers there need not be one.
-  if (testing::effort == 1) {
+  if (checks::effort == 1) {
     EXPECT_GT(fighting, 50U);
   }
 }
@@ -142,14 +140,14 @@ TEST(DepthBuffer, BothEnginesHoldWhatTheSpecificationSays) {
 TEST(DepthBuffer, HugeAndTinyScenesAreLeftToExactNumbers) {
   for (const Kind kind : {Kind::huge, Kind::tiny}) {
     std::uint64_t exact_numbers = 0;
-    for (int i = 0; i < 40 / testing::effort + 1; ++i) {
-      testing::Case c = testing::CaseMaker(2000 + static_cast<std::uint64_t>(i), kind).make();
+    for (int i = 0; i < 40 / checks::effort + 1; ++i) {
+      checks::Case c = checks::CaseMaker(2000 + static_cast<std::uint64_t>(i), kind).make();
       c.camera.near = kind == Kind::huge ? 1e140 : 1e-160;
       c.camera.far = kind == Kind::huge ? 1e160 : 1e-140;
       const DepthFormat format{Mapping::log_ulrich, Storage::unorm16, c.camera.near, c.camera.far};
       const Buffered exact = buffered(c.scene, c.camera, format, Engine::reference);
       const Buffered fast = buffered(c.scene, c.camera, format, Engine::fast);
-      testing::expect_same_map(fast.map, exact.map);
+      checks::expect_same_map(fast.map, exact.map);
       exact_numbers += fast.statistics.by_exact_numbers;
     }
     EXPECT_GT(exact_numbers, 0U);
@@ -159,8 +157,8 @@ TEST(DepthBuffer, HugeAndTinyScenesAreLeftToExactNumbers) {
 /// Larger images, all sizes of triangles; which tier answers.
 TEST(DepthBuffer, EnginesAgreeOnManyTriangles) {
   std::mt19937_64 random(32);
-  const Scene scene = testing::soup(random, 60, false);
-  Camera camera = testing::camera_of(100 / (testing::effort > 1 ? 4 : 1), 90, 70);
+  const Scene scene = checks::soup(random, 60, false);
+  Camera camera = checks::camera_of(100 / (checks::effort > 1 ? 4 : 1), 90, 70);
   camera.near = 0.5;
   camera.far = 50;
   for (const Mapping mapping : {Mapping::standard, Mapping::reversed, Mapping::log}) {
@@ -168,7 +166,7 @@ TEST(DepthBuffer, EnginesAgreeOnManyTriangles) {
       const DepthFormat format{mapping, storage, camera.near, camera.far};
       const Buffered exact = buffered(scene, camera, format, Engine::reference);
       const Buffered fast = buffered(scene, camera, format, Engine::fast);
-      testing::expect_same_map(fast.map, exact.map);
+      checks::expect_same_map(fast.map, exact.map);
       const DepthBufferStatistics& s = fast.statistics;
       const std::uint64_t all = s.by_binary64 + s.by_double_words + s.by_exact_numbers;
       EXPECT_EQ(all, exact.statistics.by_exact_numbers);
@@ -185,14 +183,14 @@ Scene two_planes(double depth, double separation, bool far_one_first) {
   const double a = far_one_first ? depth + separation : depth;
   const double b = far_one_first ? depth : depth + separation;
   const double w = 10 * depth;
-  return testing::scene_of({{-w, -w, a}, {w, -w, a}, {0, w, a}, {-w, -w, b}, {w, -w, b}, {0, w, b}},
-                           {{0, 1, 2}, {3, 4, 5}});
+  return checks::scene_of({{-w, -w, a}, {w, -w, a}, {0, w, a}, {-w, -w, b}, {w, -w, b}, {0, w, b}},
+                          {{0, 1, 2}, {3, 4, 5}});
 }
 
 /// standard, near 0.1, far 1000, unorm16: at depth 10 a step is 10²·999.9/(100·65535) = 0.01526; at
 /// depth 1 it is 0.0001526.
 TEST(DepthBuffer, SurfacesCloserThanAStepFight) {
-  Camera camera = testing::camera_of(4, 3, 2);
+  Camera camera = checks::camera_of(4, 3, 2);
   camera.near = 0.1;
   camera.far = 1000;
   const DepthFormat format{Mapping::standard, Storage::unorm16, 0.1, 1000};
@@ -208,7 +206,7 @@ TEST(DepthBuffer, SurfacesCloserThanAStepFight) {
 }
 
 TEST(DepthBuffer, ChannelsHaveTheTypesThatTheyAreSaidToHave) {
-  Camera camera = testing::camera_of(4, 3, 2);
+  Camera camera = checks::camera_of(4, 3, 2);
   camera.near = 0.5;
   camera.far = 8;
   const Scene scene = two_planes(2, 1, false);
@@ -226,7 +224,7 @@ TEST(DepthBuffer, ChannelsHaveTheTypesThatTheyAreSaidToHave) {
 }
 
 TEST(DepthBuffer, WhatMeansNothingIsRefused) {
-  Camera camera = testing::camera_of(4, 3, 2);
+  Camera camera = checks::camera_of(4, 3, 2);
   EXPECT_THROW(depth_format_of(camera, Mapping::standard, Storage::unorm16), UsageError);
   camera.near = 1;
   EXPECT_THROW(depth_format_of(camera, Mapping::linear, Storage::unorm16), UsageError);
@@ -241,8 +239,8 @@ TEST(DepthBuffer, WhatMeansNothingIsRefused) {
 /// Three bands of rows and a part of one, alone and with what the exact map says beside it.
 TEST(DepthBuffer, StoresTheSameInEveryRowWhetherOrNotItIsCompared) {
   std::mt19937_64 random(33);
-  const Scene scene = testing::soup(random, 40, false);
-  Camera camera = testing::camera_of(20, 27, 20);
+  const Scene scene = checks::soup(random, 40, false);
+  Camera camera = checks::camera_of(20, 27, 20);
   camera.near = 0.5;
   camera.far = 50;
   const DepthFormat format{Mapping::reversed, Storage::unorm16, camera.near, camera.far};
@@ -270,7 +268,7 @@ TEST(DepthBuffer, StoresTheSameInEveryRowWhetherOrNotItIsCompared) {
 
 /// Triangles are numbered from 0: two of them are 0 and 1.
 TEST(DepthBuffer, MapsOfOtherScenesAreRefused) {
-  Camera camera = testing::camera_of(4, 3, 2);
+  Camera camera = checks::camera_of(4, 3, 2);
   camera.near = 0.5;
   camera.far = 8;
   const Scene scene = two_planes(2, 1, false);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -11,20 +10,14 @@
 #include "fathom/depth_format/encode.h"
 #include "fathom/numeric/certified_logarithm.h"
 #include "fathom/numeric/transcendental.h"
+#include "tests/depth_format/exact_map.h"
 #include "tests/effort.h"
+#include "tests/special_values.h"
 
 namespace fathom {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int cases = 400 / testing::effort;
-
-std::string text_of(const DepthFormat& format) {
-  char numbers[128];
-  std::snprintf(numbers, sizeof numbers, " near %a far %a C %a", format.near, format.far, format.c);
-  return std::string(name_of(format.mapping)) + " " + std::string(name_of(format.storage)) +
-         numbers;
-}
+constexpr int cases = 400 / checks::effort;
 
 std::vector<DepthFormat> formats() {
   std::vector<DepthFormat> all;
@@ -68,7 +61,7 @@ void check_encode(const DepthFormat& format, double depth, std::mt19937_64& rand
     const auto stored = CertifiedFormat(format).encode(Certified<double>{depth, error});
     if (!stored) continue;
     settled.by_binary64 += error > 0 ? 1 : 0;
-    ASSERT_EQ(*stored, exact) << text_of(format) << std::hexfloat << " depth " << depth;
+    ASSERT_EQ(*stored, exact) << test::text_of(format) << std::hexfloat << " depth " << depth;
   }
   bool all = true;
   for (const auto* arithmetic : {&CertifiedFormat::with_fma, &CertifiedFormat::without_fma}) {
@@ -78,7 +71,7 @@ void check_encode(const DepthFormat& format, double depth, std::mt19937_64& rand
       const auto stored = certified.encode(D);
       all = all && (stored || D.error > depth * 0x1p-60);
       if (stored) {
-        ASSERT_EQ(*stored, exact) << text_of(format) << std::hexfloat << " depth " << depth;
+        ASSERT_EQ(*stored, exact) << test::text_of(format) << std::hexfloat << " depth " << depth;
       }
     }
   }
@@ -94,13 +87,13 @@ TEST(CertifiedFormat, EncodesAsExactArithmeticDoes) {
     }
     // Which tier answers. Random depths are within 2⁻²⁰ of a step of a boundary once in 10⁵ cases.
     if (format.near < 0x1p-100) {
-      EXPECT_EQ(settled.by_double_words + settled.by_binary64, 0) << text_of(format);
+      EXPECT_EQ(settled.by_double_words + settled.by_binary64, 0) << test::text_of(format);
       continue;
     }
     if (format.near < 0x1p-10) continue;  // most values are 0 or 1 to the last bit, or next to it
-    EXPECT_GE(settled.by_double_words, settled.asked * 99 / 100) << text_of(format);
+    EXPECT_GE(settled.by_double_words, settled.asked * 99 / 100) << test::text_of(format);
     if (is_logarithmic(format.mapping) || format.storage == Storage::float64) continue;
-    EXPECT_GE(settled.by_binary64, settled.asked * 97 / 100) << text_of(format);
+    EXPECT_GE(settled.by_binary64, settled.asked * 97 / 100) << test::text_of(format);
   }
 }
 
@@ -169,7 +162,7 @@ TEST(CertifiedFormat, DecodesWithinItsBounds) {
         EXPECT_EQ(fused.wide_decode(stored).error, infinity);
         continue;
       }
-      const std::string what = text_of(format) + " " + std::to_string(stored.bits);
+      const std::string what = test::text_of(format) + " " + std::to_string(stored.bits);
       if (std::isfinite(narrow.error)) {
         expect_encloses(narrow, *exact, 0x1p-49 * narrow.value, what);
       }
@@ -203,9 +196,9 @@ TEST(CertifiedFormat, BoundsTheDepthsThatAreStoredAlike) {
       }
       const Real end = *depth_of(
           format, boundary_above(format.storage, {falls ? stored.bits - 1 : stored.bits}));
-      ASSERT_GE(bound, round_to_binary64(end)) << text_of(format) << " " << stored.bits;
+      ASSERT_GE(bound, round_to_binary64(end)) << test::text_of(format) << " " << stored.bits;
       if (format.near > 0x1p-10) {
-        EXPECT_LE(bound, round_to_binary64(end) * (1 + 0x1p-40)) << text_of(format);
+        EXPECT_LE(bound, round_to_binary64(end) * (1 + 0x1p-40)) << test::text_of(format);
       }
     }
   }

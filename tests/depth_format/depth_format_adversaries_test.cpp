@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "fathom/depth_format/certified_format.h"
@@ -14,16 +13,15 @@
 #include "tests/inputs/adversarial_scenes.h"
 #include "tests/inputs/draw.h"
 #include "tests/inputs/floating_point_modes.h"
+#include "tests/special_values.h"
 
 namespace fathom {
 namespace {
 
+using checks::Draw;
+using checks::FloatingPointMode;
 using test::compare_map;
 using test::Rational;
-using testing::Draw;
-using testing::FloatingPointMode;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// near < far, of any magnitudes, next to each other, of few bits, or at the ends of what the
 /// bounds of floating point were derived for.
@@ -143,13 +141,6 @@ std::optional<Ratio> any_depth(Draw& draw, const DepthFormat& format) {
   }
 }
 
-std::string text_of(const DepthFormat& format) {
-  char numbers[128];
-  std::snprintf(numbers, sizeof numbers, " near %a far %a C %a", format.near, format.far, format.c);
-  return std::string(name_of(format.mapping)) + " " + std::string(name_of(format.storage)) +
-         numbers;
-}
-
 /// The depth as two words, with a bound on what they leave out, and on more than that if drawn.
 Certified<WordPair> in_words(Draw& draw, const Ratio& depth) {
   const double hi = round_to_binary64(depth);
@@ -161,13 +152,14 @@ Certified<WordPair> in_words(Draw& draw, const Ratio& depth) {
   return {{hi, lo}, error};
 }
 
-struct Settled {
+struct SettledTiers {
   int asked = 0, by_binary64 = 0, by_double_words = 0;
 };
 
-void expect_encoded(const DepthFormat& format, const Ratio& depth, Draw& draw, Settled& settled) {
-  const FloatingPointMode* mode = testing::any_mode(draw.generator());
-  std::optional<testing::InMode> in_mode(std::in_place, mode);
+void expect_encoded(const DepthFormat& format, const Ratio& depth, Draw& draw,
+                    SettledTiers& settled) {
+  const FloatingPointMode* mode = checks::any_mode(draw.generator());
+  std::optional<checks::InMode> in_mode(std::in_place, mode);
   const StoredDepth stored = encode(format, depth);
   in_mode.reset();
   EXPECT_TRUE(test::is_rounded_correctly(format, Rational(depth), stored.bits))
@@ -202,8 +194,8 @@ void expect_encloses(const DepthFormat& format, const WordPair& depth, double er
 }
 
 void expect_decoded(const DepthFormat& format, StoredDepth stored, Draw& draw) {
-  const FloatingPointMode* mode = testing::any_mode(draw.generator());
-  std::optional<testing::InMode> in_mode(std::in_place, mode);
+  const FloatingPointMode* mode = checks::any_mode(draw.generator());
+  std::optional<checks::InMode> in_mode(std::in_place, mode);
   const double depth = decode_to_binary64(format, stored);
   in_mode.reset();
   EXPECT_TRUE(test::is_decoded_correctly(format, stored.bits, depth)) << std::hexfloat << depth;
@@ -225,39 +217,39 @@ void expect_decoded(const DepthFormat& format, StoredDepth stored, Draw& draw) {
 }
 
 TEST(DepthFormatAdversaries, AreStoredAsRationalNumbersAre) {
-  Settled settled;
-  testing::for_each_adversary(20000, [&](std::uint64_t seed) {
+  SettledTiers settled;
+  checks::for_each_adversary(20000, [&](std::uint64_t seed) {
     Draw draw(seed);
     const DepthFormat format = any_format(draw);
     const std::optional<Ratio> depth = any_depth(draw, format);
     if (!depth || !is_inside(format, *depth)) return;
-    SCOPED_TRACE(text_of(format) + " depth " + to_fraction(*depth));
+    SCOPED_TRACE(test::text_of(format) + " depth " + to_fraction(*depth));
     expect_encoded(format, *depth, draw, settled);
   });
-  if (testing::number_of_adversaries(20000) < 1000) return;
+  if (checks::number_of_adversaries(20000) < 1000) return;
   EXPECT_GT(settled.asked, 500);
   EXPECT_GT(settled.by_binary64, settled.asked / 10);
   EXPECT_GT(settled.by_double_words, settled.asked / 5);
 }
 
 TEST(DepthFormatAdversaries, AreDecodedAsRationalNumbersAre) {
-  testing::for_each_adversary(10000, [](std::uint64_t seed) {
+  checks::for_each_adversary(10000, [](std::uint64_t seed) {
     Draw draw(seed);
     const DepthFormat format = any_format(draw);
     StoredDepth stored = any_stored(draw, format.storage);
     if (draw.one_in(8)) stored = greatest_stored(format.storage);
-    SCOPED_TRACE(text_of(format) + " stored " + std::to_string(stored.bits));
+    SCOPED_TRACE(test::text_of(format) + " stored " + std::to_string(stored.bits));
     expect_decoded(format, stored, draw);
   });
 }
 
 /// Depths that are no binary64 numbers, with a range that begins and ends next to some of them.
 TEST(DepthFormatAdversaries, OfScenesAreStoredAsRationalNumbersAre) {
-  Settled settled;
-  testing::for_each_adversary(600, [&](std::uint64_t seed) {
+  SettledTiers settled;
+  checks::for_each_adversary(600, [&](std::uint64_t seed) {
     Draw draw(seed);
-    const testing::Case c =
-        testing::adversarial_case(testing::all_families[seed % testing::all_families.size()], seed);
+    const checks::Case c =
+        checks::adversarial_case(checks::all_families[seed % checks::all_families.size()], seed);
     std::vector<Ratio> depths;
     for (std::uint32_t y = 0; y < c.camera.height; y += 2) {
       for (std::uint32_t x = 0; x < c.camera.width; x += 3) {
@@ -271,11 +263,11 @@ TEST(DepthFormatAdversaries, OfScenesAreStoredAsRationalNumbersAre) {
       if (draw.one_in(2)) format.near = draw.nudged(round_to_binary64(depths.front()), 1);
       if (draw.one_in(2)) format.far = draw.nudged(round_to_binary64(depths.back()), 1);
       if (!is_meaningful(format) || !is_inside(format, depth)) continue;
-      SCOPED_TRACE(text_of(format) + " depth " + to_fraction(depth));
+      SCOPED_TRACE(test::text_of(format) + " depth " + to_fraction(depth));
       expect_encoded(format, depth, draw, settled);
     }
   });
-  if (testing::number_of_adversaries(600) < 100) return;
+  if (checks::number_of_adversaries(600) < 100) return;
   EXPECT_GT(settled.asked, 50);
 }
 

@@ -14,31 +14,23 @@
 #include "tests/depth_format/exact_map.h"
 #include "tests/effort.h"
 #include "tests/scratch_folder.h"
+#include "tests/special_values.h"
 
 namespace fathom {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-std::string text_of(const DepthFormat& format) {
-  char numbers[128];
-  std::snprintf(numbers, sizeof numbers, " near %a far %a C %a", format.near, format.far, format.c);
-  return std::string(name_of(format.mapping)) + " " + std::string(name_of(format.storage)) +
-         numbers;
-}
 
 ::testing::AssertionResult encodes_correctly(const DepthFormat& format, double depth) {
   const std::uint64_t bits = encode(format, Dyadic(depth)).bits;
   if (test::is_rounded_correctly(format, depth, bits)) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure()
-         << text_of(format) << ": depth " << std::hexfloat << depth << " gives " << bits;
+         << test::text_of(format) << ": depth " << std::hexfloat << depth << " gives " << bits;
 }
 
 ::testing::AssertionResult decodes_correctly(const DepthFormat& format, std::uint64_t bits) {
   const double depth = decode_to_binary64(format, {bits});
   if (test::is_decoded_correctly(format, bits, depth)) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure()
-         << text_of(format) << ": " << bits << " gives depth " << std::hexfloat << depth;
+         << test::text_of(format) << ": " << bits << " gives depth " << std::hexfloat << depth;
 }
 
 bool is_inside(const DepthFormat& format, double depth) {
@@ -46,7 +38,7 @@ bool is_inside(const DepthFormat& format, double depth) {
 }
 
 /// Every code; under sanitizers every 20th.
-constexpr std::uint64_t step = testing::effort;
+constexpr std::uint64_t step = checks::effort;
 
 /// Every boundary between codes, approached from both sides: where these are right, every depth in
 /// between is, since encode is monotone (EncodeIsMonotone).
@@ -69,11 +61,11 @@ void check_every_code(const DepthFormat& format) {
   for (std::uint64_t bits = 0; bits <= greatest; bits += step) {
     ASSERT_TRUE(decodes_correctly(format, bits));
     const double depth = decode_to_binary64(format, {bits});
-    ASSERT_TRUE(falls ? depth <= previous : depth >= previous) << text_of(format);
+    ASSERT_TRUE(falls ? depth <= previous : depth >= previous) << test::text_of(format);
     previous = depth;
     // A code between the ends stands for a depth that is stored as this code again.
     if (is_inside(format, depth)) {
-      ASSERT_EQ(encode(format, Dyadic(depth)).bits, bits) << text_of(format);
+      ASSERT_EQ(encode(format, Dyadic(depth)).bits, bits) << test::text_of(format);
     }
   }
 }
@@ -123,7 +115,7 @@ std::vector<DepthFormat> wide_formats(Mapping mapping) {
 
 TEST_P(EveryMapping, RandomDepthsInEveryStorage) {
   for (const DepthFormat& format : wide_formats(GetParam())) {
-    for (const double depth : depths_of(format, 20 + 280 / testing::effort, 7)) {
+    for (const double depth : depths_of(format, 20 + 280 / checks::effort, 7)) {
       ASSERT_TRUE(encodes_correctly(format, depth));
     }
   }
@@ -132,7 +124,7 @@ TEST_P(EveryMapping, RandomDepthsInEveryStorage) {
 TEST_P(EveryMapping, DepthsAtRandomBoundariesInEveryStorage) {
   std::mt19937_64 random(8);
   for (const DepthFormat& format : wide_formats(GetParam())) {
-    for (int i = 0; i < 200 / testing::effort; ++i) {
+    for (int i = 0; i < 200 / checks::effort; ++i) {
       const StoredDepth stored{random() % greatest_stored(format.storage).bits};
       const auto depth = depth_of(format, boundary_above(format.storage, stored));
       const double middle = round_to_binary64(*depth);
@@ -147,12 +139,12 @@ TEST_P(EveryMapping, DepthsAtRandomBoundariesInEveryStorage) {
 
 TEST_P(EveryMapping, EncodeIsMonotone) {
   for (const DepthFormat& format : wide_formats(GetParam())) {
-    std::vector<double> depths = depths_of(format, 20 + 280 / testing::effort, 9);
+    std::vector<double> depths = depths_of(format, 20 + 280 / checks::effort, 9);
     std::sort(depths.begin(), depths.end());
     StoredDepth previous = encode(format, Dyadic(depths[0]));
     for (const double depth : depths) {
       const StoredDepth stored = encode(format, Dyadic(depth));
-      ASSERT_FALSE(is_nearer(format, stored, previous)) << text_of(format) << " at " << depth;
+      ASSERT_FALSE(is_nearer(format, stored, previous)) << test::text_of(format) << " at " << depth;
       previous = stored;
     }
   }
@@ -160,7 +152,7 @@ TEST_P(EveryMapping, EncodeIsMonotone) {
 
 /// Without gaps: every boundary of some codes in a row, and every depth of some in a row.
 TEST_P(EveryMapping, DenseDepthsInEveryStorage) {
-  constexpr int run = 10 + 40 / testing::effort;
+  constexpr int run = 10 + 40 / checks::effort;
   std::mt19937_64 random(10);
   for (const DepthFormat& format : wide_formats(GetParam())) {
     const std::uint64_t first = random() % (greatest_stored(format.storage).bits - run);
@@ -177,7 +169,7 @@ TEST_P(EveryMapping, DenseDepthsInEveryStorage) {
     for (int i = 0; i < run && is_inside(format, depth); ++i) {
       ASSERT_TRUE(encodes_correctly(format, depth));
       const StoredDepth stored = encode(format, Dyadic(depth));
-      ASSERT_FALSE(is_nearer(format, stored, previous)) << text_of(format) << " at " << depth;
+      ASSERT_FALSE(is_nearer(format, stored, previous)) << test::text_of(format) << " at " << depth;
       previous = stored;
       depth = std::nextafter(depth, infinity);
     }

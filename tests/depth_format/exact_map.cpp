@@ -6,11 +6,10 @@
 
 #include "tests/numeric/random_numbers.h"
 #include "tests/oracle/mpfr_number.h"
+#include "tests/special_values.h"
 
 namespace fathom::test {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 int sign(int x) {
   return x < 0 ? -1 : x > 0 ? 1 : 0;
@@ -73,7 +72,7 @@ int compare_logarithms(const Rational& a, const Rational& b, const Rational& s) 
 
 Rational::Rational(const Ratio& x) {
   mpq_init(q_);
-  fathom::testing::set(q_, x);
+  fathom::checks::set(q_, x);
 }
 
 Rational number(Storage storage, std::uint64_t bits) {

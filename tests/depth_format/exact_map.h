@@ -11,6 +11,14 @@
 /// question, the sign of f(D) − s, by cross-multiplication; no rounding and no inverse of ours.
 namespace fathom::test {
 
+/// A format, for messages.
+inline std::string text_of(const DepthFormat& format) {
+  char numbers[128];
+  std::snprintf(numbers, sizeof numbers, " near %a far %a C %a", format.near, format.far, format.c);
+  return std::string(name_of(format.mapping)) + " " + std::string(name_of(format.storage)) +
+         numbers;
+}
+
 /// A GMP rational that cleans up after itself.
 class Rational {
  public:

@@ -27,7 +27,7 @@ TEST(FloatingPointMode, ChangesNoStoredDepth) {
         SCOPED_TRACE(std::string(name_of(mapping)) + " " + std::string(name_of(storage)));
         const DepthFormat format{mapping, storage, range.near, range.far, 1};
         const Dyadic depth = range.depth;
-        testing::expect_same_in_all_modes([&] {
+        checks::expect_same_in_all_modes([&] {
           const StoredDepth stored = encode(format, depth);
           return std::pair(stored.bits, decode_to_binary64(format, stored));
         });
@@ -40,7 +40,7 @@ TEST(FloatingPointMode, ChangesNoResolution) {
   for (const Range& range : ranges) {
     const DepthFormat format{Mapping::standard, Storage::unorm16, range.near, range.far, 1};
     const Dyadic depth = range.depth;
-    testing::expect_same_in_all_modes([&] {
+    checks::expect_same_in_all_modes([&] {
       const Resolution steps = resolution(format, depth);
       return std::tuple(steps.stored.bits, steps.to_nearer, steps.to_farther,
                         codes_between(format, Dyadic(format.near), depth),
@@ -54,7 +54,7 @@ TEST(FloatingPointMode, ChangesNothingThatAPipelineStores) {
     PipelineModel model;
     model.format = {Mapping::standard, Storage::float32, range.near, range.far, 1};
     const auto z = static_cast<float>(range.depth);
-    testing::expect_same_in_all_modes([&] {
+    checks::expect_same_in_all_modes([&] {
       const Ratio a = window_depth(model, {0.1F, 0.2F, z});
       const Ratio between = interpolated_window_depth(model, {0.1F, 0.2F, z},
                                                       {0.3F, 0.1F, 1.1F * z}, Ratio(1.0, 3.0));
@@ -67,7 +67,7 @@ TEST(FloatingPointMode, ChangesNothingThatAPipelineStores) {
 TEST(FloatingPointMode, ChangesNoBias) {
   const WindowSlopes slopes{Dyadic(0.1), Dyadic(0x1p-1070), Dyadic(0x1.1p-140)};
   for (const Storage storage : all_storages) {
-    testing::expect_same_in_all_modes([&] {
+    checks::expect_same_in_all_modes([&] {
       const Ratio offset = depth_offset(storage, {1.1, 4, 0}, slopes);
       return to_fraction(biased_depth(Dyadic(0.3), offset));
     });

@@ -3,18 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "fathom/failures/errors.h"
 #include "tests/depth_format/exact_map.h"
+#include "tests/special_values.h"
 
 namespace fathom {
 namespace {
 
 using test::Rational;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Rational rational(const std::optional<Real>& x) {
   return Rational(*x->rational());

@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 /// Leaves x, y and z as u, v and depth.
 Camera plain_camera(std::uint32_t width, std::uint32_t height) {
-  Camera camera = testing::camera_of(width, height, 1);
+  Camera camera = checks::camera_of(width, height, 1);
   camera.projection.model = ProjectionModel::orthographic;
   camera.projection.cx = camera.projection.cy = 0;
   return camera;
@@ -84,8 +84,8 @@ TEST(Drawing, EndsAtTheFrame) {
 }
 
 TEST(Drawing, CreasesTurnByTheAngle) {
-  const Scene box = testing::box_scene(1, 1, 1);
-  Camera camera = testing::camera_of(40, 40, 40);
+  const Scene box = checks::box_scene(1, 1, 1);
+  Camera camera = checks::camera_of(40, 40, 40);
   // The box is turned so that an edge is in front; its sides turn by 90 degrees there.
   camera.world_to_camera = {{{1, 0, 1, 0}, {0, 1, 0, 0}, {-1, 0, 1, 5}}};
   const auto count = [&](double angle) {

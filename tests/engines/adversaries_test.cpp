@@ -25,31 +25,31 @@
 namespace fathom {
 namespace {
 
-using testing::Case;
-using testing::Family;
+using checks::Case;
+using checks::Family;
 
 /// What a scene is rendered with.
 struct Combination {
   RenderOptions options;
   std::int64_t target;
-  const testing::FloatingPointMode* mode;  // null: the standard one
+  const checks::FloatingPointMode* mode;  // null: the standard one
 };
 
 Combination combination(std::mt19937_64& random) {
   const auto below = [&](std::size_t n) { return random() % n; };
-  static const std::vector<std::int64_t> targets = testing::vector_targets();
+  static const std::vector<std::int64_t> targets = checks::vector_targets();
   Combination c{{}, targets[below(targets.size())], nullptr};
   RenderOptions& options = c.options;
   switch (below(3)) {
     case 0:
-      options.channels = testing::every_channel;
+      options.channels = checks::every_channel;
       break;
     case 1:
       options.channels = {Channel::Z};
       break;
     default:
       options.channels = {Channel::Z};
-      for (const Channel channel : testing::every_channel) {
+      for (const Channel channel : checks::every_channel) {
         if (channel != Channel::Z && below(2) == 0) options.channels.push_back(channel);
       }
   }
@@ -63,7 +63,7 @@ Combination combination(std::mt19937_64& random) {
   options.normals = sources[below(3)];
   options.threads = static_cast<int>(1 + below(3));
   if (below(4) == 0) options.fast.hierarchy = false;
-  c.mode = testing::any_mode(random);
+  c.mode = checks::any_mode(random);
   return c;
 }
 
@@ -78,8 +78,8 @@ std::variant<DepthMap, std::string> outcome(const Render& render) {
 }
 
 std::variant<DepthMap, std::string> fast_map(const Case& c, const Combination& how) {
-  const testing::OnlyTarget only(how.target);
-  const testing::InMode mode(how.mode);
+  const checks::OnlyTarget only(how.target);
+  const checks::InMode mode(how.mode);
   return outcome([&] { return render_fast(c.scene, c.camera, how.options).map; });
 }
 
@@ -92,17 +92,17 @@ void expect_same(const Case& c, const Combination& how) {
   if (truth.index() == 1) {
     EXPECT_EQ(std::get<1>(ours), std::get<1>(truth));
   } else {
-    testing::expect_same_map(std::get<0>(ours), std::get<0>(truth));
+    checks::expect_same_map(std::get<0>(ours), std::get<0>(truth));
   }
 }
 
 /// Returns how many pixels show a surface.
 int expect_as_rays(const Case& c) {
   RenderOptions options;
-  options.channels = testing::all_channels();
+  options.channels = checks::all_channels();
   options.threads = 1;
-  return testing::expect_as_rays(render_reference(c.scene, c.camera, options).map, c.scene,
-                                 c.camera);
+  return checks::expect_as_rays(render_reference(c.scene, c.camera, options).map, c.scene,
+                                c.camera);
 }
 
 std::uint32_t matte_of(std::uint32_t triangle) {
@@ -115,12 +115,12 @@ void expect_pixel_areas(std::map<std::uint32_t, oracle::Q> expected,
   std::map<std::uint32_t, oracle::Q> mattes;
   for (const auto& [number, area] : expected) mattes[matte_of(number)] += area;
   for (const DeepSample& sample : samples) {
-    EXPECT_EQ(sample.area, testing::nearest_float(expected[sample.id])) << "triangle " << sample.id;
+    EXPECT_EQ(sample.area, checks::nearest_float(expected[sample.id])) << "triangle " << sample.id;
     expected.erase(sample.id);
   }
   for (const auto& [number, area] : expected) EXPECT_EQ(area, 0) << "triangle " << number;
   for (const MatteShare& share : shares) {
-    EXPECT_EQ(share.coverage, testing::nearest_float(mattes[share.id])) << "matte " << share.id;
+    EXPECT_EQ(share.coverage, checks::nearest_float(mattes[share.id])) << "matte " << share.id;
     mattes.erase(share.id);
   }
   for (const auto& [id, area] : mattes) EXPECT_EQ(area, 0) << "matte " << id;
@@ -131,12 +131,12 @@ void expect_areas(const Case& c, const Combination& how) {
   RenderOptions options;
   options.threads = how.options.threads;
   const TriangleSource triangles(c.scene);
-  std::optional<testing::InMode> mode(std::in_place, how.mode);
+  std::optional<checks::InMode> mode(std::in_place, how.mode);
   const DeepMap deep = area::visible_in_pixels(triangles, c.camera, options);
   const Mattes mattes = area::mattes_in_pixels(triangles, c.camera, options, matte_of);
   const VisibleAreas visible = visible_areas(triangles, c.camera, options);
   mode.reset();
-  const oracle::Areas areas = testing::areas_at(c.scene, c.camera);
+  const oracle::Areas areas = checks::areas_at(c.scene, c.camera);
   std::vector<oracle::Q> sums(triangles.count());
   std::size_t sample = 0, share = 0;
   for (std::size_t pixel = 0; pixel < deep.counts.size(); ++pixel) {
@@ -160,23 +160,23 @@ class Adversaries : public ::testing::TestWithParam<Family> {};
 
 TEST_P(Adversaries, AreRenderedExactly) {
   int seen = 0;
-  testing::for_each_adversary(900, [&](std::uint64_t seed) {
-    Case c = testing::adversarial_case(GetParam(), seed);
+  checks::for_each_adversary(900, [&](std::uint64_t seed) {
+    Case c = checks::adversarial_case(GetParam(), seed);
     std::mt19937_64 random(seed ^ 0x9E3779B97F4A7C15);
-    if (seed % 2 == 1) testing::add_odd_normals(c.scene.meshes[0], random);
+    if (seed % 2 == 1) checks::add_odd_normals(c.scene.meshes[0], random);
     const Combination how = combination(random);
     expect_same(c, how);
     if (seed % 8 < 2) seen += expect_as_rays(c);
     if (seed % 32 == 0) expect_areas(c, how);
   });
-  const std::uint64_t count = testing::number_of_adversaries();
+  const std::uint64_t count = checks::number_of_adversaries();
   if (count >= 100) {
     EXPECT_GT(seen, static_cast<int>(count / 20));
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(EachFamily, Adversaries, ::testing::ValuesIn(testing::all_families),
-                         [](const auto& test) { return testing::name_of(test.param); });
+INSTANTIATE_TEST_SUITE_P(EachFamily, Adversaries, ::testing::ValuesIn(checks::all_families),
+                         [](const auto& test) { return checks::name_of(test.param); });
 
 }  // namespace
 }  // namespace fathom

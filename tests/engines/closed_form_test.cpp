@@ -11,8 +11,8 @@
 namespace fathom {
 namespace {
 
-using testing::camera_of;
-using testing::scene_of;
+using checks::camera_of;
+using checks::scene_of;
 
 const Samples<float>& depths(const DepthMap& map) {
   return *map.values<float>("Z");
@@ -25,7 +25,7 @@ Scene quad(MeshPoint a, MeshPoint b, MeshPoint c, MeshPoint d) {
 
 TEST(ClosedForm, APlaneAcrossTheViewHasOneDepth) {
   const Scene scene = quad({-100, -100, 5}, {100, -100, 5}, {100, 100, 5}, {-100, 100, 5});
-  const DepthMap map = testing::render_tested(scene, camera_of(16, 12, 10));
+  const DepthMap map = checks::render_tested(scene, camera_of(16, 12, 10));
   for (const float z : depths(map)) EXPECT_EQ(z, 5.0F);
 }
 
@@ -37,7 +37,7 @@ TEST(ClosedForm, AnObliquePlane) {
   };
   const Scene scene = quad(on_plane(-8, -4), on_plane(8, -4), on_plane(8, 4), on_plane(-8, 4));
   const Camera camera = camera_of(20, 14, 32);
-  const DepthMap map = testing::render_tested(scene, camera);
+  const DepthMap map = checks::render_tested(scene, camera);
   for (std::uint32_t j = 0; j < 14; ++j) {
     for (std::uint32_t i = 0; i < 20; ++i) {
       const double x = (i + 0.5 - 10) / 32, y = (j + 0.5 - 7) / 32;  // exact: powers of two
@@ -51,7 +51,7 @@ TEST(ClosedForm, TheGroundUnderAnOrthographicCameraIsALinearRamp) {
   Camera camera = camera_of(8, 4, 2);
   camera.projection.model = ProjectionModel::orthographic;
   const Scene scene = quad({-10, -10, 0}, {10, -10, 20}, {10, 10, 20}, {-10, 10, 0});  // z = x + 10
-  const DepthMap map = testing::render_tested(scene, camera);
+  const DepthMap map = checks::render_tested(scene, camera);
   for (std::uint32_t i = 0; i < 8; ++i) {
     EXPECT_EQ(depths(map)[i], static_cast<float>((i + 0.5 - 4) / 2 + 10));
   }
@@ -59,9 +59,9 @@ TEST(ClosedForm, TheGroundUnderAnOrthographicCameraIsALinearRamp) {
 
 // A box seen from inside: every ray leaves through the nearest of three walls.
 TEST(ClosedForm, ARoomFromInside) {
-  const Scene room = testing::box_scene(2, 1, 4);
+  const Scene room = checks::box_scene(2, 1, 4);
   const Camera camera = camera_of(40, 40, 8);
-  const DepthMap map = testing::render_tested(room, camera);
+  const DepthMap map = checks::render_tested(room, camera);
   for (std::uint32_t j = 0; j < 40; ++j) {
     for (std::uint32_t i = 0; i < 40; ++i) {
       const double x = std::abs((i + 0.5 - 20) / 8), y = std::abs((j + 0.5 - 20) / 8);
@@ -98,7 +98,7 @@ TEST(ClosedForm, AFacetedSphereLiesBetweenTwoSpheres) {
   // (π/rings + 2π/segments) / 2 in angle.
   const double inner = radius * std::cos((pi / rings + 2 * pi / segments) / 2);
   const Camera camera = camera_of(64, 64, 100);
-  const DepthMap map = testing::render_tested(scene_of(v, t), camera);
+  const DepthMap map = checks::render_tested(scene_of(v, t), camera);
   // Nearer root of |z·(x, y, 1) − (0, 0, distance)|² = r².
   const auto sphere = [&](double x, double y, double r) {
     const double a = x * x + y * y + 1;
@@ -125,7 +125,7 @@ TEST(ClosedForm, NearAndFarAreInclusive) {
   const auto is_seen = [&](double near, double far) {
     camera.near = near;
     camera.far = far;
-    return std::isfinite(depths(testing::render_tested(scene, camera))[0]);
+    return std::isfinite(depths(checks::render_tested(scene, camera))[0]);
   };
   EXPECT_TRUE(is_seen(2, 3));
   EXPECT_TRUE(is_seen(1, 2));
@@ -136,7 +136,7 @@ TEST(ClosedForm, NearAndFarAreInclusive) {
 // Three corners in front of and behind the camera: the part in front is seen, to its very edge.
 TEST(ClosedForm, TheGroundThroughTheCameraPlane) {
   const Scene scene = scene_of({{-1000, 1, -10}, {1000, 1, -10}, {0, 1, 1000}}, {{0, 1, 2}});
-  const DepthMap map = testing::render_tested(scene, camera_of(8, 8, 4));
+  const DepthMap map = checks::render_tested(scene, camera_of(8, 8, 4));
   for (std::uint32_t j = 0; j < 8; ++j) {
     const double y = (j + 0.5 - 4) / 4;
     const float z = depths(map)[j * 8 + 3];
@@ -164,7 +164,7 @@ TEST(ClosedForm, TheNormalFacesTheCameraWhateverTheWindingAndTheCamera) {
           camera.world_to_camera[0][0] = mirror;
           RenderOptions options;
           options.channels = {Channel::N};
-          const DepthMap map = testing::render_tested(scene, camera, options);
+          const DepthMap map = checks::render_tested(scene, camera, options);
           EXPECT_EQ((*map.values<float>("N.Z"))[0], -1.0F);
           EXPECT_EQ((*map.values<float>("N.X"))[0], 0.0F);
           EXPECT_FALSE(std::signbit((*map.values<float>("N.X"))[0]));
@@ -181,7 +181,7 @@ TEST(ClosedForm, CullingKeepsOneSide) {
   RenderOptions options;
   const auto is_seen = [&](const Scene& scene, Cull cull) {
     options.cull = cull;
-    return std::isfinite(depths(testing::render_tested(scene, camera_of(3, 3, 1), options))[4]);
+    return std::isfinite(depths(checks::render_tested(scene, camera_of(3, 3, 1), options))[4]);
   };
   EXPECT_TRUE(is_seen(front, Cull::none));
   EXPECT_TRUE(is_seen(back, Cull::none));
@@ -194,7 +194,7 @@ TEST(ClosedForm, CullingKeepsOneSide) {
 TEST(ClosedForm, AFaultyCameraIsRefused) {
   const Scene scene = scene_of({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{0, 1, 2}});
   Camera camera = camera_of(2, 2, 0);
-  EXPECT_THROW(testing::render_tested(scene, camera), InputError);
+  EXPECT_THROW(checks::render_tested(scene, camera), InputError);
 }
 
 }  // namespace

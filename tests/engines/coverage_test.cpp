@@ -19,12 +19,12 @@ namespace fathom {
 namespace {
 
 using namespace triangle;
+using checks::camera_of;
+using checks::Case;
+using checks::CaseMaker;
+using checks::Kind;
+using checks::scene_of;
 using oracle::Q;
-using testing::camera_of;
-using testing::Case;
-using testing::CaseMaker;
-using testing::Kind;
-using testing::scene_of;
 
 RenderOptions only_coverage() {
   RenderOptions options;
@@ -35,7 +35,7 @@ RenderOptions only_coverage() {
 
 Samples<float> coverage_of(const Scene& scene, const Camera& camera,
                            const RenderOptions& options = only_coverage()) {
-  return *testing::render_tested(scene, camera, options).values<float>("A");
+  return *checks::render_tested(scene, camera, options).values<float>("A");
 }
 
 std::vector<std::uint32_t> all_triangles(const Scene& scene) {
@@ -50,15 +50,15 @@ struct Tally {
 
 void check(const Case& c, Tally& tally) {
   const Samples<float> A = coverage_of(c.scene, c.camera);
-  const oracle::Areas areas = testing::areas_at(c.scene, c.camera);
+  const oracle::Areas areas = checks::areas_at(c.scene, c.camera);
   const CoverageFrame frame{c.scene, c.camera};
   const std::vector<std::uint32_t> triangles = all_triangles(c.scene);
   for (std::uint32_t y = 0; y < c.camera.height; ++y) {
     for (std::uint32_t x = 0; x < c.camera.width; ++x) {
       SCOPED_TRACE("pixel " + std::to_string(x) + ", " + std::to_string(y));
       const Q expected = areas.coverage(static_cast<int>(x), static_cast<int>(y));
-      ASSERT_EQ(testing::rational(pixel_coverage(frame, triangles, x, y)), expected);
-      ASSERT_EQ(A[y * c.camera.width + x], testing::nearest_float(expected));
+      ASSERT_EQ(checks::rational(pixel_coverage(frame, triangles, x, y)), expected);
+      ASSERT_EQ(A[y * c.camera.width + x], checks::nearest_float(expected));
       ++(sgn(expected) == 0 ? tally.empty : expected == 1 ? tally.full : tally.partly);
     }
   }
@@ -69,11 +69,11 @@ class Coverage : public ::testing::TestWithParam<Kind> {};
 TEST_P(Coverage, IsTheAreaOfTheUnion) {
   CaseMaker maker(77 + static_cast<std::uint64_t>(GetParam()), GetParam());
   Tally tally;
-  for (int i = 0; i < 150 / testing::effort && !HasFailure(); ++i) {
+  for (int i = 0; i < 150 / checks::effort && !HasFailure(); ++i) {
     SCOPED_TRACE("scene " + std::to_string(i) + " of this seed");
     check(maker.make(), tally);
   }
-  if (testing::effort > 1) return;
+  if (checks::effort > 1) return;
   EXPECT_GT(tally.partly, 500);
   EXPECT_GT(tally.full, 50);
   EXPECT_GT(tally.empty, 500);
@@ -109,7 +109,7 @@ Scene debris(std::mt19937_64& random) {
 TEST(CoverageLaws, SliversAndTrianglesSmallerThanAPixel) {
   std::mt19937_64 random(4242);
   Tally tally;
-  for (int i = 0; i < 12 / std::min(testing::effort, 4) && !HasFailure(); ++i) {
+  for (int i = 0; i < 12 / std::min(checks::effort, 4) && !HasFailure(); ++i) {
     Camera camera = camera_of(5, 4, 2);
     if (i % 4 == 1) camera.near = 1.5;
     if (i % 4 == 2) camera.far = 1.25;
@@ -183,7 +183,7 @@ TEST(CoverageLaws, TheSumOverAVisibleMeshIsItsProjectedArea) {
   Q sum = 0;
   for (std::uint32_t y = 0; y < camera.height; ++y) {
     for (std::uint32_t x = 0; x < camera.width; ++x) {
-      sum += testing::rational(pixel_coverage(frame, all_triangles(scene), x, y));
+      sum += checks::rational(pixel_coverage(frame, all_triangles(scene), x, y));
     }
   }
   EXPECT_EQ(2 * sum, projected_twice_area({at(0, 0), at(n, 0), at(n, n), at(0, n)}, camera));
@@ -226,8 +226,8 @@ TEST(CoverageLaws, TheSumOverAClosedMeshIsItsProjectedArea) {
   int full = 0;
   for (std::uint32_t y = 0; y < camera.height; ++y) {
     for (std::uint32_t x = 0; x < camera.width; ++x) {
-      const Q area = testing::rational(pixel_coverage(frame, all_triangles(scene), x, y));
-      ASSERT_EQ(A[y * camera.width + x], testing::nearest_float(area));
+      const Q area = checks::rational(pixel_coverage(frame, all_triangles(scene), x, y));
+      ASSERT_EQ(A[y * camera.width + x], checks::nearest_float(area));
       sum += area;
       full += area == 1;
     }
@@ -252,7 +252,7 @@ TEST(CoverageLaws, TheSumOfABinaryFractionsIsTheAreaItself) {
 TEST(CoverageLaws, CullingLeavesTrianglesOut) {
   CaseMaker maker(99, Kind::few_bits);
   int differing = 0;
-  for (int i = 0; i < 100 / testing::effort; ++i) {
+  for (int i = 0; i < 100 / checks::effort; ++i) {
     Case c = maker.make();
     RenderOptions options = only_coverage();
     const Samples<float> all = coverage_of(c.scene, c.camera);
@@ -273,7 +273,7 @@ TEST(CoverageLaws, CullingLeavesTrianglesOut) {
       differing += !(culled == all);
     }
   }
-  EXPECT_GT(differing, 100 / testing::effort / 4);
+  EXPECT_GT(differing, 100 / checks::effort / 4);
 }
 
 // A square [1.25, 2.5] × [0.5, 3] in pixels, in front of the image's 4 × 4.

@@ -16,7 +16,7 @@ namespace {
 /// A wall across the view at depth z.
 Scene wall(double z) {
   const double r = 100 * z;
-  return testing::scene_of({{-r, -r, z}, {r, -r, z}, {0, 2 * r, z}}, {{0, 1, 2}});
+  return checks::scene_of({{-r, -r, z}, {r, -r, z}, {0, 2 * r, z}}, {{0, 1, 2}});
 }
 
 RenderOptions scaled(double scale) {
@@ -26,7 +26,7 @@ RenderOptions scaled(double scale) {
 }
 
 std::uint16_t code(double z, double scale) {
-  const DepthMap map = testing::render_tested(wall(z), testing::camera_of(1, 1, 1), scaled(scale));
+  const DepthMap map = checks::render_tested(wall(z), checks::camera_of(1, 1, 1), scaled(scale));
   EXPECT_EQ(map.png_scale, scale);
   return map.values<std::uint16_t>("Z")->at(0);
 }
@@ -64,7 +64,7 @@ TEST(Encoding, CodesOfADivisorAreExactQuotientsRoundedOnce) {
   const auto code_of = [](double z, double scale, double divisor) {
     RenderOptions options = scaled(scale);
     options.depth_encoding.divisor = divisor;
-    const DepthMap map = testing::render_tested(wall(z), testing::camera_of(1, 1, 1), options);
+    const DepthMap map = checks::render_tested(wall(z), checks::camera_of(1, 1, 1), options);
     EXPECT_EQ(map.png_scale, scale / divisor);
     return map.values<std::uint16_t>("Z")->at(0);
   };
@@ -93,7 +93,7 @@ TEST(Encoding, ADepthBeyondTheCodesIsNoneWhereThatIsAskedFor) {
   const auto code_or_none = [](double z) {
     RenderOptions options = scaled(1);
     options.depth_encoding.beyond_is_none = true;
-    const DepthMap map = testing::render_tested(wall(z), testing::camera_of(1, 1, 1), options);
+    const DepthMap map = checks::render_tested(wall(z), checks::camera_of(1, 1, 1), options);
     return map.values<std::uint16_t>("Z")->at(0);
   };
   // Half way to 65536, which is even.
@@ -106,7 +106,7 @@ TEST(Encoding, ADepthBeyondTheCodesIsNoneWhereThatIsAskedFor) {
 TEST(Encoding, ADepthThatDoesNotFitIsAnErrorThatNamesThePixel) {
   const auto message = [](double z, double scale) -> std::string {
     try {
-      testing::render_tested(wall(z), testing::camera_of(3, 2, 1), scaled(scale));
+      checks::render_tested(wall(z), checks::camera_of(3, 2, 1), scaled(scale));
     } catch (const OutputError& error) {
       return error.what();
     }
@@ -120,8 +120,8 @@ TEST(Encoding, ADepthThatDoesNotFitIsAnErrorThatNamesThePixel) {
 
 TEST(Encoding, Binary64IsRoundedFromTheExactDepth) {
   // z = 1 / (1/3-like slope): a plane whose depth at the only sample is 1/3 exactly.
-  Scene scene = testing::scene_of({{-9, -9, 3}, {9, -9, 3}, {0, 18, 3}}, {{0, 1, 2}});
-  Camera camera = testing::camera_of(1, 1, 1);
+  Scene scene = checks::scene_of({{-9, -9, 3}, {9, -9, 3}, {0, 18, 3}}, {{0, 1, 2}});
+  Camera camera = checks::camera_of(1, 1, 1);
   camera.projection.model = ProjectionModel::perspective;
   camera.projection.cx = 0.5 - 3;                                       // the ray (3, 0, 1)
   scene.meshes[0].vertices = {{-9, -1, 10}, {9, -1, -8}, {9, 30, -8}};  // x + z = 1
@@ -129,7 +129,7 @@ TEST(Encoding, Binary64IsRoundedFromTheExactDepth) {
   RenderOptions options;
   options.depth_encoding.type = DepthEncoding::Type::binary64;
   options.channels = {Channel::Z, Channel::distance};
-  const DepthMap map = testing::render_tested(scene, camera, options);
+  const DepthMap map = checks::render_tested(scene, camera, options);
   // (3z) + z = 1: z = 1/4; the ray distance is √10 / 4.
   EXPECT_EQ(map.values<double>("Z")->at(0), 0.25);
   EXPECT_EQ(map.values<double>("distance")->at(0), std::sqrt(10.0) / 4);
@@ -138,14 +138,13 @@ TEST(Encoding, Binary64IsRoundedFromTheExactDepth) {
 TEST(Encoding, DepthsBeyondBinary32OverflowAndUnderflow) {
   RenderOptions options;
   options.channels = {Channel::Z, Channel::Zlow, Channel::id};
-  const DepthMap far = testing::render_tested(wall(1e100), testing::camera_of(1, 1, 1), options);
+  const DepthMap far = checks::render_tested(wall(1e100), checks::camera_of(1, 1, 1), options);
   EXPECT_EQ(far.values<float>("Z")->at(0), std::numeric_limits<float>::infinity());
   EXPECT_EQ(far.values<float>("Zlow")->at(0), 0.0F);
   EXPECT_EQ(far.values<std::uint32_t>("id")->at(0), 0U);
-  const DepthMap near = testing::render_tested(wall(1e-42), testing::camera_of(1, 1, 1), options);
+  const DepthMap near = checks::render_tested(wall(1e-42), checks::camera_of(1, 1, 1), options);
   EXPECT_EQ(near.values<float>("Z")->at(0), 1e-42F);  // a subnormal is kept
-  const DepthMap nearest =
-      testing::render_tested(wall(1e-60), testing::camera_of(1, 1, 1), options);
+  const DepthMap nearest = checks::render_tested(wall(1e-60), checks::camera_of(1, 1, 1), options);
   EXPECT_EQ(nearest.values<float>("Z")->at(0), 0.0F);
   EXPECT_EQ(nearest.values<std::uint32_t>("id")->at(0), 0U);
 }
@@ -153,13 +152,13 @@ TEST(Encoding, DepthsBeyondBinary32OverflowAndUnderflow) {
 TEST(Encoding, ChannelsAskedForTwiceAreWrittenOnce) {
   RenderOptions options;
   options.channels = {Channel::Z, Channel::id, Channel::Z};
-  EXPECT_EQ(testing::render_tested(wall(2), testing::camera_of(1, 1, 1), options).channels.size(),
+  EXPECT_EQ(checks::render_tested(wall(2), checks::camera_of(1, 1, 1), options).channels.size(),
             2U);
 }
 
 TEST(Encoding, TheMapSaysHowItWasMade) {
-  const DepthMap map = testing::render_tested(wall(2), testing::camera_of(4, 3, 1));
-  const bool fast = testing::tested_engine() == Engine::fast;
+  const DepthMap map = checks::render_tested(wall(2), checks::camera_of(4, 3, 1));
+  const bool fast = checks::tested_engine() == Engine::fast;
   EXPECT_EQ(map.texts.at("fathom.engine"), fast ? "fast" : "reference");
   EXPECT_THAT(texts_of(map).at("fathom.camera"), ::testing::HasSubstr("world_to_camera"));
   EXPECT_EQ(map.object_names, std::vector<std::string>{"object"});

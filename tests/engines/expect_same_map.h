@@ -7,7 +7,7 @@
 #include "fathom/fast/render_fast.h"
 #include "fathom/reference/reference.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 inline const std::vector<Channel> every_channel{
     Channel::Z,     Channel::A,    Channel::Zlow,   Channel::distance,
@@ -62,4 +62,4 @@ inline RenderStatistics expect_same(const Scene& scene, const Camera& camera,
   return ours.statistics;
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -76,14 +76,14 @@ std::map<std::string, Door> doors_of(const Scene& scene, const Camera& camera) {
     doors["render, " + std::string(name_of(engine))] = [&scene, &camera, engine](Bytes& bytes) {
       RenderOptions options;
       options.engine = engine;
-      options.channels = testing::every_channel;
+      options.channels = checks::every_channel;
       options.threads = 2;
       bytes.add(render(scene, camera, options).map);
     };
   }
   doors["verify"] = [&](Bytes& bytes) {
     RenderOptions options;
-    options.channels = testing::quick_channels;
+    options.channels = checks::quick_channels;
     DepthMap map;
     {
       const StandardArithmetic standard;
@@ -159,7 +159,7 @@ std::map<std::string, Door> doors_of(const Scene& scene, const Camera& camera) {
 
 void expect_same_in_all_modes(const std::string& name, const Door& door) {
   SCOPED_TRACE(name);
-  testing::expect_same_in_all_modes([&] {
+  checks::expect_same_in_all_modes([&] {
     Bytes bytes;
     door(bytes);
     return bytes.text();
@@ -167,12 +167,11 @@ void expect_same_in_all_modes(const std::string& name, const Door& door) {
 }
 
 TEST(FloatingPointMode, ChangesNothingInRandomScenes) {
-  for (const auto kind :
-       {testing::Kind::few_bits, testing::Kind::neighbours, testing::Kind::tiny}) {
-    testing::CaseMaker maker(404, kind);
+  for (const auto kind : {checks::Kind::few_bits, checks::Kind::neighbours, checks::Kind::tiny}) {
+    checks::CaseMaker maker(404, kind);
     for (int i = 0; i < 40; ++i) {
       SCOPED_TRACE(i);
-      const testing::Case c = maker.make();
+      const checks::Case c = maker.make();
       if (!world_bounds(c.scene)) continue;
       for (const auto& [name, door] : doors_of(c.scene, c.camera)) {
         expect_same_in_all_modes(name, door);
@@ -205,8 +204,8 @@ TEST(FloatingPointMode, ChangesNothingOfWhatIsRead) {
 }
 
 TEST(FloatingPointMode, ChangesNothingOfEvaluations) {
-  testing::CaseMaker maker(406, testing::Kind::few_bits);
-  const testing::Case c = maker.make();
+  checks::CaseMaker maker(406, checks::Kind::few_bits);
+  const checks::Case c = maker.make();
   Scene moved = c.scene;
   for (MeshPoint& X : moved.meshes[0].vertices) X.x += 0.013;
   expect_same_in_all_modes("evaluate", [&](Bytes& bytes) {
@@ -224,11 +223,11 @@ TEST(FloatingPointMode, ChangesNothingOfEvaluations) {
 
 /// What a file says of its camera is computed, and rounded.
 TEST(FloatingPointMode, ChangesNothingOfWhatIsWritten) {
-  testing::CaseMaker maker(407, testing::Kind::neighbours);
-  testing::Case c = maker.make();
+  checks::CaseMaker maker(407, checks::Kind::neighbours);
+  checks::Case c = maker.make();
   c.camera.projection.fx = 7.3;
   c.camera.world_to_camera[0][0] = 0.1;
-  const DepthMap map = render(c.scene, c.camera, {.channels = testing::every_channel}).map;
+  const DepthMap map = render(c.scene, c.camera, {.channels = checks::every_channel}).map;
   RenderOptions in_codes;
   in_codes.depth_encoding = {DepthEncoding::Type::scaled_unorm16, 10.1};
   const DepthMap codes = render(c.scene, c.camera, in_codes).map;
@@ -241,11 +240,11 @@ TEST(FloatingPointMode, ChangesNothingOfWhatIsWritten) {
 }
 
 TEST(FloatingPointMode, ChangesNothingOfMapsAndDepthBuffers) {
-  testing::CaseMaker maker(405, testing::Kind::neighbours);
-  testing::Case c = maker.make();
+  checks::CaseMaker maker(405, checks::Kind::neighbours);
+  checks::Case c = maker.make();
   c.camera.near = 0.1;
   c.camera.far = 20.3;
-  const DepthMap map = render(c.scene, c.camera, {.channels = testing::every_channel}).map;
+  const DepthMap map = render(c.scene, c.camera, {.channels = checks::every_channel}).map;
   expect_same_in_all_modes("depth buffer", [&](Bytes& bytes) {
     DepthMap with_buffer = map;
     add_depth_buffer(with_buffer, c.scene, c.camera,

@@ -31,9 +31,9 @@ std::vector<std::uint32_t> bits_of(const DepthMap& map) {
 
 std::vector<std::uint32_t> rendered(const Scene& scene, const Camera& camera) {
   RenderOptions options;
-  options.channels = testing::all_channels();
+  options.channels = checks::all_channels();
   options.normals = NormalSource::place;  // formats differ in what vertices are shared
-  return bits_of(testing::render_tested(scene, camera, options));
+  return bits_of(checks::render_tested(scene, camera, options));
 }
 
 Camera small_camera(const Scene& scene) {

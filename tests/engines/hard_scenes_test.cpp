@@ -32,9 +32,9 @@ TEST_P(HardScene, AgreesWithRays) {
   int seen = 0;
   for (const Camera& camera : read_cameras(folder / (GetParam() + ".camera.json"))) {
     RenderOptions options;
-    options.channels = testing::all_channels();
-    const DepthMap map = testing::render_tested(scene, camera, options);
-    seen += testing::expect_as_rays(map, scene, camera);
+    options.channels = checks::all_channels();
+    const DepthMap map = checks::render_tested(scene, camera, options);
+    seen += checks::expect_as_rays(map, scene, camera);
   }
   EXPECT_GT(seen, 0);
 }

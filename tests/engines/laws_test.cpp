@@ -13,9 +13,9 @@
 namespace fathom {
 namespace {
 
-using testing::camera_of;
-using testing::scene_of;
-using testing::soup_around_eye;
+using checks::camera_of;
+using checks::scene_of;
+using checks::soup_around_eye;
 
 constexpr std::uint32_t width = 12, height = 10;
 
@@ -39,11 +39,11 @@ TEST(Laws, TheOrderOfCornersChangesOnlyBarycentricWeights) {
   for (int trial = 0; trial < 50; ++trial) {
     Scene scene = soup_around_eye(random, 6);
     const Camera camera = camera_of(width, height, 8);
-    const DepthMap before = testing::render_tested(scene, camera, options);
+    const DepthMap before = checks::render_tested(scene, camera, options);
     for (CornerIndices& t : scene.meshes[0].triangles) {
       std::shuffle(t.begin(), t.end(), random);  // both windings
     }
-    const DepthMap after = testing::render_tested(scene, camera, options);
+    const DepthMap after = checks::render_tested(scene, camera, options);
     EXPECT_EQ(*before.values<std::uint32_t>("id"), *after.values<std::uint32_t>("id"));
     for (const char* c : {"Z", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "distance"}) {
       EXPECT_EQ(bits(before, c), bits(after, c)) << c;
@@ -56,16 +56,16 @@ TEST(Laws, TheOrderOfTrianglesChangesOnlyTheirNumbers) {
   for (int trial = 0; trial < 50; ++trial) {
     Scene scene = soup_around_eye(random, 8);
     const Camera camera = camera_of(width, height, 8);
-    const DepthMap before = testing::render_tested(scene, camera, with({Channel::Z, Channel::id}));
+    const DepthMap before = checks::render_tested(scene, camera, with({Channel::Z, Channel::id}));
     std::shuffle(scene.meshes[0].triangles.begin(), scene.meshes[0].triangles.end(), random);
-    const DepthMap after = testing::render_tested(scene, camera, with({Channel::Z, Channel::id}));
+    const DepthMap after = checks::render_tested(scene, camera, with({Channel::Z, Channel::id}));
     EXPECT_EQ(bits(before, "Z"), bits(after, "Z"));
   }
 }
 
 TEST(Laws, AmongEqualDepthsTheLowestNumberIsVisible) {
   Scene scene = scene_of({{-9, -9, 2}, {9, -9, 2}, {0, 9, 2}}, {{0, 1, 2}, {1, 2, 0}, {2, 1, 0}});
-  const DepthMap map = testing::render_tested(scene, camera_of(4, 4, 1), with({Channel::id}));
+  const DepthMap map = checks::render_tested(scene, camera_of(4, 4, 1), with({Channel::id}));
   for (const std::uint32_t id : *map.values<std::uint32_t>("id"))
     EXPECT_TRUE(id == 0 || id == no_surface);
   EXPECT_EQ(map.values<std::uint32_t>("id")->at(5), 0U);
@@ -89,13 +89,13 @@ TEST(Laws, SplittingATriangleChangesNothingThatIsSeen) {
     }
     const Camera camera = camera_of(width, height, 8);
     const auto channels = with({Channel::Z, Channel::N, Channel::P, Channel::distance});
-    const Rendered before = testing::render_and_count(whole, camera, channels);
-    const Rendered after = testing::render_and_count(split, camera, channels);
+    const Rendered before = checks::render_and_count(whole, camera, channels);
+    const Rendered after = checks::render_and_count(split, camera, channels);
     for (const char* c : {"Z", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "distance"}) {
       ASSERT_EQ(bits(before.map, c), bits(after.map, c)) << c << ", trial " << trial;
     }
     ASSERT_EQ(before.statistics.pixels_with_surface, after.statistics.pixels_with_surface) << trial;
-    if (testing::tested_engine() == Engine::fast) continue;  // it counts samples by draw order
+    if (checks::tested_engine() == Engine::fast) continue;  // it counts samples by draw order
     ASSERT_EQ(before.statistics.samples_covered, after.statistics.samples_covered) << trial;
   }
 }
@@ -108,8 +108,8 @@ TEST(Laws, ShiftingThePrincipalPointByWholePixelsShiftsTheMap) {
     Camera shifted = camera;
     shifted.projection.cx += 3;
     shifted.projection.cy -= 2;
-    const auto before = bits(testing::render_tested(scene, camera), "Z"),
-               after = bits(testing::render_tested(scene, shifted), "Z");
+    const auto before = bits(checks::render_tested(scene, camera), "Z"),
+               after = bits(checks::render_tested(scene, shifted), "Z");
     for (std::uint32_t y = 2; y < height; ++y) {
       for (std::uint32_t x = 0; x + 3 < width; ++x) {
         ASSERT_EQ(before[y * width + x], after[(y - 2) * width + x + 3]);
@@ -125,10 +125,10 @@ TEST(Laws, MirroringTheWorldAndTheCameraChangesNothing) {
   for (int trial = 0; trial < 30; ++trial) {
     Scene scene = soup_around_eye(random, 6);
     Camera camera = camera_of(width, height, 8);
-    const auto before = bits(testing::render_tested(scene, camera), "Z");
+    const auto before = bits(checks::render_tested(scene, camera), "Z");
     for (MeshPoint& p : scene.meshes[0].vertices) p.x = -p.x;
     for (auto& row : camera.world_to_camera) row[0] = -row[0];
-    EXPECT_EQ(before, bits(testing::render_tested(scene, camera), "Z"));
+    EXPECT_EQ(before, bits(checks::render_tested(scene, camera), "Z"));
   }
 }
 
@@ -142,8 +142,8 @@ TEST(Laws, MirroringTheImageReversesItsRows) {
     Camera mirrored = camera;
     mirrored.projection.fx = -camera.projection.fx;
     mirrored.projection.cx = width - camera.projection.cx;
-    const auto before = bits(testing::render_tested(scene, camera), "Z");
-    const auto after = bits(testing::render_tested(scene, mirrored), "Z");
+    const auto before = bits(checks::render_tested(scene, camera), "Z");
+    const auto after = bits(checks::render_tested(scene, mirrored), "Z");
     for (std::uint32_t y = 0; y < height; ++y) {
       for (std::uint32_t x = 0; x < width; ++x) {
         ASSERT_EQ(before[y * width + x], after[y * width + width - 1 - x]);
@@ -160,8 +160,8 @@ TEST(Laws, PowersOfTwoOnlyScaleDepth) {
     Scene scaled = scene;
     for (MeshPoint& p : scaled.meshes[0].vertices) p = {p.x * scale, p.y * scale, p.z * scale};
     const Camera camera = camera_of(width, height, 8);
-    const DepthMap a = testing::render_tested(scene, camera),
-                   b = testing::render_tested(scaled, camera);
+    const DepthMap a = checks::render_tested(scene, camera),
+                   b = checks::render_tested(scaled, camera);
     for (std::size_t i = 0; i < a.values<float>("Z")->size(); ++i) {
       EXPECT_EQ(a.values<float>("Z")->at(i) * static_cast<float>(scale),
                 b.values<float>("Z")->at(i));
@@ -179,8 +179,8 @@ TEST(Laws, AnExactTransformEqualsTransformedVertices) {
   object.world_from_mesh.rows = {
       {{0.0, 2.0, 0.0, 1.0}, {-1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.25}}};
   const Camera camera = camera_of(width, height, 8);
-  EXPECT_EQ(bits(testing::render_tested(scene, camera), "Z"),
-            bits(testing::render_tested(moved, camera), "Z"));
+  EXPECT_EQ(bits(checks::render_tested(scene, camera), "Z"),
+            bits(checks::render_tested(moved, camera), "Z"));
 }
 
 TEST(Laws, ThreadsAndObjectsDoNotMatter) {
@@ -198,10 +198,10 @@ TEST(Laws, ThreadsAndObjectsDoNotMatter) {
   const Camera camera = camera_of(64, 100, 40);
   auto options = with({Channel::Z, Channel::id, Channel::object, Channel::face});
   options.threads = 1;
-  const DepthMap a = testing::render_tested(one, camera, options);
+  const DepthMap a = checks::render_tested(one, camera, options);
   for (const int threads : {1, 2, 5}) {
     options.threads = threads;
-    const DepthMap b = testing::render_tested(several, camera, options);
+    const DepthMap b = checks::render_tested(several, camera, options);
     EXPECT_EQ(bits(a, "Z"), bits(b, "Z"));
     EXPECT_EQ(*a.values<std::uint32_t>("id"), *b.values<std::uint32_t>("id"));
     for (std::size_t i = 0; i < a.values<std::uint32_t>("id")->size(); ++i) {
@@ -223,7 +223,7 @@ TEST(Laws, ProbeTellsWhatTheMapShows) {
     for (const Cull cull : {Cull::none, Cull::back, Cull::front}) {
       auto options = with({Channel::id});
       options.cull = cull;
-      const DepthMap map = testing::render_tested(scene, camera, options);
+      const DepthMap map = checks::render_tested(scene, camera, options);
       for (std::uint32_t y = 0; y < height; ++y) {
         for (std::uint32_t x = 0; x < width; ++x) {
           const auto seen = probe(scene, camera, x, y, cull);

@@ -16,9 +16,9 @@
 namespace fathom {
 namespace {
 
-using testing::expect_same;
-using testing::expect_same_map;
-using testing::Kind;
+using checks::expect_same;
+using checks::expect_same_map;
+using checks::Kind;
 
 /// A lens of the model that bends rays, and sees most of the image.
 Lens lens_of(LensModel model) {
@@ -56,7 +56,7 @@ Lens lens_of(LensModel model) {
 constexpr std::uint32_t width = 32, height = 28;
 
 Camera camera_with(const Lens& lens) {
-  Camera camera = testing::camera_of(width, height, 18);
+  Camera camera = checks::camera_of(width, height, 18);
   camera.projection.cx = 15.25;
   if (is_panorama(lens.model)) {
     camera.projection.fx = 110;
@@ -94,14 +94,14 @@ const std::vector<DepthEncoding> encodings{{StoredType::binary64},
 class EncodingsOf : public ::testing::TestWithParam<LensModel> {};
 
 TEST_P(EncodingsOf, AreTheReferenceEngines) {
-  const Scene scene = testing::two_spheres(16);
+  const Scene scene = checks::two_spheres(16);
   for (const DepthEncoding& encoding : encodings)
     expect_fast(scene, camera_with(lens_of(GetParam())), encoding);
 }
 
 // The eye is within the scene, and rays go to all sides.
 TEST_P(EncodingsOf, AreTheReferenceEnginesAllAround) {
-  const Scene scene = testing::two_spheres(12);
+  const Scene scene = checks::two_spheres(12);
   Camera camera = camera_with(lens_of(GetParam()));
   camera.world_to_camera[2][3] = 0.125;
   for (const std::size_t i : {0U, 1U}) expect_fast(scene, camera, encodings[i]);
@@ -111,13 +111,13 @@ std::string name_of_model(const ::testing::TestParamInfo<LensModel>& info) {
   return std::string(name_of(info.param));
 }
 
-INSTANTIATE_TEST_SUITE_P(FastLenses, EncodingsOf, ::testing::ValuesIn(testing::bending_models()),
+INSTANTIATE_TEST_SUITE_P(FastLenses, EncodingsOf, ::testing::ValuesIn(checks::bending_models()),
                          name_of_model);
 
 TEST(FastLensEncodings, ATableOfDirections) {
-  const Camera camera = testing::with_table(
-      camera_with({}), testing::DirectionMaker(7).numbers(std::size_t{width} * height));
-  const Scene scene = testing::two_spheres(12);
+  const Camera camera = checks::with_table(
+      camera_with({}), checks::DirectionMaker(7).numbers(std::size_t{width} * height));
+  const Scene scene = checks::two_spheres(12);
   Camera inside = camera;
   inside.world_to_camera[2][3] = 0.125;
   for (const DepthEncoding& encoding : encodings)
@@ -130,7 +130,7 @@ struct Wall {
 };
 
 DepthMap of_wall(const Wall& wall, LensModel model, const DepthEncoding& encoding) {
-  const Scene scene = testing::scene_of(
+  const Scene scene = checks::scene_of(
       {{-60, -60, wall.mesh}, {180, -60, wall.mesh}, {-60, 180, wall.mesh}}, {{0, 1, 2}});
   Camera camera = camera_with(lens_of(model));
   camera.world_to_camera[2][3] = wall.shift;
@@ -187,7 +187,7 @@ std::string fault_of(const Render& render) {
 }
 
 TEST(FastLensEncodings, TheSamePixelIsRefused) {
-  const Scene scene = testing::two_spheres(12);
+  const Scene scene = checks::two_spheres(12);
   for (const LensModel model : {LensModel::opencv, LensModel::opencv_fisheye}) {
     for (const double scale : {40000.0, 0.05}) {
       const Camera camera = camera_with(lens_of(model));
@@ -204,11 +204,11 @@ class EncodingAdversaries : public ::testing::TestWithParam<LensModel> {};
 
 // Corners and edges on rays, neighbours of ties, and numbers that overflow.
 TEST_P(EncodingAdversaries, AreTheSame) {
-  testing::for_each_adversary(30, [&](std::uint64_t seed) {
+  checks::for_each_adversary(30, [&](std::uint64_t seed) {
     constexpr std::array kinds{Kind::few_bits, Kind::neighbours, Kind::huge, Kind::tiny};
-    testing::LensCaseMaker maker(10000 * seed + 77 + static_cast<std::uint64_t>(GetParam()),
-                                 kinds[seed % 4]);
-    const testing::LensCase c = maker.make(GetParam());
+    checks::LensCaseMaker maker(10000 * seed + 77 + static_cast<std::uint64_t>(GetParam()),
+                                kinds[seed % 4]);
+    const checks::LensCase c = maker.make(GetParam());
     const DepthEncoding encoding = seed % 3 == 0
                                        ? DepthEncoding{StoredType::scaled_unorm16, 0.5, true}
                                        : DepthEncoding{StoredType::binary64};
@@ -223,7 +223,7 @@ TEST_P(EncodingAdversaries, AreTheSame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(FastLenses, EncodingAdversaries,
-                         ::testing::ValuesIn(testing::bending_models()), name_of_model);
+                         ::testing::ValuesIn(checks::bending_models()), name_of_model);
 
 }  // namespace
 }  // namespace fathom

@@ -18,12 +18,12 @@
 namespace fathom {
 namespace {
 
-using testing::expect_same;
-using testing::expect_same_map;
-using testing::Kind;
-using testing::LensCase;
-using testing::LensCaseMaker;
-using testing::NamedLens;
+using checks::expect_same;
+using checks::expect_same_map;
+using checks::Kind;
+using checks::LensCase;
+using checks::LensCaseMaker;
+using checks::NamedLens;
 
 std::vector<Channel> lens_channels(const std::vector<Channel>& channels) {
   std::vector<Channel> with_valid = channels;
@@ -37,7 +37,7 @@ class LensAdversaries : public ::testing::TestWithParam<std::tuple<LensModel, Ki
 TEST_P(LensAdversaries, AreTheSame) {
   const auto [model, kind] = GetParam();
   RenderStatistics sum;
-  testing::for_each_adversary(25, [&, model = model, kind = kind](std::uint64_t seed) {
+  checks::for_each_adversary(25, [&, model = model, kind = kind](std::uint64_t seed) {
     LensCaseMaker maker(10000 * seed + static_cast<std::uint64_t>(100 * static_cast<int>(model)) +
                             static_cast<std::uint64_t>(kind),
                         kind);
@@ -45,11 +45,11 @@ TEST_P(LensAdversaries, AreTheSame) {
     RenderOptions options;
     options.threads = 1;
     options.channels =
-        lens_channels(seed % 10 == 0 ? testing::every_channel : testing::quick_channels);
+        lens_channels(seed % 10 == 0 ? checks::every_channel : checks::quick_channels);
     options.cull = seed % 7 == 0 ? Cull::back : seed % 7 == 1 ? Cull::front : Cull::none;
     add(sum, expect_same(c.view.scene, c.view.camera, options));
   });
-  if (testing::effort > 1 || (kind != Kind::few_bits && kind != Kind::neighbours)) return;
+  if (checks::effort > 1 || (kind != Kind::few_bits && kind != Kind::neighbours)) return;
   // Every tier was reached.
   const std::uint64_t often = is_plane(model) ? 5 : 0;
   EXPECT_GT(sum.exact_setups, often);
@@ -69,7 +69,7 @@ std::string name_of_case(const ::testing::TestParamInfo<std::tuple<LensModel, Ki
 }
 
 INSTANTIATE_TEST_SUITE_P(Fast, LensAdversaries,
-                         ::testing::Combine(::testing::ValuesIn(testing::bending_models()),
+                         ::testing::Combine(::testing::ValuesIn(checks::bending_models()),
                                             ::testing::Values(Kind::few_bits, Kind::neighbours,
                                                               Kind::huge, Kind::tiny)),
                          name_of_case);
@@ -133,8 +133,8 @@ std::vector<NamedLens> lenses() {
       {"cylindrical that ends", {LensModel::cylindrical, {}, 2}}};
 }
 
-Camera camera_with(const Lens& lens) {
-  Camera camera = testing::camera_of(160, 140, 64);
+Camera camera_of_lens(const Lens& lens) {
+  Camera camera = checks::camera_of(160, 140, 64);
   camera.projection.lens = lens;
   return camera;
 }
@@ -145,8 +145,8 @@ TEST(FastLenses, TrianglesAcrossTilesOfAnyNumberOfThreads) {
   for (const NamedLens& named : lenses()) {
     SCOPED_TRACE(named.name);
     const Scene scene =
-        i % 2 == 0 ? testing::soup(random, 30, i % 4 == 0) : testing::slivers(random, 30);
-    Camera camera = camera_with(named.lens);
+        i % 2 == 0 ? checks::soup(random, 30, i % 4 == 0) : checks::slivers(random, 30);
+    Camera camera = camera_of_lens(named.lens);
     if (i % 3 == 0) camera.far = 5;
     if (i % 3 == 1) camera.near = 2;
     if (has_two_focal_lengths(entry_of(named.lens.model))) {
@@ -154,7 +154,7 @@ TEST(FastLenses, TrianglesAcrossTilesOfAnyNumberOfThreads) {
       if (i % 4 > 1) camera.projection.skew = 7;
     }
     RenderOptions options;
-    options.channels = lens_channels(testing::quick_channels);
+    options.channels = lens_channels(checks::quick_channels);
     const DepthMap truth = render_reference(scene, camera, options).map;
     options.threads = 1 + i % 3;
     expect_same_map(render_fast(scene, camera, options).map, truth);
@@ -166,10 +166,10 @@ TEST(FastLenses, TrianglesAcrossTilesOfAnyNumberOfThreads) {
 }
 
 TEST(FastLenses, EveryChannelOfSpheres) {
-  const Scene scene = testing::two_spheres(12);
+  const Scene scene = checks::two_spheres(12);
   for (const NamedLens& named : lenses()) {
     SCOPED_TRACE(named.name);
-    Camera camera = camera_with(named.lens);
+    Camera camera = camera_of_lens(named.lens);
     camera.width = 70;
     camera.height = 66;
     camera.projection.fx = camera.projection.fy = 40;
@@ -177,28 +177,28 @@ TEST(FastLenses, EveryChannelOfSpheres) {
     camera.projection.cy = 33;
     camera.world_to_camera[2][3] = 3;
     RenderOptions options;
-    options.channels = lens_channels(testing::every_channel);
+    options.channels = lens_channels(checks::every_channel);
     expect_same(scene, camera, options);
   }
 }
 
 // The eye lies inside of the scene, triangles pass it, and some corners are behind it.
 TEST(FastLenses, TrianglesAroundTheEye) {
-  const Scene scene = testing::two_spheres(8);
-  Camera camera = camera_with({LensModel::simple_radial, {-0.2}});
+  const Scene scene = checks::two_spheres(8);
+  Camera camera = camera_of_lens({LensModel::simple_radial, {-0.2}});
   camera.world_to_camera[2][3] = 0.125;
   RenderOptions options;
-  options.channels = lens_channels(testing::quick_channels);
+  options.channels = lens_channels(checks::quick_channels);
   expect_same(scene, camera, options);
 }
 
 TEST(FastLenses, MemoryOfOneFrameServesTheNext) {
   std::mt19937_64 random(4713);
-  const Scene scene = testing::soup(random, 60, false);
+  const Scene scene = checks::soup(random, 60, false);
   RenderMemory memory;
   const RenderContext context{.kept = &memory};
   RenderOptions options;
-  options.channels = lens_channels(testing::quick_channels);
+  options.channels = lens_channels(checks::quick_channels);
   DepthMap before;
   const std::vector<NamedLens> all = lenses();
   for (const std::size_t number : {0U, 3U, 7U, 12U}) {
@@ -206,7 +206,7 @@ TEST(FastLenses, MemoryOfOneFrameServesTheNext) {
     SCOPED_TRACE(named.name);
     for (const double z : {0.0, 0.5}) {
       for (const std::uint32_t width : {80U, 70U}) {
-        Camera camera = camera_with(named.lens);
+        Camera camera = camera_of_lens(named.lens);
         camera.width = width;
         camera.height = 70;
         camera.world_to_camera[2][3] = z;
@@ -221,28 +221,28 @@ TEST(FastLenses, MemoryOfOneFrameServesTheNext) {
 // The image lies so far from the axis of the camera that its pixels are less than those of the
 // window.
 TEST(FastLenses, AnImageFarFromTheAxis) {
-  Camera camera = camera_with({LensModel::simple_radial, {1e-22}});
+  Camera camera = camera_of_lens({LensModel::simple_radial, {1e-22}});
   camera.width = camera.height = 20;
   camera.projection.cx = -1e12;
   const double m = 1.53e10;
-  const Scene scene = testing::scene_of(
+  const Scene scene = checks::scene_of(
       {{0, -1, 1}, {2 * m, -1, 1}, {m, 1, 1}, {m, -m, 2}, {m, m, 2}, {2 * m, 0, 2}},
       {{0, 1, 2}, {3, 4, 5}});
   RenderOptions options;
-  options.channels = lens_channels(testing::quick_channels);
+  options.channels = lens_channels(checks::quick_channels);
   const RenderStatistics statistics = expect_same(scene, camera, options);
   EXPECT_GT(statistics.pixels_with_surface, 0U);
 }
 
 /// A scene that covers the plane z = 1 around a point, and one triangle nearer.
 Scene around(double x, double y, double size) {
-  return testing::scene_of({{x - size, y - size, 1},
-                            {x + 3 * size, y - size, 1},
-                            {x - size, y + 3 * size, 1},
-                            {x / 2 - size / 8, y / 2, 0.5},
-                            {x / 2 + size / 4, y / 2, 0.5},
-                            {x / 2, y / 2 + size / 4, 0.5}},
-                           {{0, 1, 2}, {3, 4, 5}});
+  return checks::scene_of({{x - size, y - size, 1},
+                           {x + 3 * size, y - size, 1},
+                           {x - size, y + 3 * size, 1},
+                           {x / 2 - size / 8, y / 2, 0.5},
+                           {x / 2 + size / 4, y / 2, 0.5},
+                           {x / 2, y / 2 + size / 4, 0.5}},
+                          {{0, 1, 2}, {3, 4, 5}});
 }
 
 struct HardLens {
@@ -326,7 +326,7 @@ TEST(FastLenses, HardNumbers) {
     camera.projection = {.fx = h.fx, .fy = h.fy, .cx = h.cx, .cy = h.cy, .skew = h.skew};
     camera.projection.lens = lens;
     RenderOptions options;
-    options.channels = lens_channels(testing::every_channel);
+    options.channels = lens_channels(checks::every_channel);
     std::erase(options.channels, Channel::Ns);
     for (const double size : {1.0, 4 / std::abs(h.fx), 100.0}) {
       const double x = (h.width / 2.0 - h.cx) / h.fx;
@@ -342,23 +342,23 @@ class TableAdversaries : public ::testing::TestWithParam<Kind> {};
 TEST_P(TableAdversaries, AreTheSame) {
   const Kind kind = GetParam();
   RenderStatistics sum;
-  testing::for_each_adversary(26, [&](std::uint64_t seed) {
-    testing::CaseMaker cases(100 * seed + static_cast<std::uint64_t>(kind), kind);
-    testing::Case c = cases.make();
-    std::vector<double> numbers = testing::DirectionMaker(seed).numbers(30);
+  checks::for_each_adversary(26, [&](std::uint64_t seed) {
+    checks::CaseMaker cases(100 * seed + static_cast<std::uint64_t>(kind), kind);
+    checks::Case c = cases.make();
+    std::vector<double> numbers = checks::DirectionMaker(seed).numbers(30);
     if (seed % 2 == 0) {
       c.camera.world_to_camera = Camera().world_to_camera;
-      testing::aim_at_corners(c.scene, numbers);
+      checks::aim_at_corners(c.scene, numbers);
     }
-    const Camera camera = testing::with_table(c.camera, std::move(numbers));
+    const Camera camera = checks::with_table(c.camera, std::move(numbers));
     RenderOptions options;
     options.threads = 1;
     options.channels =
-        lens_channels(seed % 10 == 0 ? testing::every_channel : testing::quick_channels);
+        lens_channels(seed % 10 == 0 ? checks::every_channel : checks::quick_channels);
     options.cull = seed % 7 == 0 ? Cull::back : seed % 7 == 1 ? Cull::front : Cull::none;
     add(sum, expect_same(c.scene, camera, options));
   });
-  if (testing::effort > 1 || (kind != Kind::few_bits && kind != Kind::neighbours)) return;
+  if (checks::effort > 1 || (kind != Kind::few_bits && kind != Kind::neighbours)) return;
   EXPECT_GT(sum.edges.exact, 5U);
   EXPECT_GT(sum.rounding.interval, 5U);
 }
@@ -381,7 +381,7 @@ Camera panorama(std::uint32_t width, std::uint32_t height) {
   Camera camera;
   camera.width = width;
   camera.height = height;
-  return testing::with_table(camera, std::move(numbers));
+  return checks::with_table(camera, std::move(numbers));
 }
 
 // Tiles of one view and of several; depths of all signs; ranges of distances.
@@ -392,7 +392,7 @@ TEST(FastTables, PanoramasOfAnyNumberOfThreads) {
        {std::pair(300U, 150U), std::pair(70U, 40U), std::pair(500U, 1U)}) {
     for (int k = 0; k < 3; ++k, ++i) {
       SCOPED_TRACE(i);
-      const Scene scene = k == 2 ? testing::two_spheres(8) : testing::soup(random, 60, k == 1);
+      const Scene scene = k == 2 ? checks::two_spheres(8) : checks::soup(random, 60, k == 1);
       Camera camera = panorama(width, height);
       camera.world_to_camera[0][3] = k == 2 ? 0.125 : -1;
       camera.world_to_camera[2][3] = k == 2 ? 0.25 : -2;
@@ -400,8 +400,7 @@ TEST(FastTables, PanoramasOfAnyNumberOfThreads) {
       if (i % 3 == 2) camera.far = 2.5;
       if (k == 1) camera.projection.lens->max_radius = 2;
       RenderOptions options;
-      options.channels =
-          lens_channels(i % 2 == 0 ? testing::every_channel : testing::quick_channels);
+      options.channels = lens_channels(i % 2 == 0 ? checks::every_channel : checks::quick_channels);
       const DepthMap truth = render_reference(scene, camera, options).map;
       options.threads = 1 + i % 3;
       expect_same_map(render_fast(scene, camera, options).map, truth);
@@ -427,10 +426,10 @@ TEST(FastTables, HardNumbers) {
     SCOPED_TRACE(i);
     Camera camera;
     camera.width = camera.height = 2;
-    camera = testing::with_table(camera, tables[i]);
+    camera = checks::with_table(camera, tables[i]);
     RenderOptions options;
-    options.channels = lens_channels(testing::every_channel);
-    expect_same(testing::box_scene(1, 1, 1), camera, options);
+    options.channels = lens_channels(checks::every_channel);
+    expect_same(checks::box_scene(1, 1, 1), camera, options);
     expect_same(around(1, 0, 1), camera, options);
     expect_same(around(0, 0, 1), camera, options);
   }
@@ -438,18 +437,18 @@ TEST(FastTables, HardNumbers) {
 
 // Of samples beyond the disc, and of all samples.
 TEST(FastLenses, NoSampleHasARay) {
-  Camera camera = camera_with({LensModel::simple_radial, {-0.25}});
+  Camera camera = camera_of_lens({LensModel::simple_radial, {-0.25}});
   camera.projection.cx = 1000;
   RenderOptions options;
-  options.channels = lens_channels(testing::quick_channels);
+  options.channels = lens_channels(checks::quick_channels);
   std::mt19937_64 random(4714);
-  expect_same(testing::soup(random, 20, false), camera, options);
+  expect_same(checks::soup(random, 20, false), camera, options);
 }
 
 TEST(FastLenses, TheEnginesRefuseTheSame) {
   std::mt19937_64 random(4715);
-  const Scene scene = testing::soup(random, 2, false);
-  const Camera camera = camera_with({LensModel::simple_radial, {-0.25}});
+  const Scene scene = checks::soup(random, 2, false);
+  const Camera camera = camera_of_lens({LensModel::simple_radial, {-0.25}});
   RenderOptions options;
   options.channels = {Channel::A};
   for (const Engine engine : {Engine::fast, Engine::reference}) {

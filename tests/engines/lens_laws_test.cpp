@@ -14,12 +14,12 @@
 namespace fathom {
 namespace {
 
-using testing::expect_same_map;
-using testing::NamedLens;
-using testing::render_tested;
-using testing::soup_around_eye;
+using checks::expect_same_map;
+using checks::NamedLens;
+using checks::render_tested;
+using checks::soup_around_eye;
 
-constexpr std::uint32_t width = 24, height = 20;
+constexpr std::uint32_t columns = 24, rows = 20;
 
 /// Lenses of few bits, so that samples have edges on their rays; most fold within the image.
 std::vector<NamedLens> lenses() {
@@ -50,12 +50,12 @@ std::vector<NamedLens> lenses() {
 }
 
 Camera camera_with(const Lens& lens) {
-  Camera camera = testing::camera_of(width, height, 12);
+  Camera camera = checks::camera_of(columns, rows, 12);
   camera.projection.lens = lens;
   return camera;
 }
 
-RenderOptions with(std::vector<Channel> channels) {
+RenderOptions on_one_thread(std::vector<Channel> channels) {
   RenderOptions options;
   options.channels = std::move(channels);
   options.threads = 1;
@@ -64,12 +64,12 @@ RenderOptions with(std::vector<Channel> channels) {
 
 /// Without numbers of triangles and weights, which depend on the order of triangles and corners.
 RenderOptions what_is_seen() {
-  return with({Channel::Z, Channel::N, Channel::P, Channel::distance, Channel::valid});
+  return on_one_thread({Channel::Z, Channel::N, Channel::P, Channel::distance, Channel::valid});
 }
 
 RenderOptions every_value() {
-  return with({Channel::Z, Channel::Zlow, Channel::N, Channel::P, Channel::distance, Channel::id,
-               Channel::bary, Channel::valid});
+  return on_one_thread({Channel::Z, Channel::Zlow, Channel::N, Channel::P, Channel::distance,
+                        Channel::id, Channel::bary, Channel::valid});
 }
 
 /// Calls `check` with each lens and some scenes.
@@ -78,7 +78,7 @@ void for_each_view(std::uint64_t seed, int scenes, const Check& check) {
   std::mt19937_64 random(seed);
   for (const NamedLens& named : lenses()) {
     SCOPED_TRACE(named.name);
-    for (int i = 0; i < std::max(1, scenes / testing::effort); ++i)
+    for (int i = 0; i < std::max(1, scenes / checks::effort); ++i)
       check(camera_with(named.lens), soup_around_eye(random, 6), random);
   }
 }
@@ -177,19 +177,19 @@ TEST(LensLaws, ACropOfTheImageIsACropOfTheMap) {
     crop.height = 10;
     crop.projection.cx -= left;
     crop.projection.cy -= top;
-    const DepthMap whole = render_tested(scene, camera, with({Channel::distance}));
-    const DepthMap part = render_tested(scene, crop, with({Channel::distance}));
+    const DepthMap whole = render_tested(scene, camera, on_one_thread({Channel::distance}));
+    const DepthMap part = render_tested(scene, crop, on_one_thread({Channel::distance}));
     const auto& all = *whole.values<float>("distance");
     const auto& cut = *part.values<float>("distance");
     for (std::uint32_t y = 0; y < crop.height; ++y)
       for (std::uint32_t x = 0; x < crop.width; ++x)
-        ASSERT_EQ(cut[y * crop.width + x], all[(y + top) * width + x + left]);
+        ASSERT_EQ(cut[y * crop.width + x], all[(y + top) * columns + x + left]);
   });
 }
 
 TEST(LensLaws, MirroringTheWorldAndTheCameraChangesNothing) {
   for_each_view(46, 3, [](Camera camera, Scene scene, std::mt19937_64&) {
-    const RenderOptions options = with({Channel::Z, Channel::distance, Channel::id});
+    const RenderOptions options = on_one_thread({Channel::Z, Channel::distance, Channel::id});
     const DepthMap before = render_tested(scene, camera, options);
     for (MeshPoint& p : scene.meshes[0].vertices) p.x = -p.x;
     for (auto& row : camera.world_to_camera) row[0] = -row[0];
@@ -209,7 +209,7 @@ TEST(LensLaws, ThreadsChangeNothing) {
 // Edges and diagonals of the box lie on the rays of samples: the eye is its centre, and the
 // principal point a sample or the corner between four.
 TEST(LensLaws, AClosedSurfaceAroundTheEyeCoversEveryRayOnce) {
-  const Scene box = testing::box_scene(1, 1, 1);
+  const Scene box = checks::box_scene(1, 1, 1);
   for (const NamedLens& named : lenses()) {
     SCOPED_TRACE(named.name);
     for (const double shift : {0.0, 0.5}) {
@@ -222,12 +222,12 @@ TEST(LensLaws, AClosedSurfaceAroundTheEyeCoversEveryRayOnce) {
         if (has_one_focal_length(entry_of(named.lens.model)))
           camera.projection.fy = camera.projection.fx;
         const Rendered seen =
-            testing::render_and_count(box, camera, with({Channel::id, Channel::valid}));
+            checks::render_and_count(box, camera, on_one_thread({Channel::id, Channel::valid}));
         const auto& valid = *seen.map.values<std::uint32_t>("valid");
         const auto rays = static_cast<std::uint64_t>(std::ranges::count(valid, 1U));
-        EXPECT_GT(rays, width * height / 4U);
+        EXPECT_GT(rays, columns * rows / 4U);
         EXPECT_EQ(seen.statistics.pixels_with_surface, rays);
-        if (testing::tested_engine() == Engine::reference) {
+        if (checks::tested_engine() == Engine::reference) {
           EXPECT_EQ(seen.statistics.samples_covered, rays);  // not one is hit twice
         }
       }
@@ -246,7 +246,7 @@ Camera full_panorama(LensModel model) {
 }
 
 Scene octahedron() {
-  return testing::scene_of(
+  return checks::scene_of(
       {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
       {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}});
 }
@@ -254,15 +254,15 @@ Scene octahedron() {
 // Corners, edges and diagonals lie on rays at multiples of 45°, on the poles and on the seam.
 TEST(LensLaws, AClosedSurfaceAroundTheEyeCoversAFullPanoramaOnce) {
   for (const LensModel model : {LensModel::equirectangular, LensModel::cylindrical}) {
-    for (const Scene& scene : {testing::box_scene(1, 1, 1), octahedron()}) {
+    for (const Scene& scene : {checks::box_scene(1, 1, 1), octahedron()}) {
       for (const double pixel_centre : {0.0, 0.5}) {
         Camera camera = full_panorama(model);
         camera.projection.pixel_centre = pixel_centre;
         if (pixel_centre != 0) camera.height = 12;
-        const Rendered seen = testing::render_and_count(scene, camera, with({Channel::id}));
+        const Rendered seen = checks::render_and_count(scene, camera, on_one_thread({Channel::id}));
         const std::uint64_t samples = std::uint64_t{camera.width} * camera.height;
         EXPECT_EQ(seen.statistics.pixels_with_surface, samples) << name_of(model);
-        if (testing::tested_engine() == Engine::reference) {
+        if (checks::tested_engine() == Engine::reference) {
           EXPECT_EQ(seen.statistics.samples_covered, samples);
         }
       }
@@ -280,7 +280,7 @@ TEST(LensLaws, AQuarterOfATurnShiftsAPanorama) {
       Camera camera = full_panorama(model);
       camera.height = 12;
       camera.projection.pixel_centre = 0.5;
-      const auto options = with({Channel::distance, Channel::id});
+      const auto options = on_one_thread({Channel::distance, Channel::id});
       const DepthMap before = render_tested(scene, camera, options);
       const auto [x, y, z] = camera.world_to_camera;
       camera.world_to_camera = {z, y, {-x[0], -x[1], -x[2], -x[3]}};

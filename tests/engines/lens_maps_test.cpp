@@ -13,9 +13,9 @@
 namespace fathom {
 namespace {
 
-using testing::Kind;
-using testing::LensCase;
-using testing::LensCaseMaker;
+using checks::Kind;
+using checks::LensCase;
+using checks::LensCaseMaker;
 
 struct Tally {
   int hits = 0, without_ray = 0;
@@ -26,13 +26,13 @@ void check(const LensCase& c, Tally& tally) {
   const Camera& camera = c.view.camera;
   RenderOptions options;
   options.engine = Engine::reference;
-  options.channels = testing::all_channels();
+  options.channels = checks::all_channels();
   options.channels.push_back(Channel::valid);
   options.threads = 1;
   const auto [map, statistics, doubtful] = render(c.view.scene, camera, options);
   add(tally.statistics, statistics);
   const double disc = lens::Preimages(camera.projection, *camera.projection.lens).disc();
-  const oracle::RayCaster rays = testing::cast_at(c.view.scene, camera, c.numbers, disc);
+  const oracle::RayCaster rays = checks::cast_at(c.view.scene, camera, c.numbers, disc);
   const auto& valid = *map.values<std::uint32_t>("valid");
   for (int y = 0; y < 5; ++y) {
     for (int x = 0; x < 6; ++x) {
@@ -40,7 +40,7 @@ void check(const LensCase& c, Tally& tally) {
       tally.without_ray += !has_ray;
       ASSERT_EQ(rays.sees(x, y), has_ray) << x << ' ' << y << ' ' << disc;
       const auto hit = has_ray ? rays.cast(x, y) : std::nullopt;
-      testing::expect_pixel(map, x, y, hit, c.view.scene);
+      checks::expect_pixel(map, x, y, hit, c.view.scene);
       tally.hits += hit.has_value();
     }
   }
@@ -55,7 +55,7 @@ TEST_P(LensMaps, EveryChannelOfEveryPixelAgreesWithRationalRays) {
       kind);
   Tally tally;
   const auto scenes =
-      static_cast<int>(std::min<std::uint64_t>(testing::number_of_adversaries(30), 300));
+      static_cast<int>(std::min<std::uint64_t>(checks::number_of_adversaries(30), 300));
   for (int i = 0; i < scenes && !HasFailure(); ++i) {
     SCOPED_TRACE("scene " + std::to_string(i) + " of this seed");
     check(maker.make(model), tally);
@@ -65,20 +65,20 @@ TEST_P(LensMaps, EveryChannelOfEveryPixelAgreesWithRationalRays) {
   if (model == LensModel::simple_radial || model == LensModel::opencv) {
     EXPECT_GT(tally.without_ray, 0);
   }
-  if (testing::effort == 1) {
+  if (checks::effort == 1) {
     EXPECT_GT(tally.statistics.edges.exact, 0U);
   }
 }
 
-std::string name_of_case(const ::testing::TestParamInfo<std::tuple<LensModel, Kind>>& info) {
+std::string name_of_lens_case(const ::testing::TestParamInfo<std::tuple<LensModel, Kind>>& info) {
   const auto [model, kind] = info.param;
   return std::string(name_of(model)) + (kind == Kind::few_bits ? "_few_bits" : "_neighbours");
 }
 
 INSTANTIATE_TEST_SUITE_P(Adversaries, LensMaps,
-                         ::testing::Combine(::testing::ValuesIn(testing::bending_models()),
+                         ::testing::Combine(::testing::ValuesIn(checks::bending_models()),
                                             ::testing::Values(Kind::few_bits, Kind::neighbours)),
-                         name_of_case);
+                         name_of_lens_case);
 
 }  // namespace
 }  // namespace fathom

@@ -12,10 +12,10 @@
 namespace fathom {
 namespace {
 
-using testing::CaseMaker;
-using testing::every_channel;
-using testing::expect_same_map;
-using testing::Kind;
+using checks::CaseMaker;
+using checks::every_channel;
+using checks::expect_same_map;
+using checks::Kind;
 
 /// Memory for channels, full of what no map has.
 class Lender {
@@ -121,7 +121,7 @@ TEST(RenderInto, WorksWithMemoryThatOtherThreadsHaveUsed) {
   CaseMaker cases(23, Kind::few_bits);
   RenderMemory memory;
   for (int i = 0; i < 12; ++i) {
-    const testing::Case one = cases.make();
+    const checks::Case one = cases.make();
     RenderOptions options;
     const DepthMap expected = render(one.scene, one.camera, options).map;
     Rendered rendered;

@@ -17,9 +17,9 @@
 namespace fathom {
 namespace {
 
-using testing::camera_of;
+using checks::camera_of;
+using checks::scene_of;
 using ::testing::ElementsAre;
-using testing::scene_of;
 
 using Direction = std::array<float, 3>;
 
@@ -33,7 +33,7 @@ DepthMap normals_of(const Scene& scene, const Camera& camera,
   RenderOptions options;
   options.channels = {Channel::Z, Channel::N, Channel::Nc, Channel::Ns};
   options.normals = source;
-  return testing::render_tested(scene, camera, options);
+  return checks::render_tested(scene, camera, options);
 }
 
 /// The root of a quotient of integers, rounded once.
@@ -50,7 +50,7 @@ Camera grid_camera(std::uint32_t width, std::uint32_t height) {
 }
 
 /// A wall from (0, 0) to (4, 4) at depth `z`, outwards (towards the camera) −z.
-Scene wall(double z = 8) {
+Scene lit_wall(double z = 8) {
   return scene_of({{0, 0, z}, {4, 0, z}, {4, 4, z}, {0, 4, z}}, {{0, 2, 1}, {0, 3, 2}});
 }
 
@@ -104,7 +104,7 @@ TEST(Normals, OfAnOctahedronPointAwayFromItsCentre) {
 }
 
 TEST(Normals, OfTheFileAreInterpolatedAsTheyAre) {
-  Scene scene = wall();
+  Scene scene = lit_wall();
   Mesh& mesh = scene.meshes[0];
   mesh.normals = {{0, 0, -1}, {1, 0, 0}, {1, 0, 0}, {0, 0, -1}};
   const DepthMap map = normals_of(scene, grid_camera(4, 4));
@@ -126,7 +126,7 @@ TEST(Normals, OfTheFileAreInterpolatedAsTheyAre) {
 }
 
 TEST(Normals, OfCornersOfTheirOwnAndOfCornersThatHaveNone) {
-  Scene scene = wall();
+  Scene scene = lit_wall();
   Mesh& mesh = scene.meshes[0];
   mesh.normals = {{3, 0, -4}};
   mesh.normal_triangles = {{0, 0, 0}, {no_index, no_index, no_index}};
@@ -163,7 +163,7 @@ TEST(Normals, AreSharedByVertexOrByPlace) {
 
 /// The wall stretched by 2 in x, sheared, or mirrored, before a camera that sees it all.
 TEST(Normals, ArePlacedByTheInverseTranspose) {
-  Scene scene = wall();
+  Scene scene = lit_wall();
   scene.meshes[0].normals.assign(4, {1, 0, -1});
   Object& object = scene.objects[0];
   object.placed_as_is = false;
@@ -187,7 +187,7 @@ TEST(Normals, ArePlacedByTheInverseTranspose) {
 }
 
 TEST(Normals, ThatAreZeroAreWrittenAsZero) {
-  Scene scene = wall();
+  Scene scene = lit_wall();
   Mesh& mesh = scene.meshes[0];
   mesh.normals.assign(4, {0, 0, 0});
   const DepthMap none = normals_of(scene, grid_camera(4, 4));
@@ -247,7 +247,7 @@ TEST(Normals, ThatAlmostLieBetweenTwoNumbersAreRoundedRight) {
     // − 1).
     const double h = std::ldexp(static_cast<double>((random() >> 40) | (1U << 24U) | 1U), -25);
     const double b = std::sqrt((1 - h) * (1 + h)) / h;
-    Scene scene = wall();
+    Scene scene = lit_wall();
     scene.meshes[0].normals.assign(4, {1, b, 0});
     const float found = at(normals_of(scene, grid_camera(4, 4)), "Ns", 5)[0];
     const Dyadic square = Dyadic(1.0) + Dyadic(b) * Dyadic(b);
@@ -263,23 +263,23 @@ TEST(Normals, ThatAlmostLieBetweenTwoNumbersAreRoundedRight) {
 }
 
 TEST(Normals, TheMapSaysWhereTheyComeFrom) {
-  EXPECT_EQ(normals_of(wall(), grid_camera(2, 2)).texts.count("fathom.normals"), 0U);
-  const DepthMap map = normals_of(wall(), grid_camera(2, 2), NormalSource::place);
+  EXPECT_EQ(normals_of(lit_wall(), grid_camera(2, 2)).texts.count("fathom.normals"), 0U);
+  const DepthMap map = normals_of(lit_wall(), grid_camera(2, 2), NormalSource::place);
   EXPECT_EQ(map.texts.at("fathom.normals"), "place");
 }
 
-class RandomNormals : public ::testing::TestWithParam<testing::Kind> {};
+class RandomNormals : public ::testing::TestWithParam<checks::Kind> {};
 
 TEST_P(RandomNormals, AreThoseOfRays) {
   const auto seed = static_cast<std::uint64_t>(4400 + static_cast<int>(GetParam()));
-  testing::CaseMaker maker(seed, GetParam());
+  checks::CaseMaker maker(seed, GetParam());
   std::mt19937_64 random(seed);
   const auto below = [&](unsigned n) { return static_cast<int>(random() % n); };
   int seen = 0;
-  for (int i = 0; i < 300 / testing::effort && !HasFailure(); ++i) {
+  for (int i = 0; i < 300 / checks::effort && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
-    testing::Case c = maker.make();
-    if (i % 4 != 0) testing::add_odd_normals(c.scene.meshes[0], random);
+    checks::Case c = maker.make();
+    if (i % 4 != 0) checks::add_odd_normals(c.scene.meshes[0], random);
     if (i % 2 == 0) {
       Object& object = c.scene.objects[0];
       object.placed_as_is = false;
@@ -290,19 +290,19 @@ TEST_P(RandomNormals, AreThoseOfRays) {
       }
     }
     RenderOptions options;
-    options.channels = testing::all_channels();
+    options.channels = checks::all_channels();
     options.threads = 1;
     constexpr std::array sources{NormalSource::file, NormalSource::vertex, NormalSource::place};
     options.normals = sources[static_cast<std::size_t>(below(3))];
-    const DepthMap map = testing::render_tested(c.scene, c.camera, options);
-    seen += testing::expect_as_rays(map, c.scene, c.camera, options.normals);
+    const DepthMap map = checks::render_tested(c.scene, c.camera, options);
+    seen += checks::expect_as_rays(map, c.scene, c.camera, options.normals);
   }
-  EXPECT_GT(seen, 200 / testing::effort);
+  EXPECT_GT(seen, 200 / checks::effort);
 }
 
 INSTANTIATE_TEST_SUITE_P(Normals, RandomNormals,
-                         ::testing::Values(testing::Kind::few_bits, testing::Kind::neighbours,
-                                           testing::Kind::huge, testing::Kind::tiny));
+                         ::testing::Values(checks::Kind::few_bits, checks::Kind::neighbours,
+                                           checks::Kind::huge, checks::Kind::tiny));
 
 }  // namespace
 }  // namespace fathom

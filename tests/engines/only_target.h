@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// Restricts the engine to one kind of vector instructions for as long as it lives.
 class OnlyTarget {
@@ -32,4 +32,4 @@ inline std::vector<std::int64_t> vector_targets() {
   return all;
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -11,9 +11,9 @@
 namespace fathom {
 namespace {
 
-using testing::Case;
-using testing::CaseMaker;
-using testing::Kind;
+using checks::Case;
+using checks::CaseMaker;
+using checks::Kind;
 
 struct Tally {
   int hits = 0, ties = 0, on_edges = 0;
@@ -30,15 +30,15 @@ void add_ties(const Case& c, int x, int y, Tally& tally) {
 
 void check(const Case& c, Tally& tally) {
   RenderOptions options;
-  options.channels = testing::all_channels();
+  options.channels = checks::all_channels();
   options.threads = 1;
-  const auto [map, statistics, doubtful] = testing::render_and_count(c.scene, c.camera, options);
+  const auto [map, statistics, doubtful] = checks::render_and_count(c.scene, c.camera, options);
   add(tally.statistics, statistics);
-  const oracle::RayCaster rays = testing::cast_at(c.scene, c.camera);
+  const oracle::RayCaster rays = checks::cast_at(c.scene, c.camera);
   for (int y = 0; y < 5; ++y) {
     for (int x = 0; x < 6; ++x) {
       const auto hit = rays.cast(x, y);
-      testing::expect_pixel(map, x, y, hit, c.scene);
+      checks::expect_pixel(map, x, y, hit, c.scene);
       if (!hit) continue;
       ++tally.hits;
       add_ties(c, x, y, tally);
@@ -52,13 +52,13 @@ TEST_P(Oracle, EveryChannelOfEveryPixelAgrees) {
   const auto [kind, part] = GetParam();
   CaseMaker maker(static_cast<std::uint64_t>(1000 * static_cast<int>(kind) + part), kind);
   Tally tally;
-  for (int i = 0; i < 1200 / testing::effort && !HasFailure(); ++i) {
+  for (int i = 0; i < 1200 / checks::effort && !HasFailure(); ++i) {
     SCOPED_TRACE("scene " + std::to_string(i) + " of this seed");
     check(maker.make(), tally);
   }
   // The scenes are worth their time: the hard cases are among them, and every tier was reached
   // (samples on edges of few bits are settled by the filter: its interval is the point 0).
-  if (testing::effort > 1) return;
+  if (checks::effort > 1) return;
   EXPECT_GT(tally.hits, 5000);
   EXPECT_GT(tally.on_edges, 400);
   EXPECT_GT(tally.ties, 500);

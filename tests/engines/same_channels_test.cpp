@@ -19,10 +19,10 @@
 namespace fathom {
 namespace {
 
-using testing::CaseMaker;
-using testing::every_channel;
-using testing::expect_same_map;
-using testing::Kind;
+using checks::CaseMaker;
+using checks::every_channel;
+using checks::expect_same_map;
+using checks::Kind;
 
 /// What is rendered, or the message of the failure.
 struct Outcome {
@@ -42,8 +42,8 @@ Outcome outcome_of(const Render& render) {
 }
 
 /// Renders with both engines and compares maps or failures; returns the fast engine's statistics.
-RenderStatistics expect_same(const Scene& scene, const Camera& camera,
-                             const RenderOptions& options) {
+RenderStatistics expect_same_outcome(const Scene& scene, const Camera& camera,
+                                     const RenderOptions& options) {
   const Outcome truth = outcome_of([&] { return render_reference(scene, camera, options); });
   const Outcome ours = outcome_of([&] { return render_fast(scene, camera, options); });
   EXPECT_EQ(ours.failure, truth.failure);
@@ -60,12 +60,12 @@ RenderStatistics expect_same_in_every_encoding(const Scene& scene, const Camera&
   RenderOptions options;
   options.threads = threads;
   options.channels = every_channel;
-  RenderStatistics sum = expect_same(scene, camera, options);
+  RenderStatistics sum = expect_same_outcome(scene, camera, options);
   options.channels = depth_channels;
   options.depth_encoding.type = DepthEncoding::Type::binary64;
-  add(sum, expect_same(scene, camera, options));
+  add(sum, expect_same_outcome(scene, camera, options));
   options.depth_encoding = {DepthEncoding::Type::scaled_unorm16, scale};
-  add(sum, expect_same(scene, camera, options));
+  add(sum, expect_same_outcome(scene, camera, options));
   return sum;
 }
 
@@ -93,9 +93,9 @@ TEST_P(RandomChannels, AreTheSameInEveryChannel) {
   std::mt19937_64 random(seed);
   const double scale = kind == Kind::huge ? 0x1p-490 : kind == Kind::tiny ? 0x1p506 : 1000;
   RenderStatistics sum;
-  for (int i = 0; i < 700 / testing::effort && !HasFailure(); ++i) {
+  for (int i = 0; i < 700 / checks::effort && !HasFailure(); ++i) {
     SCOPED_TRACE("scene " + std::to_string(i) + " of this seed");
-    testing::Case c = maker.make();
+    checks::Case c = maker.make();
     if (i % 2 == 0) {
       c.scene.objects.push_back(c.scene.objects[0]);
       c.scene.objects[1].placed_as_is = false;
@@ -103,7 +103,7 @@ TEST_P(RandomChannels, AreTheSameInEveryChannel) {
     }
     add(sum, expect_same_in_every_encoding(c.scene, c.camera, scale));
   }
-  if (testing::effort > 1) return;
+  if (checks::effort > 1) return;
   // Every tier was reached, where the magnitudes allow more than the last.
   EXPECT_GT(sum.rounding.exact, 50U);
   if (kind == Kind::few_bits || kind == Kind::neighbours) {
@@ -123,7 +123,7 @@ TEST(FastChannels, MagnitudesAroundTheSafeOnes) {
   std::mt19937_64 random(881);
   const auto unit = [&] { return std::ldexp(static_cast<double>(random() >> 11), -52) - 1; };
   RenderStatistics sum;
-  for (int i = 0; i < 400 / testing::effort && !HasFailure(); ++i) {
+  for (int i = 0; i < 400 / checks::effort && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
     const double size = std::ldexp(1, static_cast<int>(random() % 221) - 110);
     std::vector<MeshPoint> vertices;
@@ -131,16 +131,16 @@ TEST(FastChannels, MagnitudesAroundTheSafeOnes) {
       vertices.push_back({unit() * size, unit() * size, (unit() + 2) * size});
       if (i % 5 == 0) vertices.back().x *= 0x1p-95;
     }
-    Camera camera = testing::camera_of(6, 5, 4);
+    Camera camera = checks::camera_of(6, 5, 4);
     camera.projection.cx += 0.3;
     if (i % 3 == 0) camera.projection.model = ProjectionModel::orthographic;
     if (i % 3 == 0) camera.projection.fx = camera.projection.fy = 4 / size;
     if (i % 4 == 0) camera.world_to_camera[0][3] = size * unit();
     add(sum, expect_same_in_every_encoding(
-                 testing::scene_of(vertices, {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}}),
-                 camera, 1000 / size));
+                 checks::scene_of(vertices, {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}}), camera,
+                 1000 / size));
   }
-  if (testing::effort > 1) return;
+  if (checks::effort > 1) return;
   EXPECT_GT(sum.rounding.exact, 1000U);
   EXPECT_GT(sum.rounding.interval - sum.double_word_roundings, 10000U);
   EXPECT_GT(sum.double_word_roundings, 1000U);
@@ -149,7 +149,7 @@ TEST(FastChannels, MagnitudesAroundTheSafeOnes) {
 /// A sphere of `rings` × 2·rings quads.
 /// Two placed spheres, and between them an object of no face.
 Scene two_spheres() {
-  Scene scene = testing::two_spheres(testing::effort > 1 ? 8 : 24);
+  Scene scene = checks::two_spheres(checks::effort > 1 ? 8 : 24);
   scene.meshes.emplace_back();
   Object none{.mesh = 1, .name = "none", .first_face = 7};
   scene.objects.insert(scene.objects.begin() + 1, std::move(none));
@@ -166,7 +166,7 @@ Camera skewed(Camera camera) {
 
 /// The reference engine's time is that of pixels.
 LensChoice image_size(std::uint32_t width, std::uint32_t height) {
-  constexpr std::uint32_t divisor = testing::effort > 1 ? 3 : 1;
+  constexpr std::uint32_t divisor = checks::effort > 1 ? 3 : 1;
   return {.width = width / divisor, .height = height / divisor};
 }
 
@@ -181,7 +181,7 @@ TEST(FastChannels, PlacedSpheresFromOutsideAndInsideByPlainAndSkewedCameras) {
     flat.projection.skew = 2;
     for (const Camera& camera : {plain, skewed(plain), flat}) {
       const RenderStatistics sum = expect_same_in_every_encoding(scene, camera, 3000, 2);
-      EXPECT_GT(sum.pixels_with_surface, 1000U / testing::effort);
+      EXPECT_GT(sum.pixels_with_surface, 1000U / checks::effort);
       // Nothing is aligned here: next to no value needs exact numbers.
       EXPECT_LT(sum.rounding.exact, 10U);
       EXPECT_GT(sum.rounding.interval - sum.double_word_roundings, 2 * sum.pixels_with_surface);
@@ -230,7 +230,7 @@ RenderStatistics counts(const Scene& scene, const Camera& camera, double scale) 
 
 /// Rectangle of two triangles.
 Scene rectangle(const MeshPoint& a, const MeshPoint& b, const MeshPoint& c, const MeshPoint& d) {
-  return testing::scene_of({a, b, c, d}, {{0, 1, 2}, {0, 2, 3}});
+  return checks::scene_of({a, b, c, d}, {{0, 1, 2}, {0, 2, 3}});
 }
 
 /// A plane parallel to the image: Zlow is 0, P.Z and two components of N are the same everywhere,
@@ -239,7 +239,7 @@ TEST(FastChannels, APlaneParallelToTheImageNeedsNoExactNumbers) {
   for (const double z : {2.0625, 2.0, 0.1, 3.7}) {
     const Scene scene =
         rectangle({-1.17, -1.3, z}, {1.21, -1.1, z}, {1.33, 1.27, z}, {-1.41, 1.19, z});
-    Camera camera = testing::camera_of(32, 30, 21.3);
+    Camera camera = checks::camera_of(32, 30, 21.3);
     EXPECT_EQ(counts(scene, camera, 1000).rounding.exact, 0U) << z;
     camera.world_to_camera[2][3] = 1.5;
     EXPECT_EQ(counts(scene, camera, 1000).rounding.exact, 0U) << z;
@@ -251,7 +251,7 @@ TEST(FastChannels, APlaneParallelToTheImageNeedsNoExactNumbers) {
 /// The floor y = 0 and a wall x = 0: coordinates of P that are 0 throughout, normals along axes.
 TEST(FastChannels, FloorsAndWallsAtZeroNeedNoExactNumbers) {
   const Scene floor = rectangle({-1.17, 0, 1.3}, {1.21, 0, 1.2}, {1.33, 0, 9.1}, {-1.41, 0, 8.7});
-  Camera camera = testing::camera_of(32, 30, 17);
+  Camera camera = checks::camera_of(32, 30, 17);
   camera.world_to_camera[1][3] = 0.83;
   EXPECT_EQ(counts(floor, camera, 1000).rounding.exact, 0U);
   Scene placed = floor;
@@ -278,10 +278,10 @@ TEST(FastChannels, AGridOnTheSamplesNeedsNoExactNumbers) {
       }
     }
   }
-  Camera camera = testing::camera_of(44, 44, 1);
+  Camera camera = checks::camera_of(44, 44, 1);
   camera.projection.model = ProjectionModel::orthographic;
   camera.projection.cx = camera.projection.cy = 20.5;
-  const Scene scene = testing::scene_of(vertices, triangles);
+  const Scene scene = checks::scene_of(vertices, triangles);
   const RenderStatistics sum = counts(scene, camera, 1000);
   EXPECT_EQ(sum.rounding.exact, 0U);
   EXPECT_GE(sum.double_word_roundings, sum.pixels_with_surface);
@@ -302,10 +302,10 @@ TEST(FastChannels, DepthsThatAreBinary64NumbersNeedNoExactNumbers) {
       triangles.push_back({at + 1, at + 42, at + 41});
     }
   }
-  Camera camera = testing::camera_of(44, 44, 1);
+  Camera camera = checks::camera_of(44, 44, 1);
   camera.projection.model = ProjectionModel::orthographic;
   camera.projection.cx = camera.projection.cy = 20.5;
-  EXPECT_EQ(counts(testing::scene_of(vertices, triangles), camera, 1000).rounding.exact, 0U);
+  EXPECT_EQ(counts(checks::scene_of(vertices, triangles), camera, 1000).rounding.exact, 0U);
 }
 
 /// Slanted faces whose normals have a component that is 0 because two products cancel.
@@ -321,7 +321,7 @@ TEST(FastChannels, NormalsOfPrismsNeedNoExactNumbers) {
                                   {x1, 2 + number(9) / 8, z1}, {x0, 2 + number(9) / 8, z0});
     RenderOptions options;
     options.channels = {Channel::N};
-    add(sum, expect_same(scene, testing::camera_of(12, 9, 7.1), options));
+    add(sum, expect_same_outcome(scene, checks::camera_of(12, 9, 7.1), options));
   }
   EXPECT_GT(sum.pixels_with_surface, 1000U);
   EXPECT_EQ(sum.rounding.exact, 0U);
@@ -334,7 +334,7 @@ TEST(FastChannels, WhatOnlyExactNumbersSettle) {
   // x = 0 at the middle column of an odd image, although no coordinate has few bits.
   const Scene wall =
       rectangle({-1.1, -1.3, 2.3}, {1.1, -1.3, 2.3}, {1.1, 1.3, 2.9}, {-1.1, 1.3, 2.9});
-  Camera camera = testing::camera_of(31, 29, 21.3);
+  Camera camera = checks::camera_of(31, 29, 21.3);
   sum = counts(wall, camera, 1000);
   EXPECT_GT(sum.rounding.exact, 0U);
   EXPECT_LT(sum.rounding.exact, 200U);

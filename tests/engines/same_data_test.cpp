@@ -14,8 +14,8 @@
 namespace fathom {
 namespace {
 
-using testing::expect_same;
-using testing::quick_channels;
+using checks::expect_same;
+using checks::quick_channels;
 
 const std::filesystem::path data = test::source_dir() / "data";
 
@@ -27,7 +27,7 @@ Scene scene_from(const std::filesystem::path& file) {
 }
 
 /// Under sanitizers images are smaller: the reference engine's time is that of pixels.
-constexpr std::uint32_t divisor = testing::effort > 1 ? 3 : 1;
+constexpr std::uint32_t divisor = checks::effort > 1 ? 3 : 1;
 
 /// Framed by a perspective and by an orthographic camera, with limits of depth, and from within.
 std::vector<Camera> cameras_for(const Scene& scene) {
@@ -53,7 +53,7 @@ TEST(FastData, MeshesAndScenesFromSeveralCameras) {
       const Scene scene = scene_from(entry.path());
       ++files;
       std::vector<Camera> cameras = cameras_for(scene);
-      if (testing::effort > 1) cameras = {cameras[static_cast<std::size_t>(files) % 4]};
+      if (checks::effort > 1) cameras = {cameras[static_cast<std::size_t>(files) % 4]};
       for (const Camera& camera : cameras) {
         RenderOptions options;
         options.channels = quick_channels;
@@ -63,7 +63,7 @@ TEST(FastData, MeshesAndScenesFromSeveralCameras) {
     }
   }
   EXPECT_GE(files, 6);
-  if (testing::effort > 1) return;
+  if (checks::effort > 1) return;
   EXPECT_GT(pixels, 50000U);
 }
 
@@ -78,7 +78,7 @@ TEST(FastData, HardScenesInEveryChannel) {
     ++scenes;
     for (const Camera& camera : read_cameras(folder / (name + ".camera.json"))) {
       RenderOptions options;
-      options.channels = testing::every_channel;
+      options.channels = checks::every_channel;
       expect_same(scene_from(entry.path()), camera, options);
     }
   }

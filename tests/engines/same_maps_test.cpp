@@ -16,13 +16,13 @@
 namespace fathom {
 namespace {
 
-using testing::CaseMaker;
-using testing::every_channel;
-using testing::expect_same;
-using testing::Kind;
-using testing::quick_channels;
-using testing::soup;
-using testing::two_spheres;
+using checks::CaseMaker;
+using checks::every_channel;
+using checks::expect_same;
+using checks::Kind;
+using checks::quick_channels;
+using checks::soup;
+using checks::two_spheres;
 
 class RandomScenes : public ::testing::TestWithParam<std::tuple<Kind, int>> {};
 
@@ -30,37 +30,37 @@ TEST_P(RandomScenes, AreTheSame) {
   const auto [kind, part] = GetParam();
   CaseMaker maker(static_cast<std::uint64_t>(777000 + 10 * static_cast<int>(kind) + part), kind);
   RenderStatistics sum;
-  for (int i = 0; i < 2500 / testing::effort && !HasFailure(); ++i) {
+  for (int i = 0; i < 2500 / checks::effort && !HasFailure(); ++i) {
     SCOPED_TRACE("scene " + std::to_string(i) + " of this seed");
-    const testing::Case c = maker.make();
+    const checks::Case c = maker.make();
     RenderOptions options;
     options.threads = 1;
     options.channels = i % 10 == 0 ? every_channel : quick_channels;
     options.cull = i % 7 == 0 ? Cull::back : i % 7 == 1 ? Cull::front : Cull::none;
     add(sum, expect_same(c.scene, c.camera, options));
   }
-  if (testing::effort > 1) return;
+  if (checks::effort > 1) return;
   // Every tier was reached.
-  EXPECT_GT(sum.exact_setups, 100U / testing::effort);
-  EXPECT_GT(sum.edges.exact, 100U / testing::effort);
+  EXPECT_GT(sum.exact_setups, 100U / checks::effort);
+  EXPECT_GT(sum.edges.exact, 100U / checks::effort);
   if (kind == Kind::neighbours) {
-    EXPECT_GT(sum.double_words, 100U / testing::effort);
+    EXPECT_GT(sum.double_words, 100U / checks::effort);
   }
   if (kind == Kind::few_bits) {
-    EXPECT_GT(sum.grid_setups, 100U / testing::effort);
+    EXPECT_GT(sum.grid_setups, 100U / checks::effort);
   }
-  EXPECT_GT(sum.visibility.exact, 100U / testing::effort);
-  EXPECT_GT(sum.facing.exact, 100U / testing::effort);
-  EXPECT_GT(sum.same_plane, 100U / testing::effort);
-  EXPECT_GT(sum.range.exact, 10U / testing::effort);
-  EXPECT_GT(sum.coverage_rounding.interval, 1000U / testing::effort);
-  EXPECT_GT(sum.coverage_rounding.exact, 100U / testing::effort);
+  EXPECT_GT(sum.visibility.exact, 100U / checks::effort);
+  EXPECT_GT(sum.facing.exact, 100U / checks::effort);
+  EXPECT_GT(sum.same_plane, 100U / checks::effort);
+  EXPECT_GT(sum.range.exact, 10U / checks::effort);
+  EXPECT_GT(sum.coverage_rounding.interval, 1000U / checks::effort);
+  EXPECT_GT(sum.coverage_rounding.exact, 100U / checks::effort);
   if (kind == Kind::few_bits || kind == Kind::neighbours) {
-    EXPECT_GT(sum.facing.interval, 100U / testing::effort);
-    EXPECT_GT(sum.rounding.interval, 100U / testing::effort);
-    EXPECT_GT(sum.double_word_roundings, 100U / testing::effort);
+    EXPECT_GT(sum.facing.interval, 100U / checks::effort);
+    EXPECT_GT(sum.rounding.interval, 100U / checks::effort);
+    EXPECT_GT(sum.double_word_roundings, 100U / checks::effort);
   } else {
-    EXPECT_GT(sum.rounding.exact, 100U / testing::effort);
+    EXPECT_GT(sum.rounding.exact, 100U / checks::effort);
   }
 }
 
@@ -75,23 +75,23 @@ TEST(Fast, TrianglesAcrossTilesOfAnyNumberOfThreads) {
   for (int i = 0; i < 24 && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
     const Scene scene = soup(random, 60, i % 2 == 0);
-    const Camera camera = testing::camera_of(160, 140, 64);
+    const Camera camera = checks::camera_of(160, 140, 64);
     RenderOptions options;
     options.channels = quick_channels;
     options.threads = i % 3 == 0 ? 1 : i % 3 == 1 ? 2 : 5;
     add(sum, expect_same(scene, camera, options));
   }
-  EXPECT_GT(sum.grid_setups, 500U / testing::effort);
+  EXPECT_GT(sum.grid_setups, 500U / checks::effort);
   EXPECT_GT(sum.visibility.exact, 5U);
-  EXPECT_GT(sum.rounding.interval, 100000U / testing::effort);
+  EXPECT_GT(sum.rounding.interval, 100000U / checks::effort);
 }
 
 TEST(Fast, LongThinTriangles) {
   std::mt19937_64 random(4714);
-  for (int i = 0; i < 24 / testing::effort && !HasFailure(); ++i) {
+  for (int i = 0; i < 24 / checks::effort && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
-    const Scene scene = testing::slivers(random, 120);
-    Camera camera = testing::camera_of(160, 140, 64);
+    const Scene scene = checks::slivers(random, 120);
+    Camera camera = checks::camera_of(160, 140, 64);
     if (i % 3 == 1) camera.world_to_camera[2][3] = -2.5;  // among them
     if (i % 4 == 1) camera.far = 2.5;
     RenderOptions options;
@@ -108,7 +108,7 @@ TEST(Fast, WiderBoundsGiveTheSameMapAndMoreDoubt) {
   for (int i = 0; i < 6 && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
     const Scene scene = soup(random, 60, i % 2 == 0);
-    const Camera camera = testing::camera_of(160, 140, 64);
+    const Camera camera = checks::camera_of(160, 140, 64);
     std::set<std::uint64_t> before;
     for (const double widening : {1.0, 0x1p10, 0x1p24}) {
       SCOPED_TRACE(widening);
@@ -133,7 +133,7 @@ TEST(Fast, TheCameraInsideASoup) {
   for (int i = 0; i < 12 && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
     const Scene scene = soup(random, 150, i % 2 == 0);
-    Camera camera = testing::camera_of(90, 70, 40);
+    Camera camera = checks::camera_of(90, 70, 40);
     camera.projection.cx += 0.125;
     camera.world_to_camera[2][3] = -3.5 - 0.25 * i;
     camera.world_to_camera[0][2] = 0.25;
@@ -145,7 +145,7 @@ TEST(Fast, TheCameraInsideASoup) {
     add(sum, expect_same(scene, camera, options));
   }
   EXPECT_GT(sum.exact_setups, 20U);
-  EXPECT_GT(sum.rounding.interval, 10000U / testing::effort);
+  EXPECT_GT(sum.rounding.interval, 10000U / checks::effort);
 }
 
 TEST(Fast, OrthographicWithDepthsOnTheLimits) {
@@ -154,7 +154,7 @@ TEST(Fast, OrthographicWithDepthsOnTheLimits) {
   for (int i = 0; i < 12 && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
     const Scene scene = soup(random, 50, i % 2 == 0);
-    Camera camera = testing::camera_of(100, 70, 8);
+    Camera camera = checks::camera_of(100, 70, 8);
     camera.projection.model = ProjectionModel::orthographic;
     camera.projection.cx = 50.5;
     camera.world_to_camera[2][3] = i % 2 == 0 ? -3 : 0;  // faces at depth 0 count nothing
@@ -165,7 +165,7 @@ TEST(Fast, OrthographicWithDepthsOnTheLimits) {
     options.channels = quick_channels;
     add(sum, expect_same(scene, camera, options));
   }
-  EXPECT_GT(sum.range.exact, 100U / testing::effort);
+  EXPECT_GT(sum.range.exact, 100U / checks::effort);
 }
 
 /// Copies of one triangle and others in its plane, in an order of numbers that is not theirs.
@@ -193,17 +193,17 @@ TEST(Fast, CoplanarStacks) {
     }
     RenderOptions options;
     options.channels = quick_channels;
-    add(sum, expect_same(testing::scene_of(vertices, triangles), testing::camera_of(64, 48, 41),
-                         options));
+    add(sum,
+        expect_same(checks::scene_of(vertices, triangles), checks::camera_of(64, 48, 41), options));
   }
-  EXPECT_GT(sum.same_plane, 1000U / testing::effort);
+  EXPECT_GT(sum.same_plane, 1000U / checks::effort);
 }
 
 /// Needles: two corners next to each other, one ulp apart, and a third far away.
 TEST(Fast, SliversOneUlpWide) {
   std::mt19937_64 random(4715);
   RenderStatistics sum;
-  for (int i = 0; i < 200 / testing::effort && !HasFailure(); ++i) {
+  for (int i = 0; i < 200 / checks::effort && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
     std::vector<MeshPoint> vertices;
     std::vector<CornerIndices> triangles;
@@ -221,11 +221,11 @@ TEST(Fast, SliversOneUlpWide) {
     }
     RenderOptions options;
     options.channels = quick_channels;
-    add(sum, expect_same(testing::scene_of(vertices, triangles), testing::camera_of(16, 16, 16),
-                         options));
+    add(sum,
+        expect_same(checks::scene_of(vertices, triangles), checks::camera_of(16, 16, 16), options));
   }
-  EXPECT_GT(sum.exact_setups, 100U / testing::effort);
-  EXPECT_GT(sum.edges.exact, 100U / testing::effort);
+  EXPECT_GT(sum.exact_setups, 100U / checks::effort);
+  EXPECT_GT(sum.edges.exact, 100U / checks::effort);
 }
 
 /// A grid of squares whose corners are samples, with shared vertices: every edge is on samples.
@@ -242,13 +242,13 @@ TEST(Fast, AGridOnTheSamples) {
       }
     }
   }
-  Camera camera = testing::camera_of(84, 84, 1);
+  Camera camera = checks::camera_of(84, 84, 1);
   camera.projection.model = ProjectionModel::orthographic;
   camera.projection.cx = camera.projection.cy = 0;
   RenderOptions options;
   options.channels = quick_channels;
   const RenderStatistics statistics =
-      expect_same(testing::scene_of(vertices, triangles), camera, options);
+      expect_same(checks::scene_of(vertices, triangles), camera, options);
   EXPECT_EQ(statistics.pixels_with_surface, 80U * 80U);
 }
 
@@ -326,10 +326,10 @@ TEST(Fast, TheSamePixelsAreNoneWhereDepthsBeyondTheCodesAre) {
 TEST(Fast, AnEmptySceneAndAnImageOfOnePixel) {
   RenderOptions options;
   options.channels = every_channel;
-  expect_same({}, testing::camera_of(3, 2, 1), options);
-  expect_same(testing::scene_of({}, {}), testing::camera_of(3, 2, 1), options);
-  const Scene one = testing::scene_of({{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}}, {{0, 1, 2}});
-  EXPECT_EQ(expect_same(one, testing::camera_of(1, 1, 1), options).pixels_with_surface, 1U);
+  expect_same({}, checks::camera_of(3, 2, 1), options);
+  expect_same(checks::scene_of({}, {}), checks::camera_of(3, 2, 1), options);
+  const Scene one = checks::scene_of({{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}}, {{0, 1, 2}});
+  EXPECT_EQ(expect_same(one, checks::camera_of(1, 1, 1), options).pixels_with_surface, 1U);
 }
 
 }  // namespace

@@ -20,14 +20,14 @@
 namespace fathom {
 namespace {
 
-using testing::expect_same_map;
+using checks::expect_same_map;
 
 const std::vector<Channel> channels{Channel::id,    Channel::material, Channel::group,
                                     Channel::label, Channel::part,     Channel::Z};
 
 /// Two spheres of one mesh, three segmentations of its triangles, and one of the first object.
 Scene named_spheres() {
-  Scene scene = testing::two_spheres(testing::effort > 1 ? 8 : 24);
+  Scene scene = checks::two_spheres(checks::effort > 1 ? 8 : 24);
   Mesh& mesh = scene.meshes[0];
   std::mt19937_64 random(771);
   const auto numbers = [&](std::uint32_t below) {
@@ -120,7 +120,7 @@ TEST(SegmentChannels, AreWhatTheSceneSaysInEveryEngine) {
 }
 
 TEST(SegmentChannels, OfASceneWithoutSegmentsSayThatThereAreNone) {
-  const Scene scene = testing::two_spheres(6);
+  const Scene scene = checks::two_spheres(6);
   for (const Engine engine : {Engine::fast, Engine::reference}) {
     const DepthMap map =
         render(scene, camera_of_spheres(), {.engine = engine, .channels = channels}).map;
@@ -144,7 +144,7 @@ TEST(SegmentChannels, HaveTablesOnlyWhereTheyAreInTheMap) {
 
 /// The labels of a file that is streamed are those of the file in memory.
 TEST(SegmentChannels, OfAStreamAreThoseOfTheSceneInMemory) {
-  const Scene spheres = testing::two_spheres(10);
+  const Scene spheres = checks::two_spheres(10);
   const Mesh& mesh = spheres.meshes[0];
   std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
                       std::to_string(mesh.vertices.size()) +

@@ -18,13 +18,13 @@
 namespace fathom {
 namespace {
 
-using testing::box_scene;
-using testing::Case;
-using testing::CaseMaker;
-using testing::DirectionMaker;
-using testing::Kind;
-using testing::scene_of;
-using testing::with_table;
+using checks::box_scene;
+using checks::Case;
+using checks::CaseMaker;
+using checks::DirectionMaker;
+using checks::Kind;
+using checks::scene_of;
+using checks::with_table;
 
 RenderOptions options_with(std::vector<Channel> channels) {
   RenderOptions options;
@@ -34,14 +34,14 @@ RenderOptions options_with(std::vector<Channel> channels) {
 }
 
 RenderOptions all_with_valid() {
-  std::vector<Channel> channels = testing::all_channels();
+  std::vector<Channel> channels = checks::all_channels();
   channels.push_back(Channel::valid);
   return options_with(std::move(channels));
 }
 
 oracle::RayCaster cast_along(const Scene& scene, const Camera& camera) {
   const std::shared_ptr<const DirectionTable> table = camera.projection.lens->directions;
-  return testing::cast_along(scene, camera, [table](std::uint32_t column, std::uint32_t row) {
+  return checks::cast_along(scene, camera, [table](std::uint32_t column, std::uint32_t row) {
     return table->at(column, row);
   });
 }
@@ -53,13 +53,13 @@ TEST_P(TableMaps, EveryChannelOfEveryPixelAgreesWithRationalRays) {
   DirectionMaker directions(static_cast<std::uint64_t>(GetParam()) + 7);
   int hits = 0, without_ray = 0;
   RenderStatistics all;
-  for (int i = 0; i < 300 / testing::effort && !HasFailure(); ++i) {
+  for (int i = 0; i < 300 / checks::effort && !HasFailure(); ++i) {
     SCOPED_TRACE("scene " + std::to_string(i) + " of this seed");
     Case c = cases.make();
     std::vector<double> numbers = directions.numbers(30);
     if (i % 2 == 0) {
       c.camera.world_to_camera = Camera().world_to_camera;
-      testing::aim_at_corners(c.scene, numbers);
+      checks::aim_at_corners(c.scene, numbers);
     }
     const Camera camera = with_table(c.camera, std::move(numbers));
     const auto [map, statistics, doubtful] = render(c.scene, camera, all_with_valid());
@@ -72,12 +72,12 @@ TEST_P(TableMaps, EveryChannelOfEveryPixelAgreesWithRationalRays) {
         without_ray += !has_ray;
         ASSERT_EQ(rays.sees(x, y), has_ray) << x << ' ' << y;
         const auto hit = has_ray ? rays.cast(x, y) : std::nullopt;
-        testing::expect_pixel(map, x, y, hit, c.scene);
+        checks::expect_pixel(map, x, y, hit, c.scene);
         hits += hit.has_value();
       }
     }
   }
-  EXPECT_GT(hits, 300 / testing::effort);
+  EXPECT_GT(hits, 300 / checks::effort);
   EXPECT_GT(without_ray, 0);
   EXPECT_GT(all.edges.exact, 0U);
 }
@@ -144,7 +144,7 @@ Camera table_of_division(const Camera& camera, double k) {
 TEST(TablesEqual, ThePinholeThatTheyAreFrom) {
   CaseMaker cases(21, Kind::few_bits);
   std::uint64_t seen = 0;
-  for (int i = 0; i < 400 / testing::effort; ++i) {
+  for (int i = 0; i < 400 / checks::effort; ++i) {
     SCOPED_TRACE(i);
     const Case c = case_without_range(cases);
     const auto pinhole = render(c.scene, c.camera, all_with_valid());
@@ -152,13 +152,13 @@ TEST(TablesEqual, ThePinholeThatTheyAreFrom) {
                      render(c.scene, table_of_division(c.camera, 0), all_with_valid()).map);
     seen += pinhole.statistics.pixels_with_surface;
   }
-  EXPECT_GT(seen, 400U / testing::effort);
+  EXPECT_GT(seen, 400U / checks::effort);
 }
 
 TEST(TablesEqual, TheRationalLensesThatTheyAreFrom) {
   CaseMaker cases(22, Kind::few_bits);
   std::uint64_t seen = 0;
-  for (int i = 0; i < 400 / testing::effort; ++i) {
+  for (int i = 0; i < 400 / checks::effort; ++i) {
     SCOPED_TRACE(i);
     Case c = case_without_range(cases);
     const double k = i % 3 == 0 ? -0.25 : i % 3 == 1 ? 0.125 : -2;
@@ -172,13 +172,13 @@ TEST(TablesEqual, TheRationalLensesThatTheyAreFrom) {
                      render(c.scene, table_of_division(c.camera, k), all_with_valid()).map);
     seen += of_lens.statistics.pixels_with_surface;
   }
-  EXPECT_GT(seen, 100U / testing::effort);
+  EXPECT_GT(seen, 100U / checks::effort);
 }
 
 TEST(Tables, ACropOfATableIsACropOfTheMap) {
   CaseMaker cases(23, Kind::few_bits);
   DirectionMaker directions(24);
-  for (int i = 0; i < 100 / testing::effort; ++i) {
+  for (int i = 0; i < 100 / checks::effort; ++i) {
     const Case c = cases.make();
     const std::vector<double> numbers = directions.numbers(30);
     std::vector<double> part;

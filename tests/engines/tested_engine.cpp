@@ -5,7 +5,7 @@
 #include <iostream>
 #include <string_view>
 
-namespace fathom::testing {
+namespace fathom::checks {
 namespace {
 
 Engine engine = Engine::reference;
@@ -28,12 +28,12 @@ Engine tested_engine() {
   return engine;
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks
 
 int main(int count, char** arguments) {
   testing::InitGoogleTest(&count, arguments);  // takes its own arguments out of the list
   for (int i = 1; i < count; ++i) {
-    if (fathom::testing::take(arguments[i])) continue;
+    if (fathom::checks::take(arguments[i])) continue;
     std::cerr << "unknown argument: " << arguments[i] << '\n';
     return 2;
   }

@@ -2,7 +2,7 @@
 
 #include "fathom/render.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// The engine that is held to the laws: the program is run once for each, with
 /// --engine=reference (the default) or --engine=fast.
@@ -19,4 +19,4 @@ inline DepthMap render_tested(const Scene& scene, const Camera& camera,
   return render_and_count(scene, camera, options).map;
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

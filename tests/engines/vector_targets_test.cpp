@@ -14,10 +14,10 @@
 namespace fathom {
 namespace {
 
-using testing::expect_same;
-using testing::OnlyTarget;
-using testing::quick_channels;
-using testing::vector_targets;
+using checks::expect_same;
+using checks::OnlyTarget;
+using checks::quick_channels;
+using checks::vector_targets;
 
 /// Scenes of several tiles with the reference engine's maps of them.
 class Soups {
@@ -28,10 +28,10 @@ class Soups {
     RenderOptions options;
     options.channels = channels_;
     for (int i = 0; i < count; ++i) {
-      Camera camera = testing::camera_of(160, 140, 64);
+      Camera camera = checks::camera_of(160, 140, 64);
       if (i % 4 == 3) camera.world_to_camera[2][3] = -3.25;  // the camera among the triangles
       if (i % 4 == 2) camera.near = 4;
-      Scene scene = testing::soup(random, 60, i % 2 == 0);
+      Scene scene = checks::soup(random, 60, i % 2 == 0);
       DepthMap truth = render_reference(scene, camera, options).map;
       cases_.push_back({std::move(scene), camera, std::move(truth)});
     }
@@ -42,8 +42,8 @@ class Soups {
     options.channels = channels_;
     for (std::size_t i = 0; i < cases_.size() && !::testing::Test::HasFailure(); ++i) {
       SCOPED_TRACE("soup " + std::to_string(i));
-      testing::expect_same_map(render_fast(cases_[i].scene, cases_[i].camera, options).map,
-                               cases_[i].truth);
+      checks::expect_same_map(render_fast(cases_[i].scene, cases_[i].camera, options).map,
+                              cases_[i].truth);
     }
   }
 
@@ -58,7 +58,7 @@ class Soups {
 };
 
 TEST(FastTargets, EveryKindOfVectorInstructions) {
-  const Soups soups(99, testing::effort > 1 ? 4 : 12, quick_channels);
+  const Soups soups(99, checks::effort > 1 ? 4 : 12, quick_channels);
   const Soups rows(98, 4, {Channel::Z});  // Z alone is written by whole rows
   std::set<std::string> names;
   for (const std::int64_t target : vector_targets()) {
@@ -70,10 +70,10 @@ TEST(FastTargets, EveryKindOfVectorInstructions) {
     options.threads = 2;
     soups.expect_same(options);
     rows.expect_same(options);
-    for (const auto kind : {testing::Kind::few_bits, testing::Kind::neighbours}) {
-      testing::CaseMaker maker(31, kind);
-      for (int i = 0; i < 400 / testing::effort && !HasFailure(); ++i) {
-        const testing::Case c = maker.make();
+    for (const auto kind : {checks::Kind::few_bits, checks::Kind::neighbours}) {
+      checks::CaseMaker maker(31, kind);
+      for (int i = 0; i < 400 / checks::effort && !HasFailure(); ++i) {
+        const checks::Case c = maker.make();
         expect_same(c.scene, c.camera, options);
       }
     }
@@ -93,14 +93,14 @@ TEST(FastTargets, EveryKindOfVectorInstructionsUnderLenses) {
   options.channels = {Channel::Z, Channel::id, Channel::distance, Channel::valid};
   for (const Lens& lens : lenses) {
     SCOPED_TRACE(name_of(lens.model));
-    Camera camera = testing::camera_of(160, 140, 64);
+    Camera camera = checks::camera_of(160, 140, 64);
     camera.projection.lens = lens;
-    const Scene scene = testing::soup(random, 60, false);
+    const Scene scene = checks::soup(random, 60, false);
     const DepthMap truth = render_reference(scene, camera, options).map;
     for (const std::int64_t target : vector_targets()) {
       const OnlyTarget only(target);
       SCOPED_TRACE(vector_instructions());
-      testing::expect_same_map(render_fast(scene, camera, options).map, truth);
+      checks::expect_same_map(render_fast(scene, camera, options).map, truth);
     }
   }
 }

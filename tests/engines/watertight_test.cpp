@@ -12,10 +12,10 @@
 namespace fathom {
 namespace {
 
-using testing::camera_of;
-using testing::scene_of;
+using checks::camera_of;
+using checks::scene_of;
 
-constexpr int side = testing::effort == 1 ? 400 : 60;
+constexpr int side = checks::effort == 1 ? 400 : 60;
 
 // Vertex (i, j) at (u·z, v·z, z), u and v multiples of ½, z of few bits: seen from the origin it
 // projects to (u, v) exactly. With fx = 4, neighbours are 2 pixels apart and every vertex and every
@@ -46,7 +46,7 @@ TEST(Watertight, ABumpySheetWithASampleOnEveryVertexAndEdge) {
   Camera camera = camera_of(2 * side + 1, 2 * side + 1, 4);
   camera.projection.cx = camera.projection.cy =
       side + 1.5;  // vertex (i, j) at pixel (2i + 1, 2j + 1)
-  const auto [map, statistics, doubtful] = testing::render_and_count(sheet, camera);
+  const auto [map, statistics, doubtful] = checks::render_and_count(sheet, camera);
   const Samples<float>& Z = *map.values<float>("Z");
   // The sheet spans the samples 1 … 2·side − 1; those on its right and bottom edges are another's.
   const auto inside = [](int x) { return x >= 1 && x < 2 * side - 1; };
@@ -73,7 +73,7 @@ TEST(Watertight, AClosedFanCoversEachSampleOnce) {
   std::mt19937 random(8);
   const double direction[][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
                                  {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
-  for (int trial = 0; trial < 300 / testing::effort; ++trial) {
+  for (int trial = 0; trial < 300 / checks::effort; ++trial) {
     std::vector<MeshPoint> vertices = {{0, 0, 4}};  // the hub, seen at the centre of pixel (8, 8)
     int skipped = 0;  // at most two directions in a row, so that no triangle spans 180 degrees
     for (const auto& d : direction) {
@@ -104,7 +104,7 @@ TEST(Watertight, AClosedFanCoversEachSampleOnce) {
         }
       }
     }
-    const RenderStatistics statistics = testing::render_and_count(fan, camera).statistics;
+    const RenderStatistics statistics = checks::render_and_count(fan, camera).statistics;
     ASSERT_EQ(statistics.samples_covered, statistics.pixels_with_surface);
     ASSERT_GT(statistics.samples_covered, 0U);
   }

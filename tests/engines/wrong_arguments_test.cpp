@@ -31,13 +31,13 @@
 #include "fathom/scene/framing.h"
 #include "fathom/scene/read_scene.h"
 #include "tests/scratch_folder.h"
+#include "tests/special_values.h"
 
 namespace fathom {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 const double nan = std::nan("");
 
 Scene triangle() {

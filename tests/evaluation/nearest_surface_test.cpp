@@ -35,7 +35,7 @@ TEST(DistanceBounds, HoldAndAreTight) {
                        : 1e-6 * any(random);
   };
   int all = 0, wide = 0;
-  for (int i = 0; i < 20000 / testing::effort; ++i) {
+  for (int i = 0; i < 20000 / checks::effort; ++i) {
     const int kind = static_cast<int>(random() % 3);
     PlacedTriangles::Corners corners;
     for (Vector& corner : corners)
@@ -74,7 +74,7 @@ void expect_as_by_cgal(const Scene& from, const Scene& to, std::uint32_t points)
 
 TEST(NearestSurface, IsThatOfCgal) {
   std::mt19937 random(4);
-  for (int round = 0; round < 100 / testing::effort; ++round) {
+  for (int round = 0; round < 100 / checks::effort; ++round) {
     const int size = 2 + static_cast<int>(random() % 20);
     const Scene from = test::whole_soup(random, size, 1 + static_cast<int>(random() % 20));
     const Scene to = test::whole_soup(random, size, 1 + static_cast<int>(random() % 40));
@@ -134,7 +134,7 @@ TEST(SurfacePoints, StandInProportionToArea) {
 
 // Any quarter of a triangle gets a quarter of its points: the four that halve its edges.
 TEST(SurfacePoints, StandEverywhereInATriangle) {
-  const Scene scene = testing::scene_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const Scene scene = checks::scene_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
   const TriangleSource source(scene);
   constexpr std::uint32_t count = 4000;
   std::array<int, 4> quarters{};

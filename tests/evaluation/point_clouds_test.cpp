@@ -21,13 +21,12 @@ namespace fathom::evaluation {
 namespace {
 
 Scene cloud_of(std::vector<MeshPoint> points) {
-  return testing::scene_of(std::move(points), {});
+  return checks::scene_of(std::move(points), {});
 }
 
 /// A square of side 2 across the z axis.
 Scene plate(double z) {
-  return testing::scene_of({{-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}},
-                           {{0, 1, 2}, {0, 2, 3}});
+  return checks::scene_of({{-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}}, {{0, 1, 2}, {0, 2, 3}});
 }
 
 /// Whole coordinates, among them ones that coincide, moved and scaled.
@@ -268,7 +267,7 @@ TEST(PointClouds, HaveNoDepthsAndHideNothing) {
   truth.meshes.push_back(plate(4).meshes[0]);
   truth.objects.push_back({.mesh = 1, .name = "behind"});
   const Scene cloud = cloud_of({{0, 0, 2}, {0, 0, 3}, {0, 0, -5}});
-  const Camera camera = testing::camera_of(100, 100, 50);
+  const Camera camera = checks::camera_of(100, 100, 50);
   const Evaluation found = evaluate(cloud, truth, {camera}, kept());
   EXPECT_FALSE(found.depth);
   EXPECT_EQ(found.surfaces.accuracy.seen, 3U);
@@ -290,7 +289,7 @@ TEST(PointClouds, NeedPointsAndOptionsThatApply) {
   both.objects.push_back({.mesh = 1, .name = "cloud"});
   EXPECT_EQ(message(surface, both),
             "the truth: has meshes and point clouds, expected one or the other");
-  const Camera camera = testing::camera_of(100, 100, 50);
+  const Camera camera = checks::camera_of(100, 100, 50);
   EXPECT_EQ(message(cloud, cloud, {camera}), "camera: sees surfaces; both sides are point clouds");
   SurfaceComparisonOptions dense, dense_truth;
   dense.density = dense_truth.truth_density = 1;

@@ -12,7 +12,7 @@ namespace {
 
 /// A camera somewhere around a soup of that size, with whole numbers so that much coincides.
 Camera some_camera(std::mt19937& random, int size) {
-  Camera camera = testing::camera_of(16, 12, 4);
+  Camera camera = checks::camera_of(16, 12, 4);
   const auto from = [&](int least, int greatest) {
     return static_cast<double>(least + static_cast<int>(random() % (greatest - least + 1)));
   };
@@ -75,7 +75,7 @@ void expect_as_by_rationals(double factor, unsigned seed, int rounds) {
   std::mt19937 random(seed);
   constexpr std::array culls{Cull::none, Cull::back, Cull::front};
   int seen = 0, all = 0;
-  for (int round = 0; round < rounds / testing::effort; ++round) {
+  for (int round = 0; round < rounds / checks::effort; ++round) {
     const int size = 2 + static_cast<int>(random() % 6);
     const std::uint32_t triangles = 1 + random() % 20;
     const Scene scene =
@@ -122,21 +122,21 @@ TEST(PointSight, IsThatOfRationalNumbersInUnitsThatBinary64HardlyHas) {
 
 /// A wall at z = 2 before a wall at z = 4.
 Scene two_walls() {
-  return testing::scene_of({{-1, -1, 2},
-                            {1, -1, 2},
-                            {1, 1, 2},
-                            {-1, 1, 2},
-                            {-4, -4, 4},
-                            {4, -4, 4},
-                            {4, 4, 4},
-                            {-4, 4, 4}},
-                           {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}});
+  return checks::scene_of({{-1, -1, 2},
+                           {1, -1, 2},
+                           {1, 1, 2},
+                           {-1, 1, 2},
+                           {-4, -4, 4},
+                           {4, -4, 4},
+                           {4, 4, 4},
+                           {-4, 4, 4}},
+                          {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}});
 }
 
 TEST(PointSight, OfAPointBehindTheRimOfAWall) {
   const Scene scene = two_walls();
   const Checked checked(scene);
-  const Camera camera = testing::camera_of(100, 100, 25);
+  const Camera camera = checks::camera_of(100, 100, 25);
   // The wall in front hides x and y up to 2 of the one behind; its rim belongs to it.
   const auto at = [](double x, double y) {
     // Of triangle 2: (−4, −4), (4, −4), (4, 4).
@@ -152,7 +152,7 @@ TEST(PointSight, EndsAtTheRimOfTheImage) {
   const Scene scene = two_walls();
   const Checked checked(scene);
   // The image ends at x/z = 0.75.
-  Camera camera = testing::camera_of(100, 100, 50 / 0.75);
+  Camera camera = checks::camera_of(100, 100, 50 / 0.75);
   camera.projection.fx = camera.projection.fy = 64;
   camera.width = camera.height = 96;
   camera.projection.cx = camera.projection.cy = 48;
@@ -165,7 +165,7 @@ TEST(PointSight, OfTwoSurfacesInOnePlace) {
   Scene scene = two_walls();
   scene.meshes[0].triangles.push_back({4, 5, 6});
   const Checked checked(scene);
-  const Camera camera = testing::camera_of(100, 100, 12);
+  const Camera camera = checks::camera_of(100, 100, 12);
   EXPECT_TRUE(checked.sees(SurfacePoint{2, 0.25, 0.125}, camera, Cull::none));
   EXPECT_TRUE(checked.sees(SurfacePoint{4, 0.25, 0.125}, camera, Cull::none));
 }

@@ -33,7 +33,7 @@ inline Scene whole_soup(std::mt19937& random, int size, int triangles) {
     }
     list.push_back({a, b, c});
   }
-  return testing::scene_of(std::move(vertices), std::move(list));
+  return checks::scene_of(std::move(vertices), std::move(list));
 }
 
 /// The same scene, all coordinates times `factor`.

@@ -17,8 +17,7 @@ namespace {
 /// A square of side 2 across the z axis.
 Scene plate(double z, double side = 2) {
   const double h = side / 2;
-  return testing::scene_of({{-h, -h, z}, {h, -h, z}, {h, h, z}, {-h, h, z}},
-                           {{0, 1, 2}, {0, 2, 3}});
+  return checks::scene_of({{-h, -h, z}, {h, -h, z}, {h, h, z}, {-h, h, z}}, {{0, 1, 2}, {0, 2, 3}});
 }
 
 void append(Scene& scene, const Scene& other) {
@@ -65,7 +64,7 @@ TEST(SurfaceDistances, CountWhatIsSeen) {
   Scene reconstruction = plate(2), truth = plate(2);
   append(reconstruction, plate(7));
   append(truth, plate(4));
-  const Camera camera = testing::camera_of(100, 100, 50);
+  const Camera camera = checks::camera_of(100, 100, 50);
   const SurfaceComparison seen = compare_surfaces(reconstruction, truth, {camera}, few_points());
   EXPECT_EQ(seen.accuracy.seen, 500U);
   EXPECT_EQ(seen.accuracy.max, 0);
@@ -77,7 +76,7 @@ TEST(SurfaceDistances, CountWhatIsSeen) {
 }
 
 TEST(SurfaceDistances, CountWhatOneOfSeveralCamerasSees) {
-  Camera left = testing::camera_of(50, 100, 50), right = left;
+  Camera left = checks::camera_of(50, 100, 50), right = left;
   left.projection.cx = 50;
   right.projection.cx = 0;
   const auto seen = [](const std::vector<Camera>& cameras) {
@@ -92,7 +91,7 @@ TEST(SurfaceDistances, AreTheSameWithAnyNumberOfThreads) {
   std::mt19937 random(9);
   const Scene one = evaluation::test::whole_soup(random, 9, 40);
   const Scene other = evaluation::test::whole_soup(random, 9, 40);
-  Camera camera = testing::camera_of(100, 100, 50);
+  Camera camera = checks::camera_of(100, 100, 50);
   camera.world_to_camera[2][3] = 20;
   SurfaceComparisonOptions options = few_points({1});
   options.points = 3000;
@@ -128,7 +127,7 @@ TEST(SurfaceDistances, NeedSurfacesAndPoints) {
   };
   EXPECT_EQ(message(Scene(), plate(1), few_points()),
             "the reconstruction: has neither faces nor points");
-  const Scene line = testing::scene_of({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {{0, 1, 2}});
+  const Scene line = checks::scene_of({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {{0, 1, 2}});
   EXPECT_EQ(message(plate(1), line, few_points()), "the truth: the surface has no area");
   EXPECT_NE(message(plate(1), plate(1), few_points({0})), "");
   SurfaceComparisonOptions many;
@@ -141,10 +140,10 @@ TEST(SurfaceDistances, NeedSurfacesAndPoints) {
 }
 
 TEST(SurfaceDistances, RefuseCamerasWhoseRaysAreBent) {
-  Camera camera = testing::camera_of(100, 100, 50);
+  Camera camera = checks::camera_of(100, 100, 50);
   Lens& lens = camera.projection.lens.emplace(Lens{LensModel::simple_radial});
   lens.distortion[0] = -0.2;
-  const Scene cloud = testing::scene_of({{0, 0, 2}}, {});
+  const Scene cloud = checks::scene_of({{0, 0, 2}}, {});
   for (const Scene& made : {plate(2), cloud}) {
     EXPECT_THROW(compare_surfaces(made, plate(2), {camera}, few_points()), UsageError);
     EXPECT_THROW(evaluate(made, plate(2), {camera}, few_points()), UsageError);
@@ -153,11 +152,11 @@ TEST(SurfaceDistances, RefuseCamerasWhoseRaysAreBent) {
 
 // The second camera and the density are refused before the first map is rendered.
 TEST(SurfaceDistances, AreRefusedBeforeAnythingIsRendered) {
-  Camera bent = testing::camera_of(100, 100, 50);
+  Camera bent = checks::camera_of(100, 100, 50);
   bent.projection.lens.emplace(Lens{LensModel::simple_radial}).distortion[0] = -0.2;
   int reports = 0;
   const auto progress = [&](double) { ++reports; };
-  const Camera camera = testing::camera_of(100, 100, 50);
+  const Camera camera = checks::camera_of(100, 100, 50);
   EXPECT_THROW(evaluate(plate(2), plate(2), {camera, bent}, few_points(), progress), UsageError);
   SurfaceComparisonOptions thin = few_points();
   thin.density = 0.2;
@@ -206,7 +205,7 @@ TEST(DepthAgreement, CountsViewsWithMoreThanAHundredPixelsOfTheTruth) {
 }
 
 TEST(DepthAgreement, IsTheSameInEveryFloatingPointMode) {
-  testing::expect_same_in_all_modes([] {
+  checks::expect_same_in_all_modes([] {
     DepthAgreementSum sum;
     for (int view = 0; view < 3; ++view)
       sum.add(map_of({1.1F, 2.3F, 7}), map_of({1.3F, 2.7F, 9.1F}));

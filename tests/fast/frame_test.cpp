@@ -48,7 +48,7 @@ void expect_same_bytes(const DepthMap& a, const DepthMap& b) {
 
 /// Parts of a map are filled with what make_background() fills all of it with.
 TEST(MapBackground, IsThatOfAWholeMapInAnyParts) {
-  const Camera camera = testing::camera_of(70, 3, 64);
+  const Camera camera = checks::camera_of(70, 3, 64);
   RenderOptions options;
   options.channels = {Channel::Z, Channel::A, Channel::id,
                       Channel::P, Channel::N, Channel::distance};
@@ -76,8 +76,8 @@ TEST(MapBackground, IsThatOfAWholeMapInAnyParts) {
 /// However many bins there are, each triangle is in the same tiles, once.
 TEST(FastFrame, SortingInPartsIsSortingAtOnce) {
   std::mt19937_64 random(211);
-  Scene scene = testing::soup(random, 2500, false);
-  const Camera camera = testing::camera_of(160, 140, 64);
+  Scene scene = checks::soup(random, 2500, false);
+  const Camera camera = checks::camera_of(160, 140, 64);
   const RenderOptions options;
   const FastFrame frame(camera, options);
   const TriangleSource source(scene);

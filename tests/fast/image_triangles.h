@@ -8,7 +8,7 @@
 #include "tests/inputs/scene_building.h"
 #include "tests/numeric/random_numbers.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// Triangles near the image: of all sizes, many of them thin.
 inline std::array<MeshPoint, 3> triangle_from(Numbers& n) {
@@ -86,4 +86,4 @@ inline ImageTriangle worst_triangle(Numbers& n, const Camera& camera) {
   return t;
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -12,7 +12,7 @@ namespace fathom {
 namespace {
 
 using namespace fast;
-using namespace testing;
+using namespace checks;
 namespace lanes = fast::HWY_NAMESPACE;
 
 double first(lanes::V v) {

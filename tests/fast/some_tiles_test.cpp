@@ -19,7 +19,7 @@
 namespace fathom {
 namespace {
 
-using testing::expect_same_map;
+using checks::expect_same_map;
 
 /// Triangles of a scene by their numbers, in ascending order: a list for each object that has any.
 std::vector<SomeTriangles> some_of(const Scene& scene, const std::vector<std::uint32_t>& numbers) {
@@ -127,7 +127,7 @@ void expect_same_in_places(const Scene& scene, const Camera& camera, const Rende
 
 RenderOptions all_channels() {
   RenderOptions options;
-  options.channels = testing::every_channel;
+  options.channels = checks::every_channel;
   return options;
 }
 
@@ -142,10 +142,10 @@ const std::vector<Plan> plans{{1, 1000000, {plenty, plenty}, 100},
 
 TEST(TilesInRounds, AreThoseOfTheWholeScene) {
   std::mt19937_64 random(501);
-  const Camera camera = testing::camera_of(160, 140, 64);
+  const Camera camera = checks::camera_of(160, 140, 64);
   for (const bool on_samples : {false, true}) {
     for (const Plan& plan : plans) {
-      const Scene scene = testing::soup(random, 900 / testing::effort, on_samples);
+      const Scene scene = checks::soup(random, 900 / checks::effort, on_samples);
       const RenderOptions options = all_channels();
       expect_same_in_places(scene, camera, options, plan, render_fast(scene, camera, options),
                             random);
@@ -155,10 +155,10 @@ TEST(TilesInRounds, AreThoseOfTheWholeScene) {
 
 TEST(TilesInRounds, SliversWithAllWaysToCull) {
   std::mt19937_64 random(502);
-  const Camera camera = testing::camera_of(160, 140, 64);
+  const Camera camera = checks::camera_of(160, 140, 64);
   for (const Cull cull : {Cull::none, Cull::back, Cull::front}) {
     for (const Plan& plan : plans) {
-      const Scene scene = testing::slivers(random, 600 / testing::effort);
+      const Scene scene = checks::slivers(random, 600 / checks::effort);
       RenderOptions options = all_channels();
       options.cull = cull;
       expect_same_in_places(scene, camera, options, plan, render_fast(scene, camera, options),
@@ -171,7 +171,7 @@ TEST(TilesInRounds, SliversWithAllWaysToCull) {
 /// whose numbers in a round are not those in the scene, in every tile.
 TEST(TilesInRounds, TrianglesAroundTheEye) {
   std::mt19937_64 random(504);
-  for (int i = 0; i < 6 / testing::effort + 1; ++i) {
+  for (int i = 0; i < 6 / checks::effort + 1; ++i) {
     SCOPED_TRACE("case " + std::to_string(i) + " of seed 504");
     const auto number = [&] { return static_cast<double>(random() % 4097) / 1024 - 2; };
     Scene scene;
@@ -182,12 +182,12 @@ TEST(TilesInRounds, TrianglesAroundTheEye) {
         for (int k = 0; k < 3; ++k) vertices.push_back({number(), number(), number() + 1});
         triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
       }
-      Scene one = testing::scene_of(std::move(vertices), std::move(triangles));
+      Scene one = checks::scene_of(std::move(vertices), std::move(triangles));
       scene.meshes.push_back(std::move(one.meshes[0]));
       scene.objects.push_back(std::move(one.objects[0]));
       scene.objects.back().mesh = object;
     }
-    Camera camera = testing::camera_of(200, 150, 90);
+    Camera camera = checks::camera_of(200, 150, 90);
     if (i % 2 == 1) camera.near = 0.25;
     RenderOptions options = all_channels();
     options.cull = i % 3 == 0 ? Cull::none : i % 3 == 1 ? Cull::back : Cull::front;
@@ -203,7 +203,7 @@ TEST(TilesInRounds, TrianglesAroundTheEye) {
 /// way: the triangle that says which object it is has another number in a round.
 TEST(TilesInRounds, PlacedObjects) {
   std::mt19937_64 random(506);
-  const Camera camera = testing::camera_of(160, 140, 64);
+  const Camera camera = checks::camera_of(160, 140, 64);
   const auto number = [&] { return static_cast<double>(random() % 4096) / 4096; };
   Scene scene;
   for (std::uint32_t object = 0; object < 3; ++object) {
@@ -216,7 +216,7 @@ TEST(TilesInRounds, PlacedObjects) {
         vertices.push_back({x + number() / 4 - moved_by, y + number() / 4, z});
       triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
     }
-    Scene one = testing::scene_of(std::move(vertices), std::move(triangles));
+    Scene one = checks::scene_of(std::move(vertices), std::move(triangles));
     scene.meshes.push_back(std::move(one.meshes[0]));
     Object placed = one.objects[0];
     placed.mesh = object;
@@ -232,7 +232,7 @@ TEST(TilesInRounds, PlacedObjects) {
 
 RenderOptions lens_channels() {
   RenderOptions options;
-  options.channels = testing::every_channel;
+  options.channels = checks::every_channel;
   std::erase(options.channels, Channel::A);
   options.channels.push_back(Channel::valid);
   return options;
@@ -247,7 +247,7 @@ TEST(TilesInRounds, OfLenses) {
         Lens{LensModel::fisheye_stereographic}, Lens{LensModel::simple_radial, {-0.9}},
         Lens{LensModel::simple_radial, {0x1p-1000}}}) {
     SCOPED_TRACE(name_of(lens.model));
-    Camera camera = testing::camera_of(130, 70, 64);
+    Camera camera = checks::camera_of(130, 70, 64);
     camera.projection.lens = lens;
     const bool is_too_far = lens.distortion[0] == 0x1p-1000;
     if (is_too_far) {
@@ -256,7 +256,7 @@ TEST(TilesInRounds, OfLenses) {
       camera.projection.fx = camera.projection.fy = 0x1p-660;
     }
     for (const Plan& plan : plans) {
-      const Scene scene = testing::soup(random, is_too_far ? 20 : 120 / testing::effort, false);
+      const Scene scene = checks::soup(random, is_too_far ? 20 : 120 / checks::effort, false);
       RenderOptions options = lens_channels();
       // Shading normals take most of the time at a lens; one plan of many rounds has them.
       if (&plan != &plans[2]) std::erase(options.channels, Channel::Ns);
@@ -269,21 +269,21 @@ TEST(TilesInRounds, OfLenses) {
 
 TEST(TilesInRounds, OfATableOfDirections) {
   std::mt19937_64 random(508);
-  const Camera camera = testing::with_table(testing::camera_of(100, 70, 64),
-                                            testing::DirectionMaker(508).numbers(7000));
+  const Camera camera =
+      checks::with_table(checks::camera_of(100, 70, 64), checks::DirectionMaker(508).numbers(7000));
   for (const Plan& plan : plans) {
-    const Scene scene = testing::soup(random, 200 / testing::effort, false);
+    const Scene scene = checks::soup(random, 200 / checks::effort, false);
     expect_same_in_places(scene, camera, lens_channels(), plan,
                           render_fast(scene, camera, lens_channels()), random);
   }
 }
 
 TEST(TilesInRounds, Adversaries) {
-  for (const testing::Family family : testing::all_families) {
-    testing::for_each_adversary(30, [&](std::uint64_t seed) {
+  for (const checks::Family family : checks::all_families) {
+    checks::for_each_adversary(30, [&](std::uint64_t seed) {
       SCOPED_TRACE(name_of(family));
       std::mt19937_64 random(seed);
-      const testing::Case c = testing::adversarial_case(family, seed);
+      const checks::Case c = checks::adversarial_case(family, seed);
       RenderOptions options = all_channels();
       if (seed % 4 == 3) options.cull = Cull::back;
       const Rendered truth = render_fast(c.scene, c.camera, options);
@@ -298,11 +298,11 @@ TEST(TilesInRounds, Adversaries) {
 /// more than there is room for where the tile waits, next to another one.
 TEST(TilesInRounds, ManySurfacesOfATile) {
   std::mt19937_64 random(503);
-  const Camera camera = testing::camera_of(128, 30, 64);
+  const Camera camera = checks::camera_of(128, 30, 64);
   std::vector<MeshPoint> vertices;
   std::vector<CornerIndices> triangles;
   const auto number = [&] { return static_cast<double>(random() % 4096) / 4096; };
-  for (std::uint32_t t = 0; t < 60000 / testing::effort; ++t) {
+  for (std::uint32_t t = 0; t < 60000 / checks::effort; ++t) {
     const double u = 128 * number(), v = 30 * number(), z = 1 + 8 * number();
     for (int k = 0; k < 3; ++k) {
       vertices.push_back(
@@ -310,7 +310,7 @@ TEST(TilesInRounds, ManySurfacesOfATile) {
     }
     triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
   }
-  const Scene scene = testing::scene_of(std::move(vertices), std::move(triangles));
+  const Scene scene = checks::scene_of(std::move(vertices), std::move(triangles));
   RenderOptions options;
   options.channels = {Channel::Z, Channel::id};
   for (const std::size_t length : {300U, 14000U}) {
@@ -322,8 +322,8 @@ TEST(TilesInRounds, ManySurfacesOfATile) {
 
 /// A depth that the encoding cannot hold is told with its place in the image, not in the rows.
 TEST(TilesInRounds, ADepthBeyondTheEncodingHasItsPlace) {
-  const Camera camera = testing::camera_of(160, 140, 64);
-  const Scene scene = testing::scene_of({{0.5, 0.9, 2}, {0.6, 0.9, 2}, {0.5, 1, 2}}, {{0, 1, 2}});
+  const Camera camera = checks::camera_of(160, 140, 64);
+  const Scene scene = checks::scene_of({{0.5, 0.9, 2}, {0.6, 0.9, 2}, {0.5, 1, 2}}, {{0, 1, 2}});
   RenderOptions options;
   options.channels = {Channel::Z};
   options.depth_encoding = {.type = DepthEncoding::Type::scaled_unorm16, .scale = 1e6};

@@ -28,14 +28,14 @@ namespace fathom {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::Both;
-using testing::CaseMaker;
-using testing::effort;
-using testing::expect_same_map;
-using testing::Kind;
-using testing::ply_of;
-using testing::stl_of;
-using testing::streamed_channels;
+using checks::Both;
+using checks::CaseMaker;
+using checks::effort;
+using checks::expect_same_map;
+using checks::Kind;
+using checks::ply_of;
+using checks::stl_of;
+using checks::streamed_channels;
 
 const fs::path data = test::source_dir() / "data";
 
@@ -93,7 +93,7 @@ TEST(FastStream, OneTriangleAtATime) {
   for (const Camera& camera : cameras_for(both.scene)) {
     for (const int threads : {1, 3}) {
       RenderOptions options;
-      options.channels = testing::quick_channels;
+      options.channels = checks::quick_channels;
       options.threads = threads;
       expect_same_render(both, camera, options, {.triangles_at_once = 1, .tile_bytes = 0});
     }
@@ -107,7 +107,7 @@ TEST(FastStream, RandomScenes) {
     CaseMaker maker(91 + static_cast<std::uint64_t>(kind), kind);
     for (int i = 0; i < 200 / effort; ++i, ++cases) {
       SCOPED_TRACE("case " + std::to_string(i) + " of seed 91 + kind");
-      const testing::Case c = maker.make();
+      const checks::Case c = maker.make();
       const Both both({folder.write(std::to_string(cases) + ".ply", ply_of(c.scene.meshes.at(0)))});
       RenderOptions options;
       options.channels = streamed_channels;
@@ -125,11 +125,11 @@ TEST(FastStream, Adversaries) {
   const std::vector<StreamLimits> limits{{.triangles_at_once = 1, .tile_bytes = 0, .kept_bytes = 0},
                                          {.triangles_at_once = 3, .tile_bytes = 0},
                                          {.triangles_at_once = 2}};
-  for (const testing::Family family : testing::all_families) {
-    if (family == testing::Family::placements) continue;  // files of meshes place nothing
-    testing::for_each_adversary(30, [&](std::uint64_t seed) {
+  for (const checks::Family family : checks::all_families) {
+    if (family == checks::Family::placements) continue;  // files of meshes place nothing
+    checks::for_each_adversary(30, [&](std::uint64_t seed) {
       SCOPED_TRACE(name_of(family));
-      const testing::Case c = testing::adversarial_case(family, seed);
+      const checks::Case c = checks::adversarial_case(family, seed);
       const Both both({folder.write("mesh.ply", ply_of(c.scene.meshes.at(0)))});
       RenderOptions options;
       options.channels = streamed_channels;
@@ -153,9 +153,9 @@ TEST(FastStream, RandomScenesUnderLenses) {
        {LensModel::opencv, LensModel::division, LensModel::fisheye_stereographic}) {
     for (int i = 0; i < 60 / effort; ++i, ++seed) {
       SCOPED_TRACE(seed);
-      testing::Case c = testing::LensCaseMaker(seed, Kind::few_bits).make(model).view;
+      checks::Case c = checks::LensCaseMaker(seed, Kind::few_bits).make(model).view;
       if (i % 3 == 0)
-        c.camera = testing::with_table(c.camera, testing::DirectionMaker(seed).numbers(30));
+        c.camera = checks::with_table(c.camera, checks::DirectionMaker(seed).numbers(30));
       const Both both({folder.write(std::to_string(seed) + ".ply", ply_of(c.scene.meshes.at(0)))});
       RenderOptions options;
       options.channels = channels_of_lenses();
@@ -264,7 +264,7 @@ TEST(FastStream, VerifiedFromTheFilesToo) {
   options.channels = streamed_channels;
   DepthMap map = render_streamed(both.streamed, camera, options).map;
   PixelChoice chosen(map.width * std::size_t{map.height}, false);
-  for (std::size_t i = 0; i < chosen.size(); i += 7 * testing::effort) chosen[i] = true;
+  for (std::size_t i = 0; i < chosen.size(); i += 7 * checks::effort) chosen[i] = true;
   const std::size_t within = map.height / 2 * std::size_t{map.width} + map.width / 2;
   chosen[within] = true;
   Verification v = verify(map, both.streamed, camera, options, chosen);

@@ -11,9 +11,9 @@ namespace {
 
 using namespace files;
 
-class Bytes {
+class RandomBytes {
  public:
-  Bytes() {
+  RandomBytes() {
     std::mt19937 random(5);
     for (int i = 0; i < 1000; ++i) text_ += static_cast<char>(random());
     file_.emplace(folder_.write("bytes", text_));
@@ -28,7 +28,7 @@ class Bytes {
 };
 
 TEST(ByteWindow, AnyWalkSeesWhatLiesInMemory) {
-  const Bytes bytes;
+  const RandomBytes bytes;
   std::mt19937 random(6);
   for (int walk = 0; walk < 200; ++walk) {
     const std::uint64_t first = random() % 100, end = 900 + random() % 100;

@@ -29,7 +29,7 @@ json one_primitive(json primitive) {
 
 json data_buffer(const std::string& bytes) {
   return {{"byteLength", bytes.size()},
-          {"uri", "data:application/octet-stream;base64," + testing::base64(bytes)}};
+          {"uri", "data:application/octet-stream;base64," + checks::base64(bytes)}};
 }
 
 json accessor(std::size_t count, const char* type, int component) {
@@ -49,7 +49,7 @@ Triangulated read_triangulated(const std::string& obj_file) {
 }
 
 json plain_asset(const Triangulated& mesh) {
-  testing::Asset asset;
+  checks::Asset asset;
   asset.positions(mesh.positions);
   asset.add(mesh.indices, "SCALAR", uint32);
   json result = asset.done();

@@ -22,7 +22,7 @@ using ::testing::StartsWith;
 Scene read(const json& asset) {
   return read_bytes("a.gltf", asset.dump());
 }
-std::string refusal_of(const json& asset) {
+std::string refusal_of_gltf(const json& asset) {
   return test::refusal_of("a.gltf", asset.dump());
 }
 
@@ -112,7 +112,7 @@ TEST(Draco, CountsOfAccessorsAreThoseOfTheMesh) {
     for (const std::size_t wrong : {count - 3, count + 3}) {
       asset["accessors"][accessor]["count"] = wrong;
       EXPECT_THAT(
-          refusal_of(asset),
+          refusal_of_gltf(asset),
           HasSubstr("accessors[" + std::to_string(accessor) + "]: has " + std::to_string(wrong) +
                     " elements, but Draco decoded " + std::to_string(count)));
     }
@@ -128,7 +128,7 @@ TEST(Draco, IndicesAreOfTheTypeOfTheirAccessor) {
   }
   json large = draco_asset(spot(), by_draco(spot(), {}));
   large["accessors"][1]["componentType"] = 5121;
-  EXPECT_THAT(refusal_of(large),
+  EXPECT_THAT(refusal_of_gltf(large),
               HasSubstr("Draco could not decode it: the accessor's component type"));
 }
 
@@ -139,7 +139,7 @@ TEST(Draco, WhatIsNotAsDescribedIsNamed) {
   const auto with = [&](const std::string& pointer, const json& value) {
     json asset = good;
     asset[json::json_pointer(pointer)] = value;
-    return refusal_of(asset);
+    return refusal_of_gltf(asset);
   };
   const std::string place = "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression";
   EXPECT_THAT(
@@ -152,14 +152,14 @@ TEST(Draco, WhatIsNotAsDescribedIsNamed) {
   EXPECT_THAT(with("/meshes/0/primitives/0/mode", 5), HasSubstr("expected 4, triangles"));
   json asset = good;
   asset["meshes"][0]["primitives"][0].erase("indices");
-  EXPECT_THAT(refusal_of(asset), HasSubstr("indices"));
+  EXPECT_THAT(refusal_of_gltf(asset), HasSubstr("indices"));
 }
 
 TEST(Draco, DamageIsOneLine) {
   const std::string compressed = by_draco(spot(), {11, false});
   std::mt19937_64 random(5);
   int refused = 0;
-  for (int i = 0; i < 60 / testing::effort; ++i) {
+  for (int i = 0; i < 60 / checks::effort; ++i) {
     std::string bytes = compressed;
     for (int k = 0; k < 4; ++k) bytes[random() % bytes.size()] = static_cast<char>(random());
     if (i % 3 == 0) bytes.resize(1 + random() % bytes.size());
@@ -220,7 +220,7 @@ TEST(Meshopt, ExponentialPositionsAreWhatTheLibraryDecodes) {
 /// Five vertices and these elements, four normalized numbers of this component type to each, of
 /// which glTF uses `type`. Those are in buffer view 1.
 json five_with(const std::string& elements, std::size_t stride, const char* type) {
-  testing::Asset asset = testing::five({});
+  checks::Asset asset = checks::five({});
   const bool are_bytes = stride == 4;
   asset.add(std::vector<char>(elements.begin(), elements.end()), "SCALAR", are_bytes ? 5120 : 5122,
             true);
@@ -289,7 +289,7 @@ TEST(Meshopt, WhatIsNotAsDescribedIsNamed) {
   const auto with = [&](const std::string& key, const json& value) {
     json asset = good;
     asset[json::json_pointer(place + key)] = value;
-    return refusal_of(asset);
+    return refusal_of_gltf(asset);
   };
   const std::string blamed = "a.gltf: bufferViews[0].extensions.EXT_meshopt_compression";
   EXPECT_THAT(with("/mode", "STRIPS"),
@@ -308,7 +308,7 @@ TEST(Meshopt, WhatIsNotAsDescribedIsNamed) {
 TEST(Meshopt, DamageIsOneLine) {
   std::mt19937_64 random(6);
   int refused = 0;
-  for (int i = 0; i < 60 / testing::effort; ++i) {
+  for (int i = 0; i < 60 / checks::effort; ++i) {
     CompressedView positions = attributes_by_meshopt(bytes_of(spot().positions), 12);
     CompressedView indices = indices_by_meshopt(spot().indices, "TRIANGLES");
     std::string& bytes = i % 2 == 0 ? positions.bytes : indices.bytes;
@@ -329,7 +329,7 @@ TEST(CompressedGltf, WhatIsDecodedIsWithinTheBudget) {
   const std::string zeros(std::size_t{12} * 8'000'000, '\0');
   const json asset =
       meshopt_asset(attributes_by_meshopt(zeros, 12), indices_by_meshopt({0, 1, 2}, "TRIANGLES"));
-  EXPECT_THAT(refusal_of(asset), HasSubstr("--max-expansion"));
+  EXPECT_THAT(refusal_of_gltf(asset), HasSubstr("--max-expansion"));
   Warnings warnings;
   EXPECT_EQ(triangle_count(read_bytes("a.gltf", asset.dump(), warnings, {.max_expansion = 10'000})),
             1U);

@@ -54,7 +54,7 @@ TEST_P(DamagedFiles, AreMeshesOrOneLine) {
   std::mt19937_64 random(14);
   int refused = 0;
   // A kind of which nothing is refused was not damaged, or not read.
-  constexpr int cases = testing::effort == 1 ? 60 : 30;
+  constexpr int cases = checks::effort == 1 ? 60 : 30;
   for (int i = 0; i < cases; ++i) {
     const std::string bytes = damaged(good, random);
     if (bytes.empty()) continue;

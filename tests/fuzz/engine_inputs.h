@@ -43,7 +43,7 @@ inline Camera camera_from(Bytes& bytes) {
   const int form = bytes.next();
   const auto width = static_cast<std::uint32_t>(1 + bytes.below(80));
   const auto height = static_cast<std::uint32_t>(1 + bytes.below(20));
-  Camera camera = testing::camera_of(width, height, 1 + bytes.below(64));
+  Camera camera = checks::camera_of(width, height, 1 + bytes.below(64));
   if (form & 1) camera.projection.model = ProjectionModel::orthographic;
   if (form & 2) camera.projection.fy = -camera.projection.fy;
   if (form & 4) camera.projection.skew = bytes.coordinate();

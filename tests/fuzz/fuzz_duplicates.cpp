@@ -40,7 +40,7 @@ Scene scene_from(Bytes& bytes) {
     }
     triangles.push_back({first, first + 1, first + 2});
   }
-  return testing::scene_of(std::move(vertices), std::move(triangles));
+  return checks::scene_of(std::move(vertices), std::move(triangles));
 }
 
 /// A copy of the last triangle behind all others hides nothing and shows nothing.

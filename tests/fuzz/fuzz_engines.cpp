@@ -17,7 +17,7 @@ Scene scene_from(Bytes& bytes) {
     const std::uint32_t a = corner(), b = corner(), c = corner();
     triangles.push_back({a, b, c});
   }
-  return testing::scene_of(std::move(vertices), std::move(triangles));
+  return checks::scene_of(std::move(vertices), std::move(triangles));
 }
 
 }  // namespace

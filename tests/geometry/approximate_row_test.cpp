@@ -3,21 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "tests/numeric/random_numbers.h"
+#include "tests/special_values.h"
 
 namespace fathom {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Dyadic exact_at(const std::array<Dyadic, 4>& row, const MeshPoint& p) {
   return row[0] * Dyadic(p.x) + row[1] * Dyadic(p.y) + row[2] * Dyadic(p.z) + row[3];
 }
 
 TEST(ApproximateRow, IntervalsContainTheExactValue) {
-  testing::Numbers n(81);
+  checks::Numbers n(81);
   int narrow = 0;
   constexpr int rounds = 20000;
   for (int i = 0; i < rounds; ++i) {

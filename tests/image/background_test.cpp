@@ -9,6 +9,7 @@
 #include "fathom/image/map_files.h"
 #include "fathom/image/surface.h"
 #include "tests/image/map_samples.h"
+#include "tests/special_values.h"
 
 namespace fathom {
 namespace {
@@ -16,10 +17,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsNan;
-using namespace fathom::testing;
-
-constexpr float inf = std::numeric_limits<float>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using namespace fathom::checks;
 
 /// A surface, background, a depth that overflowed, told by `id`; and what is no depth.
 DepthMap with_overflow() {

@@ -26,7 +26,7 @@ namespace {
 using namespace image;
 using namespace files;
 using ::testing::HasSubstr;
-using namespace fathom::testing;
+using namespace fathom::checks;
 
 /// The message of the InputError that reading ends in.
 std::string refusal_of(ByteView bytes) {

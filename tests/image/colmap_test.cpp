@@ -14,9 +14,7 @@ namespace {
 using namespace image;
 using namespace files;
 using ::testing::HasSubstr;
-using namespace fathom::testing;
-
-constexpr float inf = std::numeric_limits<float>::infinity();
+using namespace fathom::checks;
 
 Bytes bytes_of(const std::string& text) {
   Bytes bytes;

@@ -15,9 +15,8 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using namespace fathom::testing;
+using namespace fathom::checks;
 
-constexpr float inf = std::numeric_limits<float>::infinity();
 const float nan_value = std::bit_cast<float>(0x7FC00000u);
 
 DepthMap depths(std::vector<float> values) {

@@ -19,9 +19,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using namespace fathom::testing;
-
-constexpr float inf = std::numeric_limits<float>::infinity();
+using namespace fathom::checks;
 
 /// The ray of pixel (0, 0) is the z axis; its neighbours are 1/fx and 1/fy away.
 Camera easy_camera() {

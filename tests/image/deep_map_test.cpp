@@ -143,7 +143,7 @@ TEST_P(DeepMaps, AreReadBackBitForBit) {
   }
 }
 
-std::vector<char> bytes_of(const std::string& file) {
+std::vector<char> bytes_of_file(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -166,7 +166,7 @@ std::string refusal_of(const std::string& file, const std::vector<char>& bytes) 
 TEST_P(DeepMaps, ThatAreTruncatedAreRefused) {
   const std::string file = folder_ / "deep.exr";
   write_deep_map(three_pixels(), file, GetParam());
-  std::vector<char> bytes = bytes_of(file);
+  std::vector<char> bytes = bytes_of_file(file);
   while (!bytes.empty()) {
     bytes.resize(bytes.size() - std::min<std::size_t>(bytes.size(), 7));
     EXPECT_NE(refusal_of(file, bytes), "") << bytes.size();
@@ -176,7 +176,7 @@ TEST_P(DeepMaps, ThatAreTruncatedAreRefused) {
 TEST_P(DeepMaps, ThatAreChangedAnywhereAreReadOrRefused) {
   const std::string file = folder_ / "deep.exr";
   write_deep_map(three_pixels(), file, GetParam());
-  const std::vector<char> bytes = bytes_of(file);
+  const std::vector<char> bytes = bytes_of_file(file);
   for (std::size_t k = 0; k < bytes.size(); k += 5) {
     for (const int change : {1, 0xFF}) {
       std::vector<char> changed = bytes;
@@ -189,7 +189,7 @@ TEST_P(DeepMaps, ThatAreChangedAnywhereAreReadOrRefused) {
 TEST_P(DeepMaps, ThatClaimMoreThanTheyHoldAreRefused) {
   const std::string file = folder_ / "deep.exr";
   write_deep_map(three_pixels(), file, GetParam());
-  std::vector<char> bytes = bytes_of(file);
+  std::vector<char> bytes = bytes_of_file(file);
   const std::string window("dataWindow\0box2i", 16);
   const auto at = std::search(bytes.begin(), bytes.end(), window.begin(), window.end());
   ASSERT_NE(at, bytes.end());
@@ -206,7 +206,7 @@ TEST_P(DeepMaps, OfOtherKindsAreRefused) {
   flat.width = flat.height = 1;
   flat.channels.push_back({"Z", Samples<float>(1, 2.5F)});
   write_map(flat, file, MapFormat::exr);
-  EXPECT_EQ(refusal_of(file, bytes_of(file)),
+  EXPECT_EQ(refusal_of(file, bytes_of_file(file)),
             "not a deep map: expected an EXR of deep scan lines in one part");
   EXPECT_EQ(refusal_of(file, {'P', 'f'}), "expected a deep map (EXR)");
   EXPECT_THROW(read_deep_map(folder_ / "missing.exr"), InputError);

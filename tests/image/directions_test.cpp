@@ -19,8 +19,8 @@
 namespace fathom {
 namespace {
 
+using checks::run;
 using ::testing::HasSubstr;
-using testing::run;
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 

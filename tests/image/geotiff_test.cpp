@@ -19,9 +19,7 @@ namespace {
 using namespace image;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using namespace fathom::testing;
-
-constexpr float inf = std::numeric_limits<float>::infinity();
+using namespace fathom::checks;
 
 /// Looks down: 3 and 3/2 pixels to the unit, x to the right and y upwards in the image.
 Camera from_above() {

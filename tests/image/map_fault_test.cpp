@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
 /// A function that takes a map and a camera, one of which is wrong.
 struct Door {
   const char* name;
-  std::function<void(const DepthMap&, const Camera&, const testing::Folder&)> call;
+  std::function<void(const DepthMap&, const Camera&, const checks::Folder&)> call;
   bool takes_a_camera = false;
 };
 
@@ -107,7 +107,7 @@ class EveryFunction : public ::testing::TestWithParam<Door> {
     }
     return "none";
   }
-  testing::Folder folder_;
+  checks::Folder folder_;
 };
 
 TEST_P(EveryFunction, TakesWhatIsRight) {

@@ -14,7 +14,7 @@ namespace {
 using namespace image;
 using namespace files;
 using ::testing::HasSubstr;
-using namespace fathom::testing;
+using namespace fathom::checks;
 
 Bytes bytes_of(const std::string& text) {
   Bytes bytes;

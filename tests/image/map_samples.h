@@ -11,7 +11,9 @@
 #include "fathom/image/depth_map.h"
 
 /// Maps to try things on.
-namespace fathom::testing {
+namespace fathom::checks {
+
+inline constexpr float inf = std::numeric_limits<float>::infinity();
 
 /// A folder that is gone when the test is.
 class Folder {
@@ -116,4 +118,4 @@ inline DepthMap full_map(std::uint32_t width, std::uint32_t height) {
   return map;
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

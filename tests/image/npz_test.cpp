@@ -20,7 +20,7 @@ using namespace image;
 using namespace files;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using namespace fathom::testing;
+using namespace fathom::checks;
 
 Outcome python_in(const Folder& folder, const std::string& script) {
   std::ofstream(folder / "script.py") << "import json, numpy as np\n" << script;

@@ -19,9 +19,7 @@ namespace fathom {
 namespace {
 
 using ::testing::HasSubstr;
-using namespace fathom::testing;
-
-constexpr float inf = std::numeric_limits<float>::infinity();
+using namespace fathom::checks;
 
 /// 4×3: depths 1.5, 2, 2.5, … and one background pixel.
 DepthMap sample() {

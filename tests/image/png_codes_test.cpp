@@ -15,9 +15,7 @@ namespace {
 
 using namespace image;
 using ::testing::HasSubstr;
-using namespace fathom::testing;
-
-constexpr float inf = std::numeric_limits<float>::infinity();
+using namespace fathom::checks;
 
 TEST(CodesBeyond, AreNoneAndCounted) {
   // 65535.5 is half way between two codes, and even is the one that does not exist.

@@ -18,7 +18,7 @@ namespace fathom {
 namespace {
 
 using namespace image;
-using namespace fathom::testing;
+using namespace fathom::checks;
 using ::testing::HasSubstr;
 
 DepthMap normals(const std::string& channel, const std::vector<std::array<float, 3>>& pixels) {

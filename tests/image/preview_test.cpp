@@ -16,9 +16,8 @@ namespace fathom {
 namespace {
 
 using namespace image;
-using namespace fathom::testing;
+using namespace fathom::checks;
 
-constexpr float inf = std::numeric_limits<float>::infinity();
 constexpr Rgb neutral{206, 210, 216};
 
 /// The middle of a pixel of a map of five pixels, which is enlarged 96 times.

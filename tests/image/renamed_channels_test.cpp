@@ -11,7 +11,7 @@ namespace fathom {
 namespace {
 
 using ::testing::ElementsAre;
-using namespace fathom::testing;
+using namespace fathom::checks;
 
 std::vector<std::string> names_of(const DepthMap& map) {
   std::vector<std::string> names;

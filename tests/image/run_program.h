@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 struct Outcome {
   int status = -1;
@@ -24,4 +24,4 @@ inline Outcome run(const std::string& command) {
   return outcome;
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

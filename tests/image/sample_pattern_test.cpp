@@ -12,7 +12,7 @@
 namespace fathom {
 namespace {
 
-using testing::all_patterns;
+using checks::all_patterns;
 
 TEST(SamplePattern, PositionsAreThoseOfTheInterfaces) {
   for (const std::string& name : all_patterns) {

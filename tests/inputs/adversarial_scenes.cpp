@@ -6,7 +6,7 @@
 
 #include "tests/inputs/draw.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 namespace {
 
 constexpr std::uint32_t image_width = 8, image_height = 6;
@@ -444,4 +444,4 @@ Case adversarial_case(Family family, std::uint64_t seed) {
   }
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

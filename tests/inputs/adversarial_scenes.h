@@ -9,7 +9,7 @@
 
 /// Random small scenes, each drawn from a family that is hard for a reason of its own. Images are
 /// 8×6; the same family and seed give the same scene on every machine.
-namespace fathom::testing {
+namespace fathom::checks {
 
 enum class Family {
   slivers,           // triangles a few units in the last place wide
@@ -36,4 +36,4 @@ std::string name_of(Family family);
 /// A scene and a camera without fault.
 Case adversarial_case(Family family, std::uint64_t seed);
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

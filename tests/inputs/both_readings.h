@@ -7,7 +7,7 @@
 
 #include "fathom/scene/read_scene.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 template <class T>
 void put(std::string& bytes, T value) {
@@ -61,4 +61,4 @@ struct Both {
   StreamedScene streamed;
 };
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// Numbers from a generator whose sequence the standard fixes (its distributions are not).
 class Draw {
@@ -43,4 +43,4 @@ class Draw {
   std::mt19937_64 random_;
 };
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -10,7 +10,7 @@
 #endif
 
 /// What programs around us may have done to the floating-point environment of a thread.
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// How a thread rounds, and whether it takes subnormal numbers, as operands or results, for 0.
 struct FloatingPointMode {
@@ -78,4 +78,4 @@ void expect_same_in_all_modes(const Compute& compute) {
   }
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -11,7 +11,7 @@
 #include "tests/inputs/draw.h"
 
 /// Faces of four corners and more, each drawn from a family that is hard for a reason of its own.
-namespace fathom::testing {
+namespace fathom::checks {
 
 using Ring = std::vector<MeshPoint>;
 
@@ -169,4 +169,4 @@ inline Ring hard_face(FaceFamily family, std::uint64_t seed) {
   return ring;
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

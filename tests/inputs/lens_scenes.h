@@ -11,7 +11,7 @@
 #include "tests/inputs/random_scenes.h"
 #include "tests/oracle/lens_rays.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// The models of the table that may bend rays: all but the pinholes and TABLE.
 inline std::vector<LensModel> bending_models() {
@@ -282,4 +282,4 @@ class LensCaseMaker {
   CaseMaker cases_;
 };
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -6,7 +6,7 @@
 
 #include "fathom/mesh/mesh.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// Normals as odd as they come: none, zeros, equal ones, opposite ones, of any magnitude.
 inline void add_odd_normals(Mesh& mesh, std::mt19937_64& random) {
@@ -40,4 +40,4 @@ inline void add_odd_normals(Mesh& mesh, std::mt19937_64& random) {
   }
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -10,7 +10,7 @@
 
 /// Random small scenes with coordinates of few bits, so that samples on edges and vertices, equal
 /// depths and edge-on triangles abound. Images are 6×5.
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// few_bits    as they are;
 /// neighbours  some coordinates moved to the next binary64 number;
@@ -108,4 +108,4 @@ class CaseMaker {
   bool plain_ = false;
 };
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -5,7 +5,7 @@
 #include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// A scene of one object.
 inline Scene scene_of(std::vector<MeshPoint> vertices, std::vector<CornerIndices> triangles) {
@@ -48,4 +48,4 @@ inline Camera camera_of(std::uint32_t width, std::uint32_t height, double focal_
   return camera;
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

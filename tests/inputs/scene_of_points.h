@@ -4,7 +4,7 @@
 
 #include "fathom/scene/scene.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// A scene of these points, as triangles that have no area but bounds.
 inline Scene scene_of_points(const std::vector<MeshPoint>& vertices) {
@@ -18,4 +18,4 @@ inline Scene scene_of_points(const std::vector<MeshPoint>& vertices) {
   return scene;
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

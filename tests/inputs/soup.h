@@ -6,7 +6,7 @@
 
 #include "tests/inputs/scene_building.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// A scene of triangles that span an image of several tiles, of all sizes, with ties.
 inline Scene soup(std::mt19937_64& random, int triangles, bool on_samples) {
@@ -79,4 +79,4 @@ Scene soup_around_eye(Random& random, int triangles) {
   return scene_of(std::move(corners), std::move(indices));
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -7,7 +7,7 @@
 
 #include "fathom/scene/scene.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// The unit sphere as `rings` rings of 2·rings quadrilaterals, each of two triangles.
 inline Mesh sphere(std::uint32_t rings) {
@@ -45,4 +45,4 @@ inline Scene two_spheres(std::uint32_t rings) {
   return scene;
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -11,7 +11,7 @@
 #include "fathom/camera/camera.h"
 #include "fathom/scene/scene.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// The same camera with a table of directions in place of its projection.
 inline Camera with_table(Camera camera, std::vector<double> numbers) {
@@ -71,4 +71,4 @@ inline void aim_at_corners(const Scene& scene, std::vector<double>& numbers) {
   }
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -2,21 +2,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "fathom/lens/definiteness.h"
 #include "fathom/lens/polynomial_stage.h"
 #include "tests/effort.h"
 #include "tests/lens/lens_oracle.h"
+#include "tests/special_values.h"
 
 namespace fathom::lens {
 namespace {
 
 using oracle::ArbBall;
 using oracle::NamedParameters;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double disc_of(LensModel model, std::array<double, 14> distortion) {
   Lens lens;
@@ -106,7 +104,7 @@ double least_angle(const NamedParameters& n, double q) {
 
 TEST_P(Discs, AreRegularWithinAndNotBeyond) {
   int ends = 0;
-  for (std::uint64_t seed = 0; seed < 40 / testing::effort + 1; ++seed) {
+  for (std::uint64_t seed = 0; seed < 40 / checks::effort + 1; ++seed) {
     std::mt19937_64 random(seed);
     const Lens lens = oracle::random_lens(random, GetParam(), std::array{0.1, 0.5}[seed % 2]);
     const NamedParameters numbers(lens);
@@ -132,7 +130,7 @@ TEST_P(Discs, AreRegularWithinAndNotBeyond) {
 
 // The exact statement about the next number: its circle is not regular, or D is not positive in it.
 TEST_P(Discs, EndAtTheLastNumber) {
-  for (std::uint64_t seed = 0; seed < 40 / testing::effort + 1; ++seed) {
+  for (std::uint64_t seed = 0; seed < 40 / checks::effort + 1; ++seed) {
     std::mt19937_64 random(seed);
     const auto stage = stage_of(oracle::random_lens(random, GetParam(), 0.4));
     const double q = greatest_disc(stage), next = std::nextafter(q, infinity);

@@ -88,7 +88,7 @@ TEST_P(Signs, DirectionsInDoubleWordsContainTheOracles) {
 }
 
 TEST_P(Signs, AreThoseOfTheOracle) {
-  for (std::uint64_t seed = 0; seed < 16 / testing::effort + 1; ++seed) {
+  for (std::uint64_t seed = 0; seed < 16 / checks::effort + 1; ++seed) {
     std::mt19937_64 random(seed);
     const Lens lens = oracle::random_lens(random, GetParam(), seed % 2 == 0 ? 0.1 : 0.4);
     const Projection camera = oracle::random_camera(random);
@@ -149,7 +149,7 @@ MadeTie made_tie(LensModel model, std::mt19937_64& random) {
 
 TEST_P(Signs, AreZeroAtTies) {
   int count = 0;
-  for (std::uint64_t seed = 0; seed < 40 / testing::effort + 2; ++seed) {
+  for (std::uint64_t seed = 0; seed < 40 / checks::effort + 2; ++seed) {
     std::mt19937_64 random(seed);
     const MadeTie tie = made_tie(GetParam(), random);
     const Preimages preimages(tie.camera, tie.lens);
@@ -194,7 +194,7 @@ TEST(ExactDirection, OfARadialLensIsParallelToItsSample) {
 TEST(ExactDirection, OfARadialLensFollowsItsForwardMap) {
   std::mt19937_64 random(5);
   int counts[3] = {};
-  for (int i = 0; i < 300 / testing::effort; ++i) {
+  for (int i = 0; i < 300 / checks::effort; ++i) {
     const Lens lens = oracle::random_lens(random, LensModel::radial, 0.5);
     const Preimages preimages({}, lens);
     const double a = static_cast<int>(random() % 400) / 512.0, b = 0.25;

@@ -43,7 +43,7 @@ Projection wide_camera(std::mt19937_64& random) {
 
 TEST_P(Fisheyes, SeeAsTheOracleDoes) {
   int found = 0, beyond_90_degrees = 0;
-  for (std::uint64_t seed = 0; seed < 30 / testing::effort + 2; ++seed) {
+  for (std::uint64_t seed = 0; seed < 30 / checks::effort + 2; ++seed) {
     std::mt19937_64 random(seed);
     const Lens lens =
         oracle::random_lens(random, GetParam(), std::array{0.01, 0.05, 0.3}[seed % 3]);
@@ -66,7 +66,7 @@ TEST_P(Fisheyes, SeeAsTheOracleDoes) {
     }
   }
   EXPECT_GT(found, 0);
-  if (testing::effort == 1) {
+  if (checks::effort == 1) {
     EXPECT_GT(beyond_90_degrees, 0);
   }
 }

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "fathom/lens/preimages.h"
@@ -59,7 +58,7 @@ std::optional<ExactDirection> ray(double omega, const Dyadic& x, const Dyadic& y
 
 TEST(Fov, SeesWhatTheForwardModelShows) {
   int found = 0, without_ray = 0;
-  for (std::uint64_t seed = 0; seed < 60 / testing::effort + 2; ++seed) {
+  for (std::uint64_t seed = 0; seed < 60 / checks::effort + 2; ++seed) {
     std::mt19937_64 random(seed);
     const double omega =
         std::uniform_real_distribution(0.3, 2.5)(random) * (seed % 2 == 0 ? 1 : -1);
@@ -86,7 +85,7 @@ TEST(Fov, SeesWhatTheForwardModelShows) {
     }
   }
   EXPECT_GT(found, 0);
-  if (testing::effort == 1) {
+  if (checks::effort == 1) {
     EXPECT_GT(without_ray, 0);
   }
 }

@@ -31,13 +31,6 @@ Direction direction_of(const Coefficients& p, const Point& y) {
   return {y.x * sine / r, y.y * sine / r, cosine};
 }
 
-Point distorted_point(const Projection& camera, double u, double v) {
-  const ArbBall shift = ArbBall(0.5) - ArbBall(camera.pixel_centre);
-  const ArbBall y = (ArbBall(v) - ArbBall(camera.cy) - shift) / ArbBall(camera.fy);
-  const ArbBall U = ArbBall(u) - ArbBall(camera.cx) - shift;
-  return {(U - ArbBall(camera.skew) * y) / ArbBall(camera.fx), y};
-}
-
 Lens ftheta(const Coefficients& p) {
   return {LensModel::ftheta, p};
 }
@@ -48,7 +41,7 @@ std::optional<ExactDirection> ray(const Coefficients& p, const Dyadic& x, const 
 
 TEST(Ftheta, SeesAsTheOracleDoes) {
   int found = 0, beyond_90_degrees = 0, across = 0, without_ray = 0;
-  for (std::uint64_t seed = 0; seed < 60 / testing::effort + 2; ++seed) {
+  for (std::uint64_t seed = 0; seed < 60 / checks::effort + 2; ++seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(-1, 1);
     Coefficients p{seed % 2 == 0 ? 0 : uniform(random), 1 + 0.5 * uniform(random)};
@@ -60,7 +53,7 @@ TEST(Ftheta, SeesAsTheOracleDoes) {
     const double end = AnglePolynomial(ftheta(p)).end();
     for (const auto& [u, v] :
          {std::pair{640.5, 360.5}, {300.5, 200.25}, {100.25, 600.75}, {900.5, 12.5}}) {
-      const Point y = distorted_point(camera, u, v);
+      const Point y = oracle::distorted_point(camera, u, v);
       const auto d = preimages.of(u, v);
       ASSERT_EQ(d.has_value(), (y.x * y.x + y.y * y.y).root().approximate() < end) << seed;
       if (!d) {
@@ -77,7 +70,7 @@ TEST(Ftheta, SeesAsTheOracleDoes) {
     }
   }
   EXPECT_GT(found, 0);
-  if (testing::effort == 1) {
+  if (checks::effort == 1) {
     EXPECT_GT(beyond_90_degrees, 0);
     EXPECT_GT(across, 0);
     EXPECT_GT(without_ray, 0);

@@ -118,6 +118,13 @@ bool is_shown(const NamedParameters& n, const Point& m) {
   return (M[2][0] * d.x.v + M[2][1] * d.y.v + M[2][2]).sign() > 0;
 }
 
+Point distorted_point(const Projection& camera, double u, double v) {
+  const ArbBall shift = ArbBall(0.5) - ArbBall(camera.pixel_centre);
+  const ArbBall y = (ArbBall(v) - ArbBall(camera.cy) - shift) / ArbBall(camera.fy);
+  const ArbBall U = ArbBall(u) - ArbBall(camera.cx) - shift;
+  return {(U - ArbBall(camera.skew) * y) / ArbBall(camera.fx), y};
+}
+
 Point sample_of(const Projection& camera, const NamedParameters& n, const Point& m) {
   const auto d = distorted(n, m.x, m.y);
   const Point p = tilted(n, {d.x.v, d.y.v});

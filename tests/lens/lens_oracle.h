@@ -101,6 +101,9 @@ OraclePoint<ArbBall> tilted(const NamedParameters& n, const OraclePoint<ArbBall>
 /// Whether the ray (m, 1) is in front of the tilted sensor.
 bool is_shown(const NamedParameters& n, const OraclePoint<ArbBall>& m);
 
+/// The distorted point that a camera shows at the sample (u, v).
+OraclePoint<ArbBall> distorted_point(const Projection& camera, double u, double v);
+
 /// The sample at which a camera shows the ray (m, 1).
 OraclePoint<ArbBall> sample_of(const Projection& camera, const NamedParameters& n,
                                const OraclePoint<ArbBall>& m);

@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Lenses, Panoramas,
 
 TEST_P(Panoramas, SeeAsTheOracleDoes) {
   int behind = 0, aside = 0;
-  for (std::uint64_t seed = 0; seed < 300 / testing::effort; ++seed) {
+  for (std::uint64_t seed = 0; seed < 300 / checks::effort; ++seed) {
     std::mt19937_64 random(seed);
     const auto number = [&random](double size) {
       return size * std::ldexp(static_cast<double>(random() >> 11), -53);
@@ -79,7 +79,7 @@ TEST_P(Panoramas, SeeAsTheOracleDoes) {
     for (const int offset : {4, 40, 100, 250, 380})
       expect_signs_of_oracle(*d, exact, offset, random);
   }
-  if (testing::effort == 1) {
+  if (checks::effort == 1) {
     EXPECT_GT(behind, 100);
     EXPECT_GT(aside, 100);
   }

@@ -12,8 +12,8 @@
 namespace fathom::fast {
 namespace {
 
+using checks::NamedLens;
 using oracle::ArbBall;
-using testing::NamedLens;
 
 constexpr std::uint32_t width = 150, height = 90;
 

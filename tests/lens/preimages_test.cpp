@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "tests/effort.h"
 #include "tests/lens/lens_oracle.h"
+#include "tests/special_values.h"
 
 namespace fathom::lens {
 namespace {
@@ -15,8 +15,6 @@ namespace {
 using oracle::ArbBall;
 using oracle::NamedParameters;
 using Point = oracle::OraclePoint<ArbBall>;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string described(const Lens& lens) {
   std::string text(name_of(lens.model));
@@ -59,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(Lenses, StageModels, ::testing::ValuesIn(oracle::stage_
 
 TEST_P(StageModels, HaveThePreimagesOfTheOracle) {
   int found = 0, none = 0;
-  for (std::uint64_t seed = 0; seed < 24 / testing::effort + 1; ++seed) {
+  for (std::uint64_t seed = 0; seed < 24 / checks::effort + 1; ++seed) {
     const auto [lens, camera] = random_case(seed, GetParam());
     SCOPED_TRACE(described(lens));
     const Preimages preimages(camera, lens);
@@ -82,7 +80,7 @@ TEST_P(StageModels, HaveThePreimagesOfTheOracle) {
     }
   }
   EXPECT_GT(found, 0);
-  if (testing::effort == 1) {
+  if (checks::effort == 1) {
     EXPECT_GT(none, 0);
   }
 }

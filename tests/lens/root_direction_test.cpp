@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "fathom/lens/preimages.h"
@@ -76,13 +75,6 @@ Direction direction_of(const Lens& lens, const Point& y) {
   }
 }
 
-Point distorted_point(const Projection& camera, double u, double v) {
-  const ArbBall shift = half - ArbBall(camera.pixel_centre);
-  const ArbBall y = (ArbBall(v) - ArbBall(camera.cy) - shift) / ArbBall(camera.fy);
-  const ArbBall U = ArbBall(u) - ArbBall(camera.cx) - shift;
-  return {(U - ArbBall(camera.skew) * y) / ArbBall(camera.fx), y};
-}
-
 template <class Box>
 Direction hull_of(const Box& box) {
   const auto of = [](const auto& x) {
@@ -146,7 +138,7 @@ Lens random_lens(std::mt19937_64& random, LensModel model) {
 
 TEST_P(Roots, SeeWhatTheForwardModelShows) {
   int found = 0, beyond_90_degrees = 0, without_ray = 0;
-  for (std::uint64_t seed = 0; seed < 60 / testing::effort + 2; ++seed) {
+  for (std::uint64_t seed = 0; seed < 60 / checks::effort + 2; ++seed) {
     std::mt19937_64 random(seed);
     const Lens lens = random_lens(random, GetParam());
     Projection camera = oracle::random_camera(random);
@@ -156,7 +148,7 @@ TEST_P(Roots, SeeWhatTheForwardModelShows) {
     const double end = RootProfile(*root_formula(lens)).end();
     for (const auto& [u, v] :
          {std::pair{640.5, 360.5}, {300.5, 200.25}, {100.25, 600.75}, {900.5, 12.5}}) {
-      const Point y = distorted_point(camera, u, v);
+      const Point y = oracle::distorted_point(camera, u, v);
       const auto d = preimages.of(u, v);
       const double r = (y.x * y.x + y.y * y.y).root().approximate();
       ASSERT_EQ(d.has_value(), r < end) << seed << ' ' << r;
@@ -176,7 +168,7 @@ TEST_P(Roots, SeeWhatTheForwardModelShows) {
     }
   }
   EXPECT_GT(found, 0);
-  if (testing::effort > 1) return;
+  if (checks::effort > 1) return;
   EXPECT_EQ(beyond_90_degrees > 0, GetParam() != LensModel::fisheye_orthographic);
   if (GetParam() != LensModel::fisheye_equisolid) {
     EXPECT_GT(without_ray, 0);
@@ -185,7 +177,7 @@ TEST_P(Roots, SeeWhatTheForwardModelShows) {
 
 TEST(OmniWithDistortion, SeesWhatTheOracleSees) {
   int found = 0, beyond_90_degrees = 0;
-  for (std::uint64_t seed = 0; seed < 30 / testing::effort + 2; ++seed) {
+  for (std::uint64_t seed = 0; seed < 30 / checks::effort + 2; ++seed) {
     std::mt19937_64 random(seed);
     Lens lens = oracle::random_lens(random, LensModel::omni, std::array{0.02, 0.1, 0.3}[seed % 3]);
     lens.distortion[0] = std::uniform_real_distribution<double>(0, 1.5)(random);
@@ -211,7 +203,7 @@ TEST(OmniWithDistortion, SeesWhatTheOracleSees) {
     }
   }
   EXPECT_GT(found, 0);
-  if (testing::effort == 1) {
+  if (checks::effort == 1) {
     EXPECT_GT(beyond_90_degrees, 0);
   }
 }

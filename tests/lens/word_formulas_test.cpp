@@ -17,22 +17,22 @@
 namespace fathom::lens {
 namespace {
 
+using checks::NamedLens;
 using fast::Places;
 using fast::TileShape;
 using oracle::ArbBall;
-using testing::NamedLens;
 
-constexpr std::uint32_t width = 90, height = 70;
+constexpr std::uint32_t columns = 90, rows = 70;
 
 Camera camera_with(const Lens& lens) {
   Camera camera;
-  camera.width = width;
-  camera.height = height;
+  camera.width = columns;
+  camera.height = rows;
   camera.projection = {.fx = 30, .fy = 31, .cx = 43.5, .cy = 31.25};
   if (has_one_focal_length(entry_of(lens.model))) camera.projection.fy = camera.projection.fx;
   camera.projection.lens = lens;
   if (lens.model == LensModel::table)
-    return testing::with_table(camera, testing::DirectionMaker(3).numbers(width * height));
+    return checks::with_table(camera, checks::DirectionMaker(3).numbers(columns * rows));
   return camera;
 }
 
@@ -71,7 +71,7 @@ void check_tile(const Places& places, const Places::View& view, std::uint32_t ti
   if (of_tile.box.is_empty()) return;
   fast::StageStarts starts(places.preimages());
   starts.start(of_tile, view.axes);
-  const PixelBox area = fast::TileGrid(width, height).area(tile);
+  const PixelBox area = fast::TileGrid(columns, rows).area(tile);
   for (std::size_t i = 0; i < TileShape::samples; ++i) {
     if (of_tile.x[i] != of_tile.x[i]) continue;
     const std::uint32_t column = area.first_column + TileShape::column_of(i);
@@ -101,11 +101,11 @@ class WordFormulasOf : public ::testing::TestWithParam<NamedLens> {};
 
 TEST_P(WordFormulasOf, HoldTheExactDirections) {
   const Camera camera = camera_with(GetParam().lens);
-  const Places places(camera.projection, width, height);
+  const Places places(camera.projection, columns, rows);
   ASSERT_TRUE(places.are_usable());
   const WordFormulas formulas(places.preimages());
   Counts counts;
-  for (std::uint32_t tile = 0; tile < fast::TileGrid(width, height).count(); ++tile)
+  for (std::uint32_t tile = 0; tile < fast::TileGrid(columns, rows).count(); ++tile)
     for (const Places::View& view : places.views())
       check_tile(places, view, tile, formulas, counts);
   EXPECT_GT(counts.rays, 1000);

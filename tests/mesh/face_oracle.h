@@ -11,7 +11,7 @@
 
 #include "tests/inputs/hard_faces.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
@@ -142,4 +142,4 @@ class FaceOracle {
   int way_ = 0;
 };
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -12,9 +12,9 @@
 namespace fathom {
 namespace {
 
+using checks::slow::Point2;
 using mesh::triangulate_face;
 using mesh::Triangulation;
-using testing::slow::Point2;
 
 using Points = std::vector<Point2>;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
@@ -149,7 +149,7 @@ TEST_P(LargeFaces, AreCutAsTheSlowWayCutsThem) {
     for (const Point2& p : points) ring.push_back({p[0], p[1], 0});
     Triangles triangles, truth;
     const Triangulation kind = triangulate_face(ring, triangles);
-    const Triangulation true_kind = testing::slow::triangulate(points, truth);
+    const Triangulation true_kind = checks::slow::triangulate(points, truth);
     ASSERT_EQ(kind, true_kind) << i;
     ASSERT_EQ(triangles, truth) << i;
     ++kinds[kind];

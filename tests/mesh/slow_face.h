@@ -10,7 +10,7 @@
 
 /// Faces that are not convex, cut the slow way: a judge of faces too large for the oracle, which
 /// shares nothing with what is tested but the sign of a turn.
-namespace fathom::testing::slow {
+namespace fathom::checks::slow {
 
 using mesh::Triangulation;
 using Point2 = std::array<double, 2>;
@@ -204,4 +204,4 @@ inline Triangulation triangulate(const std::vector<Point2>& points,
   return Triangulation::fallback_fan;
 }
 
-}  // namespace fathom::testing::slow
+}  // namespace fathom::checks::slow

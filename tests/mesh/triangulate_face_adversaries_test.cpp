@@ -13,11 +13,11 @@
 namespace fathom {
 namespace {
 
+using checks::FaceFamily;
+using checks::Ring;
+using checks::Triangles;
 using mesh::triangulate_face;
 using mesh::Triangulation;
-using testing::FaceFamily;
-using testing::Ring;
-using testing::Triangles;
 
 std::string text_of(const Ring& ring) {
   std::string text;
@@ -48,7 +48,7 @@ void expect_the_rings_sides(std::size_t corners, const Triangles& triangles) {
 
 /// Where triangles have the ring's sides and none turns the other way, each point is covered as
 /// many times as the ring goes round it.
-void expect_one_way(const testing::FaceOracle& oracle, const Triangles& triangles) {
+void expect_one_way(const checks::FaceOracle& oracle, const Triangles& triangles) {
   for (const auto& t : triangles) {
     EXPECT_GE(oracle.turn_of(t) * oracle.way(), 0) << t[0] << " " << t[1] << " " << t[2];
   }
@@ -59,12 +59,12 @@ class TriangulateFaceAdversaries : public ::testing::TestWithParam<FaceFamily> {
 TEST_P(TriangulateFaceAdversaries, AreCutByTheRule) {
   std::map<Triangulation, int> kinds;
   constexpr std::uint64_t faces = 1500;
-  testing::for_each_adversary(faces, [&](std::uint64_t seed) {
-    const Ring ring = testing::hard_face(GetParam(), seed);
+  checks::for_each_adversary(faces, [&](std::uint64_t seed) {
+    const Ring ring = checks::hard_face(GetParam(), seed);
     SCOPED_TRACE(text_of(ring));
     Triangles triangles;
     const Triangulation kind = triangulate_face(ring, triangles);
-    const testing::FaceOracle oracle(ring);
+    const checks::FaceOracle oracle(ring);
     const auto [truth, warn] = oracle.run();
     EXPECT_EQ(triangles, truth);
     EXPECT_EQ(kind == Triangulation::fallback_fan, warn);
@@ -72,7 +72,7 @@ TEST_P(TriangulateFaceAdversaries, AreCutByTheRule) {
     if (kind != Triangulation::fallback_fan) expect_one_way(oracle, triangles);
     ++kinds[kind];
   });
-  if (testing::number_of_adversaries(faces) < 500) return;
+  if (checks::number_of_adversaries(faces) < 500) return;
   for (const Triangulation kind :
        {Triangulation::convex_fan, Triangulation::ear_clipping, Triangulation::fallback_fan}) {
     EXPECT_GT(kinds[kind], 3) << static_cast<int>(kind);
@@ -80,8 +80,8 @@ TEST_P(TriangulateFaceAdversaries, AreCutByTheRule) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EachFamily, TriangulateFaceAdversaries,
-                         ::testing::ValuesIn(testing::all_face_families),
-                         [](const auto& test) { return testing::name_of(test.param); });
+                         ::testing::ValuesIn(checks::all_face_families),
+                         [](const auto& test) { return checks::name_of(test.param); });
 
 }  // namespace
 }  // namespace fathom

@@ -14,10 +14,10 @@ namespace fathom {
 namespace {
 
 using namespace mesh;
+using checks::FaceOracle;
+using checks::Ring;
+using checks::Triangles;
 using ::testing::ElementsAre;
-using testing::FaceOracle;
-using testing::Ring;
-using testing::Triangles;
 
 void expect_like_oracle(const Ring& ring) {
   Triangles triangles;
@@ -38,7 +38,7 @@ void expect_like_oracle(const Ring& ring) {
 TEST(TriangulateFace, AgreesWithTheOracleOnRandomRings) {
   std::mt19937 random(31);
   std::array<int, 3> kinds{};
-  for (int i = 0; i < 30'000 / testing::effort; ++i) {
+  for (int i = 0; i < 30'000 / checks::effort; ++i) {
     const int corners = 4 + static_cast<int>(random() % 6),
               reach = 2 + static_cast<int>(random() % 5);
     const bool flat = random() % 2 == 0;
@@ -51,11 +51,11 @@ TEST(TriangulateFace, AgreesWithTheOracleOnRandomRings) {
     Triangles triangles;
     ++kinds[static_cast<int>(triangulate_face(ring, triangles))];
   }
-  for (const int count : kinds) EXPECT_GT(count, testing::effort == 1 ? 500 : 10);
+  for (const int count : kinds) EXPECT_GT(count, checks::effort == 1 ? 500 : 10);
 }
 
 /// A star-shaped ring is simple: angles ascend. Some corners are repeated, some lie on edges.
-Ring star(std::mt19937& random, int corners) {
+Ring star_ring(std::mt19937& random, int corners) {
   Ring ring;
   for (int k = 0; k < corners; ++k) {
     const double angle = 6.283185307179586 * k / corners,
@@ -69,8 +69,8 @@ Ring star(std::mt19937& random, int corners) {
 
 TEST(TriangulateFace, AgreesWithTheOracleOnConcaveRings) {
   std::mt19937 random(32);
-  for (int i = 0; i < 2000 / testing::effort; ++i) {
-    Ring ring = star(random, 5 + static_cast<int>(random() % 20));
+  for (int i = 0; i < 2000 / checks::effort; ++i) {
+    Ring ring = star_ring(random, 5 + static_cast<int>(random() % 20));
     if (i % 2 == 0) std::reverse(ring.begin(), ring.end());
     if (i % 3 == 0)
       for (MeshPoint& p : ring) p = {p.z, p.x, p.y};
@@ -82,7 +82,7 @@ TEST(TriangulateFace, AgreesWithTheOracleOnConcaveRings) {
 TEST(TriangulateFace, KeepsTheArea) {
   std::mt19937 random(33);
   for (int i = 0; i < 200; ++i) {
-    const Ring ring = star(random, 40);
+    const Ring ring = star_ring(random, 40);
     Triangles triangles;
     const Triangulation kind = triangulate_face(ring, triangles);
     ASSERT_EQ(triangles.size(), ring.size() - 2);

@@ -31,13 +31,13 @@ std::string ascii_ply(const std::string& rows, int count = 1) {
          six_points + rows;
 }
 
-Mesh read(const std::string& bytes, Warnings& warnings) {
+Mesh read_warned(const std::string& bytes, Warnings& warnings) {
   return test::read_variant({"a.ply", bytes}, warnings);
 }
 
 TEST(PlyStrips, EveryOtherTriangleTurnsRound) {
   Warnings warnings;
-  const Mesh mesh = read(ascii_ply("6 0 1 2 3 4 5\n"), warnings);
+  const Mesh mesh = read_warned(ascii_ply("6 0 1 2 3 4 5\n"), warnings);
   // By hand: all six clockwise seen from +z, as the first.
   EXPECT_THAT(mesh.triangles, ElementsAre(CornerIndices{0, 1, 2}, CornerIndices{1, 3, 2},
                                           CornerIndices{2, 3, 4}, CornerIndices{3, 5, 4}));
@@ -51,7 +51,7 @@ TEST(PlyStrips, EveryOtherTriangleTurnsRound) {
 TEST(PlyStrips, MinusOneBeginsAnother) {
   Warnings warnings;
   const Mesh mesh =
-      read(ascii_ply("11 0 1 2 3 -1 2 3 4 -1 -1 -1\n6 -1 -1 5 4 3 -1\n0\n", 3), warnings);
+      read_warned(ascii_ply("11 0 1 2 3 -1 2 3 4 -1 -1 -1\n6 -1 -1 5 4 3 -1\n0\n", 3), warnings);
   EXPECT_THAT(mesh.triangles, ElementsAre(CornerIndices{0, 1, 2}, CornerIndices{1, 3, 2},
                                           CornerIndices{2, 3, 4}, CornerIndices{5, 4, 3}));
   EXPECT_THAT(warnings, ElementsAre());
@@ -60,7 +60,7 @@ TEST(PlyStrips, MinusOneBeginsAnother) {
 /// Repeated corners, which join strips, give triangles without area; they count and keep the turn.
 TEST(PlyStrips, StitchesAreTriangles) {
   Warnings warnings;
-  const Mesh mesh = read(ascii_ply("8 0 1 2 2 3 3 4 5\n"), warnings);
+  const Mesh mesh = read_warned(ascii_ply("8 0 1 2 2 3 3 4 5\n"), warnings);
   EXPECT_THAT(mesh.triangles,
               ElementsAre(CornerIndices{0, 1, 2}, CornerIndices{1, 2, 2}, CornerIndices{2, 2, 3},
                           CornerIndices{2, 3, 3}, CornerIndices{3, 3, 4}, CornerIndices{3, 5, 4}));
@@ -69,7 +69,7 @@ TEST(PlyStrips, StitchesAreTriangles) {
 
 TEST(PlyStrips, OfFewerThanThreeCornersAreSkipped) {
   Warnings warnings;
-  const Mesh mesh = read(ascii_ply("9 0 -1 1 2 -1 3 4 5 -1\n1 5\n", 2), warnings);
+  const Mesh mesh = read_warned(ascii_ply("9 0 -1 1 2 -1 3 4 5 -1\n1 5\n", 2), warnings);
   EXPECT_THAT(mesh.triangles, ElementsAre(CornerIndices{3, 4, 5}));
   EXPECT_EQ(mesh.face_count, 1U);
   EXPECT_THAT(warnings,
@@ -86,7 +86,7 @@ TEST(PlyStrips, BesideFaces) {
                               six_points +
                               (strips_first ? strip_rows + face_rows : face_rows + strip_rows);
     Warnings warnings;
-    const Mesh mesh = read(bytes, warnings);
+    const Mesh mesh = read_warned(bytes, warnings);
     EXPECT_EQ(mesh.face_count, 4U);
     std::vector<CornerIndices> expected{{0, 1, 3}, {0, 3, 2}, {3, 5, 4}};
     std::vector<std::uint32_t> numbers{0, 0, 1};
@@ -104,7 +104,7 @@ TEST(PlyStrips, BesideFaces) {
 
 std::string failure(const std::string& bytes) {
   Warnings warnings;
-  return message_of<InputError>([&] { read(bytes, warnings); });
+  return message_of<InputError>([&] { read_warned(bytes, warnings); });
 }
 
 TEST(PlyStrips, WrongOnesAreRefused) {
@@ -158,7 +158,7 @@ void expect_streamed_alike(const std::string& bytes, std::size_t triangles) {
   EXPECT_EQ(stream->face_count(), mesh.face_count);
   // One by one takes minutes under sanitizers.
   for (const std::uint32_t size :
-       {testing::effort > 1 ? 37U : 1U, 7U * testing::effort, 1000U, 1U << 20}) {
+       {checks::effort > 1 ? 37U : 1U, 7U * checks::effort, 1000U, 1U << 20}) {
     test::Soup streamed;
     for (std::uint32_t first = 0; first < stream->triangle_count(); first += size) {
       const TriangleChunk chunk = stream->read(first, size);

@@ -21,7 +21,7 @@ using test::soup_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-Mesh read(const std::string& name, const std::string& bytes, bool attributes = false) {
+Mesh read_bytes_of(const std::string& name, const std::string& bytes, bool attributes = false) {
   Warnings warnings;
   Mesh mesh = read_variant({name, bytes}, warnings, attributes);
   EXPECT_THAT(warnings, ElementsAre()) << name;
@@ -54,7 +54,7 @@ TEST(ReadMesh, TextIsRoundedToTheDeclaredType) {
       "vertex_indices\nend_header\n" +
       x + " " + x + " " + x + "\n";
   const Mesh mesh =
-      read("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x" + body);
+      read_bytes_of("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x" + body);
   EXPECT_EQ(mesh.vertices[0].x, 1.00000005960464477539062500000001);
   EXPECT_EQ(mesh.vertices[0].y, 0x1.000002p0);
   EXPECT_EQ(mesh.vertices[0].z, mesh.vertices[0].x);
@@ -62,10 +62,10 @@ TEST(ReadMesh, TextIsRoundedToTheDeclaredType) {
 
 TEST(ReadMesh, KeepsAttributesOfObj) {
   const Mesh mesh =
-      read("a.obj",
-           "v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0 2 0 0 0.25\nvt 0.5\nvt 1 2 3\nvn 0 0 1\n"
-           "f 1/2 2//1 3/1/-1\nf 1 2 3\n",
-           true);
+      read_bytes_of("a.obj",
+                    "v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0 2 0 0 0.25\nvt 0.5\nvt 1 2 3\nvn 0 0 1\n"
+                    "f 1/2 2//1 3/1/-1\nf 1 2 3\n",
+                    true);
   EXPECT_THAT(mesh.texture_coordinates, ElementsAre(std::array{0.5, 0.0}, std::array{1.0, 2.0}));
   EXPECT_THAT(mesh.normals, ElementsAre(std::array{0.0, 0.0, 1.0}));
   EXPECT_THAT(mesh.colours,
@@ -78,7 +78,7 @@ TEST(ReadMesh, KeepsAttributesOfObj) {
 }
 
 TEST(ReadMesh, KeepsAttributesOfPly) {
-  const Mesh mesh = read(
+  const Mesh mesh = read_bytes_of(
       "a.ply",
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty "
       "float z\nproperty float nx\nproperty float ny\nproperty float nz\nproperty uchar "
@@ -93,7 +93,7 @@ TEST(ReadMesh, KeepsAttributesOfPly) {
 
 TEST(ReadMesh, PolygonsAreCutWithTheirAttributes) {
   // An L whose reflex corner is the third: a fan from the first corner leaves it.
-  const Mesh mesh = read(
+  const Mesh mesh = read_bytes_of(
       "l.obj",
       "v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nvt 1\nvt 2\nvt 3\nvt 4\nvt 5\nvt 6\n"
       "f 1 2 3\nf 1/6 2/5 3/4 4/3 5/2 6/1\nf 6 1 2 3\n",
@@ -209,8 +209,8 @@ TEST(ReadMesh, BinaryRowsAtOnceAreThoseOneByOne) {
     return text;
   };
   const std::string list = "property list uchar uchar more\n";
-  const Mesh at_once = read("a.ply", ply("", "", 1, 3));
-  const Mesh one_by_one = read("a.ply", ply(list, list, 1, 3));
+  const Mesh at_once = read_bytes_of("a.ply", ply("", "", 1, 3));
+  const Mesh one_by_one = read_bytes_of("a.ply", ply(list, list, 1, 3));
   EXPECT_EQ(at_once.vertices, one_by_one.vertices);
   EXPECT_EQ(at_once.vertices[2], (MeshPoint{7, 11, 3}));
   EXPECT_EQ(at_once.triangles, one_by_one.triangles);

@@ -298,15 +298,15 @@ TEST(PlyLabels, OfAStreamAreThoseOfTheReader) {
   }
 }
 
-using testing::five;
-using testing::json;
+using checks::five;
+using checks::json;
 
-testing::Read read_gltf(const json& asset) {
-  return testing::read_bytes(asset.dump(), "test.gltf", with_segments());
+checks::Read read_gltf(const json& asset) {
+  return checks::read_bytes(asset.dump(), "test.gltf", with_segments());
 }
 
 TEST(GltfSegments, AreNamesOfMaterialsMeshesAndNodes) {
-  testing::Asset asset = five({{"material", 1}});
+  checks::Asset asset = five({{"material", 1}});
   asset.tree["materials"] = {{{"name", "steel"}}, json::object(), {{"name", "steel"}}};
   json& primitives = asset.tree["meshes"][0]["primitives"];
   for (const int material : {0, 2, 1}) {
@@ -318,7 +318,7 @@ TEST(GltfSegments, AreNamesOfMaterialsMeshesAndNodes) {
   asset.tree["meshes"][0]["name"] = "wheel";
   asset.tree["nodes"] = {{{"mesh", 0}, {"name", "left"}}, {{"mesh", 0}}};
   asset.tree["scenes"][0]["nodes"] = {0, 1};
-  const testing::Read read = read_gltf(asset.done());
+  const checks::Read read = read_gltf(asset.done());
   EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("left over")));
   const Scene& scene = read.scene;
   ASSERT_EQ(scene.meshes.size(), 1U);
@@ -331,21 +331,21 @@ TEST(GltfSegments, AreNamesOfMaterialsMeshesAndNodes) {
   ASSERT_EQ(scene.objects.size(), 2U);
   EXPECT_EQ(scene.objects[0].segments->names.at(Segmentation::part), "left");
   EXPECT_EQ(scene.objects[1].segments->names.at(Segmentation::part), "wheel");
-  EXPECT_EQ(testing::read_bytes(asset.done().dump()).scene.objects[0].segments, nullptr);
-  EXPECT_THAT(testing::read_bytes(asset.done().dump()).scene.meshes[0].segments, IsEmpty());
+  EXPECT_EQ(checks::read_bytes(asset.done().dump()).scene.objects[0].segments, nullptr);
+  EXPECT_THAT(checks::read_bytes(asset.done().dump()).scene.meshes[0].segments, IsEmpty());
 }
 
 TEST(GltfSegments, OfMaterialsThatAreWrongAreNone) {
   for (const json& wrong : {json(7), json("steel"), json(0.5), json(-1), json(nullptr)}) {
-    testing::Asset asset = five({{"material", wrong}});
+    checks::Asset asset = five({{"material", wrong}});
     asset.tree["materials"] = {{{"name", 5}}};
-    const testing::Read read = read_gltf(asset.done());
+    const checks::Read read = read_gltf(asset.done());
     EXPECT_EQ(read.scene.meshes[0].segments_by(Segmentation::material), nullptr) << wrong;
     EXPECT_THAT(
         read.warnings,
         ::testing::Contains(HasSubstr("1 primitive has a material that is not in the file")));
   }
-  testing::Asset asset = five({{"material", 0}});
+  checks::Asset asset = five({{"material", 0}});
   asset.tree["materials"] = {{{"name", 5}}};
   EXPECT_THAT(names_of(read_gltf(asset.done()).scene.meshes[0], Segmentation::material),
               ElementsAre("material 0"));

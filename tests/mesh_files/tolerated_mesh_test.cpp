@@ -38,7 +38,7 @@ TEST(ToleratedMesh, WarnedVariantsAreTheSameMesh) {
 }
 
 /// The mesh, and its warnings through `warnings`.
-Mesh read(const std::string& name, const std::string& bytes, Warnings& warnings) {
+Mesh read_warned(const std::string& name, const std::string& bytes, Warnings& warnings) {
   return read_variant({name, bytes}, warnings, true);
 }
 
@@ -46,11 +46,11 @@ const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 TEST(ToleratedMesh, ObjKeepsTheAttributesThatAreThere) {
   Warnings warnings;
-  const Mesh mesh = read("a.obj",
-                         triangle +
-                             "vt 0.5 0.25\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/0\n"
-                             "f 1/-1/-1 2/-2/1 3/0/-2\n",
-                         warnings);
+  const Mesh mesh = read_warned("a.obj",
+                                triangle +
+                                    "vt 0.5 0.25\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/0\n"
+                                    "f 1/-1/-1 2/-2/1 3/0/-2\n",
+                                warnings);
   EXPECT_THAT(mesh.texture_triangles,
               ElementsAre(CornerIndices{0, no_index, 0}, CornerIndices{0, no_index, no_index}));
   EXPECT_THAT(mesh.normal_triangles,
@@ -68,7 +68,7 @@ TEST(ToleratedMesh, ObjKeepsTheAttributesThatAreThere) {
 /// Without any vn or vt in the file nobody may take the numbers of vertices for theirs.
 TEST(ToleratedMesh, ObjWithoutAttributesHasNone) {
   Warnings warnings;
-  const Mesh mesh = read("a.obj", triangle + "f 1/1/1 2/2/2 3/3/3\n", warnings);
+  const Mesh mesh = read_warned("a.obj", triangle + "f 1/1/1 2/2/2 3/3/3\n", warnings);
   EXPECT_TRUE(mesh.texture_triangles.empty() && mesh.texture_coordinates.empty());
   EXPECT_TRUE(mesh.normal_triangles.empty() && mesh.normals.empty());
   EXPECT_EQ(warnings.size(), 2U);
@@ -89,10 +89,10 @@ TEST(ToleratedMesh, ObjCountsOverAllPieces) {
 
 TEST(ToleratedMesh, ObjColoursThatAreNoneAreWhite) {
   Warnings warnings;
-  const Mesh mesh = read("a.obj",
-                         "v 0 0 0 0 0.5 1\nv 1 0 0 nan 0 0\nv 0 1 0 0.25 0\n"
-                         "v 0 0 1 1 0 0 0.5\nf 1 2 3\n",
-                         warnings);
+  const Mesh mesh = read_warned("a.obj",
+                                "v 0 0 0 0 0.5 1\nv 1 0 0 nan 0 0\nv 0 1 0 0.25 0\n"
+                                "v 0 0 1 1 0 0 0.5\nf 1 2 3\n",
+                                warnings);
   EXPECT_THAT(mesh.colours,
               ElementsAre(std::array{0.0F, 0.5F, 1.0F, 1.0F}, std::array{1.0F, 1.0F, 1.0F, 1.0F},
                           std::array{1.0F, 1.0F, 1.0F, 1.0F}, std::array{1.0F, 0.0F, 0.0F, 0.5F}));
@@ -105,10 +105,11 @@ TEST(ToleratedMesh, ObjColoursThatAreNoneAreWhite) {
 /// x/w, y/w and z/w are each rounded once: 1/3, 2/3 and 1/49 in binary64, from their expansions.
 TEST(ToleratedMesh, ObjWeightsDivide) {
   Warnings warnings;
-  const Mesh mesh = read("a.obj",
-                         "v 1 2 -1 3\nv 1 49 0 49\nv 4.9406564584124654e-324 3e-323 1e308 2\n"
-                         "v -0.5 0.5 2 -0.5\nv 1 2 3 1.0\nf 1 2 3\n",
-                         warnings);
+  const Mesh mesh =
+      read_warned("a.obj",
+                  "v 1 2 -1 3\nv 1 49 0 49\nv 4.9406564584124654e-324 3e-323 1e308 2\n"
+                  "v -0.5 0.5 2 -0.5\nv 1 2 3 1.0\nf 1 2 3\n",
+                  warnings);
   EXPECT_EQ(mesh.vertices[0],
             (MeshPoint{0x1.5555555555555p-2, 0x1.5555555555555p-1, -0x1.5555555555555p-2}));
   EXPECT_EQ(mesh.vertices[1], (MeshPoint{0x1.4e5e0a72f0539p-6, 1, 0}));
@@ -122,7 +123,7 @@ TEST(ToleratedMesh, ObjWeightsDivide) {
 
 TEST(ToleratedMesh, ObjInThePlane) {
   Warnings warnings;
-  const Mesh mesh = read("a.obj", "v 0 0\nv 1 0 # x\nv 0 \\\n 1\nf 1 2 3\n", warnings);
+  const Mesh mesh = read_warned("a.obj", "v 0 0\nv 1 0 # x\nv 0 \\\n 1\nf 1 2 3\n", warnings);
   EXPECT_THAT(mesh.vertices,
               ElementsAre(MeshPoint{0, 0, 0}, MeshPoint{1, 0, 0}, MeshPoint{0, 1, 0}));
   EXPECT_THAT(warnings, ElementsAre("a.obj: its 3 vertices have two coordinates: read with z = 0"));
@@ -130,11 +131,11 @@ TEST(ToleratedMesh, ObjInThePlane) {
 
 TEST(ToleratedMesh, ObjElementsThatAreNoFaces) {
   Warnings warnings;
-  const Mesh mesh = read("a.obj",
-                         triangle +
-                             "l 1 2 3\np 1\ncstype bezier\ndeg 3\ncurv 0 1 1 2\nend\n"
-                             "f 1 2 2 3 # doubled\nf 1 2 3 \t\n",
-                         warnings);
+  const Mesh mesh = read_warned("a.obj",
+                                triangle +
+                                    "l 1 2 3\np 1\ncstype bezier\ndeg 3\ncurv 0 1 1 2\nend\n"
+                                    "f 1 2 2 3 # doubled\nf 1 2 3 \t\n",
+                                warnings);
   EXPECT_EQ(mesh.face_count, 2U);
   EXPECT_EQ(mesh.triangles.size(), 3U);
   EXPECT_EQ(warnings.size(), 5U);
@@ -146,7 +147,7 @@ TEST(ToleratedMesh, OffColoursOfWhateverKeyword) {
   using Colour = std::array<float, 4>;
   const auto of = [](const std::string& text) {
     Warnings warnings;
-    return read("a.off", text, warnings).colours;
+    return read_warned("a.off", text, warnings).colours;
   };
   EXPECT_THAT(of("OFF\n2 0 0\n0 0 0 255 0 51\n1 0 0 0 0 0 255\n"),
               ElementsAre(Colour{1, 0, 0.2F, 1}, Colour{0, 0, 0, 1}));
@@ -162,8 +163,8 @@ TEST(ToleratedMesh, OffColoursOfWhateverKeyword) {
 /// MeshLab writes NCOFF, and colours before normals.
 TEST(ToleratedMesh, OffPrefixesInTheOtherOrder) {
   Warnings warnings;
-  const Mesh first = read("a.off", "CNOFF\n1 0 0\n0 0 0 0 0 1 255 0 51 255\n", warnings);
-  const Mesh second = read("a.off", "NCOFF\n1 0 0\n0 0 0 255 0 51 255 0 0 1\n", warnings);
+  const Mesh first = read_warned("a.off", "CNOFF\n1 0 0\n0 0 0 0 0 1 255 0 51 255\n", warnings);
+  const Mesh second = read_warned("a.off", "NCOFF\n1 0 0\n0 0 0 255 0 51 255 0 0 1\n", warnings);
   EXPECT_EQ(first.normals, second.normals);
   EXPECT_EQ(first.colours, second.colours);
   EXPECT_THAT(first.normals, ElementsAre(std::array{0.0, 0.0, 1.0}));
@@ -173,11 +174,11 @@ TEST(ToleratedMesh, OffPrefixesInTheOtherOrder) {
 /// Two vertices a line could be vertices with colours: then there would be too few lines.
 TEST(ToleratedMesh, OffIsReadByLinesWhereThereAreEnough) {
   Warnings warnings;
-  const Mesh lines =
-      read("a.off", "OFF\n3 1 0\n0 0 0 1 1 1\n1 0 0 1 1 1\n0 1 0 1 1 1\n3 0 1 2\n", warnings);
+  const Mesh lines = read_warned(
+      "a.off", "OFF\n3 1 0\n0 0 0 1 1 1\n1 0 0 1 1 1\n0 1 0 1 1 1\n3 0 1 2\n", warnings);
   EXPECT_THAT(lines.vertices,
               ElementsAre(MeshPoint{0, 0, 0}, MeshPoint{1, 0, 0}, MeshPoint{0, 1, 0}));
-  const Mesh words = read("a.off", "OFF\n3 1 0\n0 0 0 1 0 0\n0 1 0\n3 0 1 2\n", warnings);
+  const Mesh words = read_warned("a.off", "OFF\n3 1 0\n0 0 0 1 0 0\n0 1 0\n3 0 1 2\n", warnings);
   EXPECT_EQ(words.vertices, lines.vertices);
   EXPECT_EQ(words.triangles, lines.triangles);
   EXPECT_THAT(warnings, ElementsAre());
@@ -185,10 +186,11 @@ TEST(ToleratedMesh, OffIsReadByLinesWhereThereAreEnough) {
 
 TEST(ToleratedMesh, StlNormalsOfWindows) {
   Warnings warnings;
-  const Mesh mesh = read("a.stl",
-                         "solid\nfacet normal -1.#IND 0 1.#INF\nloop\nvertex 0 0 0\nvertex 1 0 0\n"
-                         "vertex 0 1 0\nendloop\nendfacet\nendsolid\n",
-                         warnings);
+  const Mesh mesh =
+      read_warned("a.stl",
+                  "solid\nfacet normal -1.#IND 0 1.#INF\nloop\nvertex 0 0 0\nvertex 1 0 0\n"
+                  "vertex 0 1 0\nendloop\nendfacet\nendsolid\n",
+                  warnings);
   ASSERT_EQ(mesh.normals.size(), 1U);
   EXPECT_NE(mesh.normals[0][0], mesh.normals[0][0]);
   EXPECT_EQ(mesh.normals[0][1], 0);

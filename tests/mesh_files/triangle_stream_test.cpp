@@ -247,8 +247,8 @@ TEST(TriangleStream, RandomPly) {
   const ScratchFolder folder;
   std::mt19937_64 random(31);
   int warned = 0, uneven = 0;
-  const int files = testing::effort > 1 ? 12 : 60;
-  const std::uint32_t many = testing::effort > 1 ? 600 : 2000;
+  const int files = checks::effort > 1 ? 12 : 60;
+  const std::uint32_t many = checks::effort > 1 ? 600 : 2000;
   for (int i = 0; i < files; ++i) {
     SCOPED_TRACE("file " + std::to_string(i) + " of seed 31");
     const int other_faces = std::array{0, 2, 50, 100}[i % 4];

@@ -133,7 +133,7 @@ TEST(UncheckedStream, BrokenFilesFailAlike) {
 }
 
 template <class T>
-void put(std::string& bytes, T value) {
+void append(std::string& bytes, T value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
@@ -146,13 +146,13 @@ std::string ply_of(const std::vector<std::uint8_t>& corners, std::mt19937& rando
       "element face " +
       std::to_string(corners.size()) +
       "\nproperty list uchar int vertex_indices\nproperty uchar flags\nend_header\n";
-  put(bytes, 1.5);
-  put(bytes, 2.5);
-  for (std::uint32_t i = 0; i < 3 * vertices; ++i) put(bytes, static_cast<float>(random() % 32));
+  append(bytes, 1.5);
+  append(bytes, 2.5);
+  for (std::uint32_t i = 0; i < 3 * vertices; ++i) append(bytes, static_cast<float>(random() % 32));
   for (const std::uint8_t count : corners) {
-    put(bytes, count);
-    for (int k = 0; k < count; ++k) put(bytes, static_cast<std::int32_t>(random() % vertices));
-    put(bytes, std::uint8_t{3});
+    append(bytes, count);
+    for (int k = 0; k < count; ++k) append(bytes, static_cast<std::int32_t>(random() % vertices));
+    append(bytes, std::uint8_t{3});
   }
   return bytes;
 }

@@ -3,22 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "fathom/numeric/certified_value.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "tests/effort.h"
 #include "tests/numeric/random_numbers.h"
+#include "tests/special_values.h"
 
 namespace fathom {
 namespace {
 
-using testing::Numbers;
+using checks::Numbers;
 
 static_assert(unit_roundoff<double> == 0x1p-53 && unit_roundoff<float> == 0x1p-24);
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A number with a bound, and a number that it may stand for.
 struct Meant {
@@ -46,7 +44,7 @@ void expect_within(const Certified<double>& computed, const Ratio& exact) {
 TEST(CertifiedArithmetic, BoundsHoldWhateverUnderflows) {
   Numbers n(71);
   int known_quotients = 0;
-  for (int i = 0; i < 40000 / testing::effort; ++i) {
+  for (int i = 0; i < 40000 / checks::effort; ++i) {
     const Meant a(n), b(n);
     expect_within(a.computed + b.computed, Ratio(a.exact + b.exact));
     expect_within(a.computed * b.computed, Ratio(a.exact * b.exact));
@@ -55,7 +53,7 @@ TEST(CertifiedArithmetic, BoundsHoldWhateverUnderflows) {
     known_quotients += std::isfinite(quotient.error);
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(known_quotients, 10000 / testing::effort);
+  EXPECT_GT(known_quotients, 10000 / checks::effort);
 }
 
 TEST(CertifiedArithmetic, AQuotientByWhatMayBeZeroIsNotKnown) {

@@ -12,8 +12,8 @@
 namespace fathom {
 namespace {
 
+using checks::Draw;
 using oracle::MpfrNumber;
-using testing::Draw;
 
 /// Enough for any sum of binary64 numbers, exactly.
 constexpr long wide = 2200;
@@ -115,7 +115,7 @@ void check_exponential(Draw& draw) {
 }
 
 TEST(CertifiedLogarithmAdversaries, EncloseTheLogarithm) {
-  testing::for_each_adversary(5000, [](std::uint64_t seed) {
+  checks::for_each_adversary(5000, [](std::uint64_t seed) {
     Draw draw(seed);
     check_logarithm<true>(draw);
     check_logarithm<false>(draw);
@@ -123,7 +123,7 @@ TEST(CertifiedLogarithmAdversaries, EncloseTheLogarithm) {
 }
 
 TEST(CertifiedLogarithmAdversaries, EncloseTheExponential) {
-  testing::for_each_adversary(5000, [](std::uint64_t seed) {
+  checks::for_each_adversary(5000, [](std::uint64_t seed) {
     Draw draw(seed);
     check_exponential<true>(draw);
     check_exponential<false>(draw);

@@ -14,8 +14,8 @@
 namespace fathom {
 namespace {
 
-using testing::exactly;
-using testing::Numbers;
+using checks::exactly;
+using checks::Numbers;
 
 /// Where a rounding comes out, both ends of the interval round to it exactly; and it comes out
 /// where an interval twice as wide would still be settled.
@@ -56,7 +56,7 @@ TEST(CertifiedRounding, IsRightAndHardlyEverDeclinesWithoutNeed) {
     return round_to_integer(Ratio(x), 1 << 20).value_or(0);
   };
   int settled[4]{}, open[4]{};
-  for (int i = 0; i < 20000 / testing::effort; ++i) {
+  for (int i = 0; i < 20000 / checks::effort; ++i) {
     const double sign = n.below(2) ? 1 : -1;
     // Near the middle between two binary32 numbers in (1, 2).
     const double base = static_cast<float>(1.5 + 0.4 * n.unit());
@@ -85,8 +85,8 @@ TEST(CertifiedRounding, IsRightAndHardlyEverDeclinesWithoutNeed) {
     }
   }
   for (int k = 0; k < 4; ++k) {
-    EXPECT_GT(settled[k], 1000 / testing::effort) << k;
-    EXPECT_GT(open[k], 1000 / testing::effort) << k;
+    EXPECT_GT(settled[k], 1000 / checks::effort) << k;
+    EXPECT_GT(open[k], 1000 / checks::effort) << k;
   }
 }
 

@@ -10,8 +10,8 @@
 namespace fathom {
 namespace {
 
-using testing::any_double;
-using testing::few_bits;
+using checks::any_double;
+using checks::few_bits;
 
 /// det by Leibniz in GMP rationals, sharing nothing with the code under test.
 int sign_of_leibniz(const double (&m)[3][3]) {

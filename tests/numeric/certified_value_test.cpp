@@ -14,17 +14,17 @@
 namespace fathom {
 namespace {
 
-using testing::exactly;
-using testing::Numbers;
-using testing::Share;
+using checks::exactly;
+using checks::Numbers;
+using checks::Share;
 
 /// A number with a bound, and a number that it may stand for.
 template <class Real>
-struct Meant {
+struct MeantValue {
   Certified<Real> computed;
   Dyadic exact;
 
-  Meant(const Real& value, double error, double part) : computed{value, error} {
+  MeantValue(const Real& value, double error, double part) : computed{value, error} {
     exact = exactly(value) + Dyadic(error) * Dyadic(part);
   }
 };
@@ -40,7 +40,7 @@ DoubleWord<fused> scaled(const DoubleWord<fused>& x, int power) {
 /// Of any exponent, or near the ends of the range; some are exact, some 0, some err by as much as
 /// they are large.
 template <class Real>
-Meant<Real> any_number(Numbers& n) {
+MeantValue<Real> any_number(Numbers& n) {
   const int power = n.below(2) ? n.below(1900) - 1074 : -1074 + n.below(130);
   const Real value = n.below(16) == 0 ? Real(0.0) : scaled(entry<Real>(n.word_pair()), power);
   const bool is_exact = n.below(3) == 0;
@@ -59,16 +59,16 @@ template <class Real>
 void expect_bounds_at_all_magnitudes() {
   Numbers n(77);
   Share sums, products, quotients;
-  for (int i = 0; i < 60000 / testing::effort; ++i) {
+  for (int i = 0; i < 60000 / checks::effort; ++i) {
     const auto x = any_number<Real>(n), y = any_number<Real>(n);
     expect_within(sum(x.computed, y.computed), Ratio(x.exact + y.exact), sums);
     expect_within(product(x.computed, y.computed), Ratio(x.exact * y.exact), products);
     if (y.exact.is_zero()) continue;
     expect_within(quotient(x.computed, y.computed), Ratio(x.exact, y.exact), quotients);
   }
-  EXPECT_GT(sums.count(), 20000 / testing::effort);
-  EXPECT_GT(products.count(), 20000 / testing::effort);
-  EXPECT_GT(quotients.count(), 10000 / testing::effort);
+  EXPECT_GT(sums.count(), 20000 / checks::effort);
+  EXPECT_GT(products.count(), 20000 / checks::effort);
+  EXPECT_GT(quotients.count(), 10000 / checks::effort);
 }
 
 TEST(CertifiedValue, BoundsHoldAtAllMagnitudesInBinary64) {

@@ -9,8 +9,8 @@
 namespace fathom {
 namespace {
 
-using testing::any_double;
-using testing::few_bits;
+using checks::any_double;
+using checks::few_bits;
 
 ExactVector3 times(const ExactVector3& v, const Dyadic& factor) {
   return {v[0] * factor, v[1] * factor, v[2] * factor};

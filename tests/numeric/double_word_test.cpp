@@ -11,10 +11,10 @@
 namespace fathom {
 namespace {
 
-using testing::exactly;
-using testing::Numbers;
-using testing::root;
-using testing::Share;
+using checks::exactly;
+using checks::Numbers;
+using checks::root;
+using checks::Share;
 
 template <bool fused>
 void expect_operations_within_their_bounds() {
@@ -29,7 +29,7 @@ void expect_operations_within_their_bounds() {
     share.add(exactly(computed) * size.denominator, exact * Ratio(size.denominator),
               Dyadic(factor * u2) * size.numerator);
   };
-  for (int i = 0; i < 40000 / testing::effort; ++i) {
+  for (int i = 0; i < 40000 / checks::effort; ++i) {
     Real x = n.word_pair(), y = n.word_pair();
     if (n.below(3) == 0) y = Real(-x.hi, x.lo * n.unit());  // cancels
     const Dyadic X = exactly(WordPair(x)), Y = exactly(WordPair(y));
@@ -43,8 +43,8 @@ void expect_operations_within_their_bounds() {
       relative(square_root_share, square_root(x), root(Ratio(X)), 8);
     }
   }
-  EXPECT_GT(square_root_share.count(), 5000 / testing::effort);
-  if (testing::effort > 1) return;  // too few cases to come near the bounds
+  EXPECT_GT(square_root_share.count(), 5000 / checks::effort);
+  if (checks::effort > 1) return;  // too few cases to come near the bounds
   EXPECT_GT(sum.publish("sum"), 0.3);
   EXPECT_GT(product.publish("product"), 0.3);
   EXPECT_GT(scaled.publish("scaled"), 0.5);
@@ -61,7 +61,7 @@ TEST(DoubleWord, OperationsStayWithinTheirBoundsWithoutFma) {
 
 TEST(DoubleWord, SumsAndProductsOfTwoNumbersAreExact) {
   Numbers n(32);
-  for (int i = 0; i < 20000 / testing::effort; ++i) {
+  for (int i = 0; i < 20000 / checks::effort; ++i) {
     const double a = std::ldexp(n.unit(), n.below(201) - 100);
     const double b = std::ldexp(n.unit(), n.below(201) - 100);
     EXPECT_EQ(exactly(two_sum(a, b)), Dyadic(a) + Dyadic(b));

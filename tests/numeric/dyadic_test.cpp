@@ -10,9 +10,9 @@
 namespace fathom {
 namespace {
 
-using testing::any_double;
-using testing::few_bits;
-using testing::Rational;
+using checks::any_double;
+using checks::few_bits;
+using checks::Rational;
 
 TEST(Dyadic, HoldsEveryFiniteDouble) {
   std::mt19937_64 random(1);
@@ -40,16 +40,16 @@ TEST(Dyadic, ArithmeticIsThatOfGmpRationals) {
     const bool ties = i % 2 == 0;
     const double x = ties ? few_bits(random) : any_double(random);
     const double y = ties ? few_bits(random) : any_double(random);
-    testing::set(a.q, x);
-    testing::set(b.q, y);
+    checks::set(a.q, x);
+    checks::set(b.q, y);
     mpq_add(expected.q, a.q, b.q);
-    testing::set(actual.q, Dyadic(x) + Dyadic(y));
+    checks::set(actual.q, Dyadic(x) + Dyadic(y));
     ASSERT_TRUE(mpq_equal(expected.q, actual.q)) << std::hexfloat << x << " + " << y;
     mpq_sub(expected.q, a.q, b.q);
-    testing::set(actual.q, Dyadic(x) - Dyadic(y));
+    checks::set(actual.q, Dyadic(x) - Dyadic(y));
     ASSERT_TRUE(mpq_equal(expected.q, actual.q)) << std::hexfloat << x << " - " << y;
     mpq_mul(expected.q, a.q, b.q);
-    testing::set(actual.q, Dyadic(x) * Dyadic(y));
+    checks::set(actual.q, Dyadic(x) * Dyadic(y));
     ASSERT_TRUE(mpq_equal(expected.q, actual.q)) << std::hexfloat << x << " * " << y;
     const int order = mpq_cmp(a.q, b.q);
     ASSERT_EQ(compare(Dyadic(x), Dyadic(y)), (order > 0) - (order < 0))
@@ -73,13 +73,13 @@ TEST(Dyadic, EnclosureIsTheLeastInterval) {
   for (int i = 0; i < 20000; ++i) {
     const Dyadic x = Dyadic(any_double(random)) + Dyadic(any_double(random)) * Dyadic(0.75);
     const Interval hull = enclose(x);
-    testing::set(exact.q, x);
+    checks::set(exact.q, x);
     if (std::isfinite(hull.lower)) {
-      testing::set(end.q, hull.lower);
+      checks::set(end.q, hull.lower);
       ASSERT_LE(mpq_cmp(end.q, exact.q), 0);
     }
     if (std::isfinite(hull.upper)) {
-      testing::set(end.q, hull.upper);
+      checks::set(end.q, hull.upper);
       ASSERT_GE(mpq_cmp(end.q, exact.q), 0);
     }
     if (hull.lower != hull.upper) {

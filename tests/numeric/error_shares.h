@@ -15,7 +15,7 @@
 #include "fathom/numeric/rounding.h"
 #include "tests/effort.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 inline Dyadic exactly(double x) {
   return x;
@@ -110,4 +110,4 @@ inline Ratio root(const Ratio& x) {
   return {std::move(numerator), std::move(denominator)};
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -12,14 +12,14 @@
 namespace fathom {
 namespace {
 
-using testing::Numbers;
-using testing::Share;
+using checks::Numbers;
+using checks::Share;
 
 TEST(ExactWords, WordsOfANumberAreItsLeadingBits) {
   Numbers n(12);
   Share lost;
   int exact = 0;
-  for (int i = 0; i < 20000 / testing::effort; ++i) {
+  for (int i = 0; i < 20000 / checks::effort; ++i) {
     Dyadic x = Dyadic(n.unit()).scaled(n.below(1200) - 600);
     for (int terms = n.below(8); terms > 0; --terms) {
       x = x + x * Dyadic(n.unit()).scaled(-n.below(130));
@@ -27,12 +27,12 @@ TEST(ExactWords, WordsOfANumberAreItsLeadingBits) {
     const Certified<WordPair> words = words_of(x);
     EXPECT_LE(words.error, 0x1p-105 * std::abs(words.value.hi));
     EXPECT_EQ(words.value.hi, words.value.hi + words.value.lo);
-    lost.add(testing::exactly(words.value), Ratio(x), words.error);
+    lost.add(checks::exactly(words.value), Ratio(x), words.error);
     if (x.top() - last_bit(x) > 106) continue;
     ++exact;
     EXPECT_EQ(words.error, 0);
   }
-  EXPECT_GT(exact, 1000 / testing::effort);
+  EXPECT_GT(exact, 1000 / checks::effort);
   EXPECT_GT(lost.greatest(), 0.9);
   EXPECT_EQ(words_of(Dyadic()).error, 0);
   EXPECT_TRUE(std::isinf(words_of(Dyadic(1.0).scaled(1000)).error));
@@ -42,14 +42,14 @@ TEST(ExactWords, WordsOfANumberAreItsLeadingBits) {
 TEST(ExactWords, SumsOfQuotientsAreWithinTheirBounds) {
   Numbers n(13);
   Share sums;
-  for (int i = 0; i < 3000 / testing::effort; ++i) {
+  for (int i = 0; i < 3000 / checks::effort; ++i) {
     std::vector<Ratio> terms;
     for (int k = n.below(9); k > 0; --k) {
       terms.emplace_back(Dyadic(n.unit()) * Dyadic(n.unit()) * Dyadic(n.unit()),
                          Dyadic(n.unit() + 2) * Dyadic(n.unit() + 2) * Dyadic(n.unit() + 2));
     }
     const Words sum = sum_in_words(terms);
-    sums.add(testing::exactly(WordPair(sum.value)), sum_of(terms), sum.error);
+    sums.add(checks::exactly(WordPair(sum.value)), sum_of(terms), sum.error);
     EXPECT_LE(sum.error, 0x1p-90);
     const Certified<double> leading = leading_word(sum);
     sums.add(Dyadic(leading.value), sum_of(terms), leading.error);

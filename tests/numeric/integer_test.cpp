@@ -29,7 +29,7 @@ TEST(Integer, MagnitudesAreQuotientsOfIntegers) {
   const Ratio x(Dyadic(-0.375), Dyadic(5.0).scaled(70));
   const Fraction f = magnitude_as_fraction(x);
   EXPECT_GT(mpz_sgn(f.denominator.get()), 0);
-  testing::Rational expected(x), ours;
+  checks::Rational expected(x), ours;
   mpq_abs(expected.q, expected.q);
   mpz_set(mpq_numref(ours.q), f.numerator);
   mpz_set(mpq_denref(ours.q), f.denominator);

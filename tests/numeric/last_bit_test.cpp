@@ -25,7 +25,7 @@ TEST(LastBit, OfNumbersKnown) {
 TEST(LastBit, IsThatOfTheOddFactor) {
   std::mt19937_64 random(61);
   for (int i = 0; i < 20000; ++i) {
-    const double x = i % 2 == 0 ? testing::any_double(random) : testing::few_bits(random);
+    const double x = i % 2 == 0 ? checks::any_double(random) : checks::few_bits(random);
     if (x == 0) continue;
     EXPECT_EQ(last_bit(x), last_bit(Dyadic(x))) << std::hexfloat << x;
     int exponent = 0;

@@ -93,8 +93,8 @@ TEST(Logarithm, RandomPowersAgreeWithMpfr) {
   }
 }
 
-using testing::Draw;
-using testing::Rational;
+using checks::Draw;
+using checks::Rational;
 
 /// A number of 3000 bits.
 class Wide : public oracle::MpfrNumber {
@@ -121,8 +121,8 @@ std::ostream& operator<<(std::ostream& out, const Rounded& x) {
 
 constexpr int code_bits[] = {16, 24, 32};
 
-Rounded rounded_by_us(const Real& x, const testing::FloatingPointMode* mode) {
-  std::optional<testing::InMode> in_mode(std::in_place, mode);
+Rounded rounded_by_us(const Real& x, const checks::FloatingPointMode* mode) {
+  std::optional<checks::InMode> in_mode(std::in_place, mode);
   const double full = round_to_binary64(x);
   const float single = round_to_binary32(x);
   const std::uint16_t half = round_to_binary16(x).bits;
@@ -200,7 +200,7 @@ Ratio above_one(Draw& draw) {
   }
 }
 
-void expect_quotient(const Ratio& a, const Ratio& b, const testing::FloatingPointMode* mode) {
+void expect_quotient(const Ratio& a, const Ratio& b, const checks::FloatingPointMode* mode) {
   Wide x, y;
   set_logarithm(x, a);
   set_logarithm(y, b);
@@ -210,9 +210,9 @@ void expect_quotient(const Ratio& a, const Ratio& b, const testing::FloatingPoin
 }
 
 TEST(LogarithmAdversaries, QuotientsAgreeWithMpfr) {
-  testing::for_each_adversary(1000, [](std::uint64_t seed) {
+  checks::for_each_adversary(1000, [](std::uint64_t seed) {
     Draw draw(seed);
-    const auto* mode = testing::any_mode(draw.generator());
+    const auto* mode = checks::any_mode(draw.generator());
     expect_quotient(above_one(draw), above_one(draw), mode);
     const Ratio root = small_root(draw);
     expect_quotient(power(root, draw.between(1, 12)), power(root, draw.between(1, 12)), mode);
@@ -238,9 +238,9 @@ Ratio any_exponent(Draw& draw) {
 }
 
 TEST(LogarithmAdversaries, PowersAgreeWithMpfr) {
-  testing::for_each_adversary(1000, [](std::uint64_t seed) {
+  checks::for_each_adversary(1000, [](std::uint64_t seed) {
     Draw draw(seed);
-    const auto* mode = testing::any_mode(draw.generator());
+    const auto* mode = checks::any_mode(draw.generator());
     const Ratio b = above_one(draw), e = any_exponent(draw);
     Wide x;
     set_logarithm(x, b);
@@ -254,9 +254,9 @@ TEST(LogarithmAdversaries, PowersAgreeWithMpfr) {
 
 /// r^j to the power of i/j is r^i; with as many bits as a tie of binary64 has, if r is 3/2.
 TEST(LogarithmAdversaries, PowersThatAreRationalAreExact) {
-  testing::for_each_adversary(1000, [](std::uint64_t seed) {
+  checks::for_each_adversary(1000, [](std::uint64_t seed) {
     Draw draw(seed);
-    const auto* mode = testing::any_mode(draw.generator());
+    const auto* mode = checks::any_mode(draw.generator());
     const Ratio root = draw.one_in(2) ? ratio(3, 2) : small_root(draw);
     const int i = draw.between(1, 36), j = draw.between(1, 36);
     const Rational exact(power(root, i) - Dyadic(1.0));

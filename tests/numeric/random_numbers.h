@@ -10,7 +10,7 @@
 #include "fathom/numeric/double_word.h"
 #include "fathom/numeric/ratio.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// A finite double of any exponent, subnormals and zeros among them.
 inline double any_double(std::mt19937_64& random) {
@@ -94,4 +94,4 @@ class Rational {
   mpq_t q;
 };
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

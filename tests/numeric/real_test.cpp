@@ -71,8 +71,8 @@ TEST(Real, BitsAreDoubledUntilTheyTell) {
 TEST(Real, TiesOfSubnormalNumbersAreSettledInEveryMode) {
   const auto one_and = [](double x) { return Ratio(Dyadic(1.0) + Dyadic(x)); };
   const Ratio a = one_and(0x1p-520), b = one_and(0x1p-370);
-  for (const testing::FloatingPointMode& mode : testing::other_modes) {
-    std::optional<testing::InMode> in_mode(std::in_place, mode);
+  for (const checks::FloatingPointMode& mode : checks::other_modes) {
+    std::optional<checks::InMode> in_mode(std::in_place, mode);
     const float single = round_to_binary32(quotient_of_logarithms(a, b));
     in_mode.reset();
     EXPECT_EQ(single, 0x1p-149F) << mode.name;

@@ -16,9 +16,9 @@
 namespace fathom {
 namespace {
 
-using testing::any_double;
-using testing::few_bits;
-using testing::Rational;
+using checks::any_double;
+using checks::few_bits;
+using checks::Rational;
 
 double value_of(Binary16 x) {
   const int exponent = x.bits >> 10 & 31;
@@ -36,11 +36,11 @@ double value_of(Binary16 x) {
          << to_fraction(x) << ": MPFR " << std::hexfloat << expected << ", ours " << actual;
 }
 
-using Mode = const testing::FloatingPointMode*;
+using Mode = const checks::FloatingPointMode*;
 
 void check_quotient(const Ratio& x, Mode mode = nullptr) {
   const Rational q(x);
-  std::optional<testing::InMode> in_mode(std::in_place, mode);
+  std::optional<checks::InMode> in_mode(std::in_place, mode);
   const float single = round_to_binary32(x);
   const double full = round_to_binary64(x);
   const Binary16 half = round_to_binary16(x);
@@ -53,7 +53,7 @@ void check_quotient(const Ratio& x, Mode mode = nullptr) {
 
 void check_root(const Ratio& x, Mode mode = nullptr) {
   const Rational q(x);
-  std::optional<testing::InMode> in_mode(std::in_place, mode);
+  std::optional<checks::InMode> in_mode(std::in_place, mode);
   const float single = round_sqrt_to_binary32(x);
   const double full = round_sqrt_to_binary64(x);
   in_mode.reset();
@@ -124,7 +124,7 @@ TEST(Rounding, TiesAndTheirNeighboursAgreeWithMpfr) {
 }
 
 /// Halfway between two numbers of a format, in the middle or at an end of its range.
-Dyadic hard_tie(testing::Draw& draw) {
+Dyadic hard_tie(checks::Draw& draw) {
   const Ties& f = draw.one_of(formats);
   const Dyadic tie = midpoint(draw.generator(), f.bits, f.least, f.greatest);
   if (!draw.one_in(3)) return tie;
@@ -133,7 +133,7 @@ Dyadic hard_tie(testing::Draw& draw) {
 }
 
 /// As near to a tie m·2^e as quotients with a denominator d come to it: m ± 1/d; or anything.
-Ratio hard_quotient(testing::Draw& draw) {
+Ratio hard_quotient(checks::Draw& draw) {
   const Dyadic d = Dyadic(denominator(draw.generator(), draw.one_in(2)));
   const Dyadic tie = draw.one_in(2) ? hard_tie(draw) : -hard_tie(draw);
   switch (draw.below(4)) {
@@ -149,18 +149,18 @@ Ratio hard_quotient(testing::Draw& draw) {
 }
 
 TEST(RoundingAdversaries, QuotientsAgreeWithMpfr) {
-  testing::for_each_adversary(20000, [](std::uint64_t seed) {
-    testing::Draw draw(seed);
-    const Mode mode = testing::any_mode(draw.generator());
+  checks::for_each_adversary(20000, [](std::uint64_t seed) {
+    checks::Draw draw(seed);
+    const Mode mode = checks::any_mode(draw.generator());
     check_quotient(hard_quotient(draw), mode);
   });
 }
 
 /// The same for numbers whose roots are such.
 TEST(RoundingAdversaries, RootsAgreeWithMpfr) {
-  testing::for_each_adversary(5000, [](std::uint64_t seed) {
-    testing::Draw draw(seed);
-    const Mode mode = testing::any_mode(draw.generator());
+  checks::for_each_adversary(5000, [](std::uint64_t seed) {
+    checks::Draw draw(seed);
+    const Mode mode = checks::any_mode(draw.generator());
     const Dyadic tie = hard_tie(draw), d = Dyadic(denominator(draw.generator(), true));
     const Dyadic nearly = tie * tie + (tie * tie).scaled(-draw.between(50, 1000));
     const Ratio any = hard_quotient(draw);
@@ -175,8 +175,8 @@ TEST(RoundingAdversaries, EveryBinary16NumberIsWidenedAndComesBack) {
   for (std::uint32_t bits = 0; bits < 0x10000; ++bits) {
     const Binary16 x{static_cast<std::uint16_t>(bits)};
     if ((bits & 0x7FFF) > 0x7C00) continue;  // NaN
-    const Mode mode = &testing::other_modes[bits % std::size(testing::other_modes)];
-    std::optional<testing::InMode> in_mode(std::in_place, mode);
+    const Mode mode = &checks::other_modes[bits % std::size(checks::other_modes)];
+    std::optional<checks::InMode> in_mode(std::in_place, mode);
     const float wide = widen_binary16(x.bits);
     in_mode.reset();
     ASSERT_EQ(static_cast<double>(wide), value_of(x)) << bits;

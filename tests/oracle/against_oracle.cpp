@@ -8,7 +8,7 @@
 #include "tests/oracle/mpfr_rounding.h"
 #include "tests/oracle/smooth_normals.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 namespace {
 
 using oracle::Q;
@@ -238,4 +238,4 @@ int expect_as_rays(const DepthMap& map, const Scene& scene, const Camera& camera
   return seen;
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -14,7 +14,7 @@
 #include "tests/oracle/lens_rays.h"
 #include "tests/oracle/ray_caster.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// Camera and triangles as the oracle takes them.
 oracle::RayCamera ray_camera(const Camera& camera);
@@ -52,4 +52,4 @@ void expect_pixel(const DepthMap& map, int x, int y, const std::optional<oracle:
 int expect_as_rays(const DepthMap& map, const Scene& scene, const Camera& camera,
                    NormalSource normals = NormalSource::file);
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -20,7 +20,7 @@ namespace {
 
 using namespace triangle;
 
-using fathom::testing::scene_of;
+using fathom::checks::scene_of;
 
 Camera camera_of(std::uint32_t width, std::uint32_t height, double near = 0.5, double far = 100) {
   Camera camera;
@@ -111,7 +111,7 @@ Differences compare_coverage(const Scene& scene, const Camera& camera, int bits)
 TEST(Engine, CoverageIsTheExactOneButForSnapping) {
   std::mt19937_64 random(1);
   Differences coarse, fine;
-  for (int i = 0; i < 60 / testing::effort + 2; ++i) {
+  for (int i = 0; i < 60 / checks::effort + 2; ++i) {
     // Every third scene reaches behind the camera.
     const Scene scene = random_scene(random, 6, i % 3 == 0 ? -3 : 1);
     const Camera camera = camera_of(64, 48);
@@ -121,14 +121,14 @@ TEST(Engine, CoverageIsTheExactOneButForSnapping) {
       EXPECT_EQ(d.unexplained, 0) << bits << " bits, scene " << i;
     }
   }
-  EXPECT_GT(coarse.coverage, 10 / testing::effort);  // snapping is there to be seen
+  EXPECT_GT(coarse.coverage, 10 / checks::effort);  // snapping is there to be seen
   EXPECT_LT(fine.coverage, coarse.coverage + 1);
 }
 
 TEST(Engine, VisibleTriangleIsTheExactOneAtSixteenBits) {
   std::mt19937_64 random(2);
   int different = 0, pixels = 0;
-  for (int i = 0; i < 20 / testing::effort + 1; ++i) {
+  for (int i = 0; i < 20 / checks::effort + 1; ++i) {
     const Scene scene = random_scene(random, 12, 1);
     const Camera camera = camera_of(64, 48);
     RenderOptions options;
@@ -330,7 +330,7 @@ TEST(Engine, EveryDepthFormatFindsTheNearerOfTwo) {
 TEST(DepthTest, StoresTheNearestCode) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(0, 1);
-  for (int i = 0; i < 20000 / testing::effort; ++i) {
+  for (int i = 0; i < 20000 / checks::effort; ++i) {
     double z =
         i % 4 == 0 ? std::ldexp(unit(random), -static_cast<int>(random() % 70)) : unit(random);
     if (i % 5 == 0) z = (static_cast<double>(random() % 65535) + 0.5) / 65535;
@@ -423,7 +423,7 @@ TEST(Painter, ThousandTrianglesComeToAnEndAndToTheSamePicture) {
   std::uniform_real_distribution<double> place(-2, 2), depth(4, 8), size(-0.4, 0.4);
   std::vector<MeshPoint> v;
   std::vector<CornerIndices> t;
-  for (std::uint32_t i = 0; i < 1000 / testing::effort; ++i) {
+  for (std::uint32_t i = 0; i < 1000 / checks::effort; ++i) {
     const double x = place(random), y = place(random), z = depth(random);
     for (int k = 0; k < 3; ++k) v.push_back({x + size(random), y + size(random), z + size(random)});
     t.push_back({3 * i, 3 * i + 1, 3 * i + 2});

@@ -18,7 +18,7 @@
 namespace fathom::pipeline {
 namespace {
 
-using fathom::testing::scene_of;
+using fathom::checks::scene_of;
 
 /// The source's loop over the pixels of a box, which returns how many it drew, or nothing.
 std::optional<int> their_fragments(const std::array<std::array<double, 2>, 3>& t, int width,

@@ -16,7 +16,7 @@
 namespace fathom::pipeline {
 namespace {
 
-using fathom::testing::scene_of;
+using fathom::checks::scene_of;
 
 TEST(Errata, E22_TheProjectionOfAPointBehindTheEye) {
   Camera camera = window_camera(8, 8);

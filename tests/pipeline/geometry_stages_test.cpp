@@ -17,7 +17,7 @@ namespace {
 
 /// 32 × 32 pixels; (x, y, 2) lies at 16 + 16·x, 16 + 16·y.
 Camera camera() {
-  Camera camera = testing::camera_of(32, 32, 32);
+  Camera camera = checks::camera_of(32, 32, 32);
   camera.near = 1;
   camera.far = 100;
   return camera;
@@ -54,7 +54,7 @@ TEST(GeometryStages, CountWhatBecomesOfTriangles) {
   };
   add(front, 1), add(back, 2), add(edge_on, 3), add(outside, 4), add(cut, 5), add(thin, 6),
       add(tip, 7);
-  const Scene scene = testing::scene_of(vertices, triangles);
+  const Scene scene = checks::scene_of(vertices, triangles);
   PipelineOptions options = precise();
   options.subpixel_bits = 0;
   const PipelineStatistics all = render_frame(scene, camera(), options, false).statistics;
@@ -101,7 +101,7 @@ TEST(GeometryStages, CountFragmentsAndBlocks) {
     };
     at(3, 5), at(27, 5), at(27, 29), at(3, 29);
   }
-  const Scene scene = testing::scene_of(vertices, {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}});
+  const Scene scene = checks::scene_of(vertices, {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}});
   PipelineOptions options = precise();
   const PipelineStatistics s = render_frame(scene, camera(), options, true).statistics;
   EXPECT_EQ(s.fragments, 1152u);
@@ -132,13 +132,13 @@ TEST(GeometryStages, CountFragmentsAndBlocks) {
 }
 
 TEST(GeometryStages, ObjectsAreNumberedOneAfterTheOther) {
-  Scene scene = testing::scene_of({{-0.9, 0.5, 2},
-                                   {-0.1, 0.5, 2},
-                                   {-0.5, -0.5, 2},
-                                   {0.1, 0.5, 2},
-                                   {0.9, 0.5, 2},
-                                   {0.5, -0.5, 2}},
-                                  {{0, 1, 2}, {3, 4, 5}});
+  Scene scene = checks::scene_of({{-0.9, 0.5, 2},
+                                  {-0.1, 0.5, 2},
+                                  {-0.5, -0.5, 2},
+                                  {0.1, 0.5, 2},
+                                  {0.9, 0.5, 2},
+                                  {0.5, -0.5, 2}},
+                                 {{0, 1, 2}, {3, 4, 5}});
   scene.objects.push_back(scene.objects[0]);
   PipelineStatistics statistics;
   PipelineOptions options = precise();
@@ -221,9 +221,9 @@ TEST(VertexTransform, AttributesGoWithTheirVertex) {
 }
 
 TEST(FillInRange, KeepsWhatTheCameraHas) {
-  const Scene scene = testing::scene_of({{0, 0, 2}, {1, 0, 3}, {0, 1, 8}}, {{0, 1, 2}});
+  const Scene scene = checks::scene_of({{0, 0, 2}, {1, 0, 3}, {0, 1, 8}}, {{0, 1, 2}});
   const auto filled = [&](double near, double far, Mapping mapping, const Scene& of) {
-    Camera c = testing::camera_of(8, 8, 4);
+    Camera c = checks::camera_of(8, 8, 4);
     c.near = near;
     c.far = far;
     DepthFormat format{mapping, Storage::float32, 0, 0, 1};
@@ -238,12 +238,12 @@ TEST(FillInRange, KeepsWhatTheCameraHas) {
   EXPECT_EQ(filled(50, none, Mapping::standard, scene),
             (Range{50, 100}));  // nothing is so far away
   // Less than 1 away, at the eye, behind it, nothing at all.
-  const Scene close = testing::scene_of({{0, 0, 0.25}, {1, 0, 0.5}, {0, 1, 0.5}}, {{0, 1, 2}});
+  const Scene close = checks::scene_of({{0, 0, 0.25}, {1, 0, 0.5}, {0, 1, 0.5}}, {{0, 1, 2}});
   EXPECT_EQ(filled(0, none, Mapping::standard, close), (Range{0.125, 1}));
-  const Scene at_eye = testing::scene_of({{0, 0, 0}, {1, 0, 0.5}, {0, 1, 0.5}}, {{0, 1, 2}});
+  const Scene at_eye = checks::scene_of({{0, 0, 0}, {1, 0, 0.5}, {0, 1, 0.5}}, {{0, 1, 2}});
   EXPECT_EQ(filled(0, none, Mapping::standard, at_eye), (Range{0.5e-4, 1}));
-  const Scene behind = testing::scene_of({{0, 0, -2}, {1, 0, -1}, {0, 1, -3}}, {{0, 1, 2}});
-  const Scene flat = testing::scene_of({{0, 0, 4}, {1, 0, 4}, {0, 1, 4}}, {{0, 1, 2}});
+  const Scene behind = checks::scene_of({{0, 0, -2}, {1, 0, -1}, {0, 1, -3}}, {{0, 1, 2}});
+  const Scene flat = checks::scene_of({{0, 0, 4}, {1, 0, 4}, {0, 1, 4}}, {{0, 1, 2}});
   EXPECT_EQ(filled(0, none, Mapping::standard, flat), (Range{2, 8}));
   EXPECT_EQ(filled(0, none, Mapping::standard, behind), (Range{1e-4, 2}));
   EXPECT_EQ(filled(0, none, Mapping::standard, Scene{}), (Range{1e-4, 2}));
@@ -251,8 +251,8 @@ TEST(FillInRange, KeepsWhatTheCameraHas) {
 
 TEST(PrimitiveAssembly, NormalsAreSumsOfAreasAndColoursTheVertexs) {
   // Two triangles at vertex 0, of areas 4 and 1/2, facing +z and +x.
-  Scene scene = testing::scene_of(
-      {{1, 2, 3}, {3, 2, 3}, {1, 6, 3}, {1, 3, 3}, {1, 2, 4}, {7, 7, 7}}, {{0, 1, 2}, {0, 3, 4}});
+  Scene scene = checks::scene_of({{1, 2, 3}, {3, 2, 3}, {1, 6, 3}, {1, 3, 3}, {1, 2, 4}, {7, 7, 7}},
+                                 {{0, 1, 2}, {0, 3, 4}});
   Mesh& mesh = scene.meshes[0];
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const auto part = static_cast<float>(i) / 8;
@@ -290,14 +290,14 @@ TEST(PrimitiveAssembly, NormalsAreSumsOfAreasAndColoursTheVertexs) {
   EXPECT_EQ(assemble_triangles(scene, 0, 0, FrontFace::counter_clockwise)[0].corners[2].colour,
             (Vector{1, 1, 1}));
   // Slanted in all directions.
-  const Scene slanted = testing::scene_of({{1, 2, 3}, {2, 5, 5}, {4, 3, 9}}, {{0, 1, 2}});
+  const Scene slanted = checks::scene_of({{1, 2, 3}, {2, 5, 5}, {4, 3, 9}}, {{0, 1, 2}});
   const Vector n =
       assemble_triangles(slanted, 0, 0, FrontFace::counter_clockwise)[0].corners[2].normal;
   const double length = std::sqrt(16 * 16 + 8 * 8);  // (1, 3, 2) × (3, 1, 6) = (16, 0, −8)
   EXPECT_DOUBLE_EQ(n[0], 16 / length);
   EXPECT_EQ(n[1], 0);
   EXPECT_DOUBLE_EQ(n[2], -8 / length);
-  const Scene other = testing::scene_of({{1, 2, 3}, {2, 2, 3.5}, {4, 3, 4}}, {{0, 1, 2}});
+  const Scene other = checks::scene_of({{1, 2, 3}, {2, 2, 3.5}, {4, 3, 4}}, {{0, 1, 2}});
   const Vector o =
       assemble_triangles(other, 0, 0, FrontFace::counter_clockwise)[0].corners[0].normal;
   // (1, 0, ½) × (3, 1, 1) = (−½, ½, 1)
@@ -310,8 +310,8 @@ TEST(PrimitiveAssembly, NormalsAreSumsOfAreasAndColoursTheVertexs) {
 // as -0.0 does at 0.
 TEST(PrimitiveAssembly, NormalsAtAPlaceAreSumsOverAllItsVertices) {
   const Scene scene =
-      testing::scene_of({{0, 2, 3}, {2, 2, 3}, {0, 6, 3}, {-0.0, 2, 3}, {0, 3, 3}, {0, 2, 4}},
-                        {{0, 1, 2}, {3, 4, 5}});
+      checks::scene_of({{0, 2, 3}, {2, 2, 3}, {0, 6, 3}, {-0.0, 2, 3}, {0, 3, 3}, {0, 2, 4}},
+                       {{0, 1, 2}, {3, 4, 5}});
   using Vector = std::array<double, 3>;
   const auto by_vertex = assemble_triangles(scene, 0, 0, FrontFace::counter_clockwise);
   EXPECT_EQ(by_vertex[0].corners[0].normal, (Vector{0, 0, 1}));
@@ -425,7 +425,7 @@ TEST(ClipLine, KeepsWhatLiesOnTheLine) {
 }
 
 TEST(Viewport, StretchesWhereTheRatioIsAnother) {
-  const Camera c = testing::camera_of(10, 10, 1);
+  const Camera c = checks::camera_of(10, 10, 1);
   PipelineOptions options;
   EXPECT_FALSE(is_stretched(c, options));
   options.viewport = WindowRectangle{0, 0, 5, 5};
@@ -505,7 +505,7 @@ TEST(Painter, PlanesSettleWhatOneSideOfOneOfThemSettles) {
   const auto settled = [](const std::vector<MeshPoint>& points) {
     PipelineOptions options = precise();
     options.hidden_surface = HiddenSurface::painter;
-    return render_frame(testing::scene_of(points, {{0, 1, 2}, {3, 4, 5}}), camera(), options, false)
+    return render_frame(checks::scene_of(points, {{0, 1, 2}, {3, 4, 5}}), camera(), options, false)
         .painter;
   };
   // The farther one (it has the farthest corner) is level at z = 5 but for that; the other one's

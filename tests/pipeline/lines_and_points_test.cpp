@@ -40,7 +40,7 @@ Scene scene_of_lines(const std::vector<MeshPoint>& vertices,
   return scene;
 }
 
-PipelineOptions precise() {
+PipelineOptions precise_lines() {
   PipelineOptions options;
   options.precision = Precision::binary64;
   options.depth_format.storage = Storage::float64;
@@ -63,7 +63,7 @@ TEST(LinesOfTheScene, AreThePixelsOfTheirAlgorithm) {
                  [&](const Pixel& p, const auto&) { expected.push_back(p); });
   std::ranges::sort(expected);
   ASSERT_EQ(expected.size(), 36U);
-  const PipelineFrame frame = render_frame(scene, camera_of_pixels(), precise(), true);
+  const PipelineFrame frame = render_frame(scene, camera_of_pixels(), precise_lines(), true);
   EXPECT_EQ(drawn(frame, 0), expected);
   EXPECT_EQ(frame.statistics.lines, 1U);
 }
@@ -71,7 +71,7 @@ TEST(LinesOfTheScene, AreThePixelsOfTheirAlgorithm) {
 /// From (5, 15) to a point behind the camera straight to the right: the line leaves the image.
 TEST(LinesOfTheScene, AreClippedInClipCoordinates) {
   const Scene scene = scene_of_lines({{5.5, 15.5, 10}, {40, -15.5, -10}}, {{0, 1}});
-  const PipelineFrame frame = render_frame(scene, camera_of_pixels(), precise(), false);
+  const PipelineFrame frame = render_frame(scene, camera_of_pixels(), precise_lines(), false);
   std::vector<Pixel> row;
   for (std::int64_t x = 5; x < 40; ++x) row.push_back({x, 15});
   EXPECT_EQ(drawn(frame, 0), row);
@@ -80,7 +80,7 @@ TEST(LinesOfTheScene, AreClippedInClipCoordinates) {
 /// Along the view 1/w is affine in the window: half way between depths 10 and 30 it is 15.
 TEST(LinesOfTheScene, HaveThePerspectiveDepth) {
   const Scene scene = scene_of_lines({{10.5, 4.5, 10}, {90 + 1.5, 13.5, 30}}, {{0, 1}});
-  const PipelineFrame frame = render_frame(scene, camera_of_pixels(), precise(), false);
+  const PipelineFrame frame = render_frame(scene, camera_of_pixels(), precise_lines(), false);
   EXPECT_NEAR(frame.depth[4 * 40 + 10], 10, 1e-5);
   EXPECT_NEAR(frame.depth[4 * 40 + 20], 15, 1e-5);
   EXPECT_NEAR(frame.depth[4 * 40 + 30], 30, 1e-5);
@@ -90,7 +90,7 @@ TEST(LinesOfTheScene, HaveThePerspectiveDepth) {
 TEST(LinesOfTheScene, HaveColoursAsTheInterpolationSays) {
   Scene scene = scene_of_lines({{10.5, 4.5, 10}, {90 + 1.5, 13.5, 30}}, {{0, 1}});
   scene.meshes[0].colours = {{1, 0, 0, 1}, {0, 0, 1, 1}};
-  PipelineOptions options = precise();
+  PipelineOptions options = precise_lines();
   for (const auto& [interpolation, blue] :
        {std::pair{Interpolation::perspective, 0.25}, {Interpolation::affine, 0.5}}) {
     options.interpolation = interpolation;
@@ -105,7 +105,7 @@ TEST(PointsOfTheScene, FillTheirPixelAndAreClipped) {
   const Scene scene =
       scene_of_lines({{7.9, 8.1, 10}, {39.9, 29.9, 10}, {41, 5, 10}, {5, 5, 200}, {-7, -8, -10}},
                      {}, {0, 1, 2, 3, 4});
-  const PipelineFrame frame = render_frame(scene, camera_of_pixels(), precise(), true);
+  const PipelineFrame frame = render_frame(scene, camera_of_pixels(), precise_lines(), true);
   EXPECT_EQ(drawn(frame, 0), (std::vector<Pixel>{{7, 8}}));
   EXPECT_EQ(drawn(frame, 1), (std::vector<Pixel>{{39, 29}}));
   EXPECT_EQ(frame.statistics.points, 2U);
@@ -123,8 +123,9 @@ TEST(LinesOfTheScene, AreHiddenByTrianglesAndNumberedAfterThem) {
   scene.objects.push_back({});
   scene.objects[1].mesh = 1;
   scene.draw_states.clear();
-  const PipelineRendering r = render_by_pipeline(
-      scene, camera_of_pixels(), precise(), {Channel::id, Channel::object, Channel::face}, true);
+  const PipelineRendering r =
+      render_by_pipeline(scene, camera_of_pixels(), precise_lines(),
+                         {Channel::id, Channel::object, Channel::face}, true);
   const auto& id = *r.map.values<std::uint32_t>("id");
   const auto& object = *r.map.values<std::uint32_t>("object");
   const auto& face = *r.map.values<std::uint32_t>("face");
@@ -169,7 +170,7 @@ void expect_areas(const ColourImage& image, const Antialias& antialias,
 TEST(LinesOfTheScene, AreAntialiasedAsRectangles) {
   const Scene line = scene_of_lines({{2.53, 3.51, 10}, {37.57, 17.49, 10}}, {{0, 1}});
   const Scene point = scene_of_lines({{3.33, 20.71, 10}}, {}, {0});
-  PipelineOptions options = precise();
+  PipelineOptions options = precise_lines();
   const PipelineFrame plain = render_frame(line, camera_of_pixels(), options, true);
   const auto in_rectangle = [](double x, double y) {
     const double dx = 37.57 - 2.53, dy = 17.49 - 3.51, length = std::hypot(dx, dy);
@@ -209,7 +210,7 @@ TEST(Outlines, AreAntialiased) {
   scene.meshes[0].triangles = {{0, 1, 2}};
   scene.meshes[0].face_count = 1;
   for (const Shading shading : {Shading::wireframe, Shading::points}) {
-    PipelineOptions options = precise();
+    PipelineOptions options = precise_lines();
     options.shading = shading;
     const auto partial = [&](const Antialias& antialias) {
       options.antialias = antialias;
@@ -224,7 +225,7 @@ TEST(Outlines, AreAntialiased) {
 
 TEST(LinesOfTheScene, AreRefusedWhereOnlyAreasAreDrawn) {
   const Scene scene = scene_of_lines({{2, 3, 10}, {3, 17, 10}}, {{0, 1}});
-  PipelineOptions painter = precise(), area = precise();
+  PipelineOptions painter = precise_lines(), area = precise_lines();
   painter.hidden_surface = HiddenSurface::painter;
   area.antialias.method = AntialiasMethod::area;
   for (const PipelineOptions& options : {painter, area})

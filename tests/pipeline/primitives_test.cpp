@@ -14,10 +14,10 @@
 namespace fathom::pipeline {
 namespace {
 
-using fathom::testing::scene_of;
+using fathom::checks::scene_of;
 
 /// 32 × 32 pixels; (x, y, 2) lies at 16 + 16·x, 16 + 16·y.
-Camera camera() {
+Camera camera_of_primitives() {
   Camera camera;
   camera.width = camera.height = 32;
   camera.projection.fx = camera.projection.fy = 32;
@@ -68,13 +68,13 @@ TEST(PrimitiveAssembly, JoinsByOnesTwosAndThrees) {
 
 TEST(Primitives, PointsAreThePixelsOfTheCorners) {
   const Scene scene = scene_of({{-0.5, -0.5, 2}, {0.25, 0, 2}, {0, 0.75, 2}}, {{0, 1, 2}});
-  EXPECT_EQ(drawn(render_frame(scene, camera(), drawing(Shading::points), true)),
+  EXPECT_EQ(drawn(render_frame(scene, camera_of_primitives(), drawing(Shading::points), true)),
             (std::set<Pixel>{{8, 8}, {20, 16}, {16, 28}}));
 }
 
 TEST(Primitives, PointsOutsideAreClipped) {
   const Scene scene = scene_of({{-0.5, -0.5, 2}, {9, 0, 2}, {0, 0, -2}}, {{0, 1, 2}});
-  EXPECT_EQ(drawn(render_frame(scene, camera(), drawing(Shading::points), true)),
+  EXPECT_EQ(drawn(render_frame(scene, camera_of_primitives(), drawing(Shading::points), true)),
             (std::set<Pixel>{{8, 8}}));
 }
 
@@ -82,7 +82,8 @@ TEST(Primitives, LinesAreClippedAsLines) {
   // One corner far to the right: the triangle is cut to a quadrangle by the image's side. Its
   // outline is two lines to that side; neither the side nor a diagonal of the quadrangle is drawn.
   const Scene scene = scene_of({{-0.875, 0, 2}, {3, -2, 2}, {3, 2, 2}}, {{0, 1, 2}});
-  const auto pixels = drawn(render_frame(scene, camera(), drawing(Shading::wireframe), true));
+  const auto pixels =
+      drawn(render_frame(scene, camera_of_primitives(), drawing(Shading::wireframe), true));
   for (const Pixel& p : pixels) {
     // The exact lines: |v − 16| = (u − 2)·32/62. Ends on pixels, then a rounding of the line: each
     // moves it by at most a pixel.
@@ -97,7 +98,8 @@ TEST(Primitives, LinesThroughThePlaneOfTheEyeAreCutAtNear) {
   // back on the other side, where the corner behind the eye would project to.
   const Scene scene =
       scene_of({{-0.5, -0.25, 2}, {-0.5, -0.25, -6}, {-0.25, -0.25, 2}}, {{0, 1, 2}});
-  const auto pixels = drawn(render_frame(scene, camera(), drawing(Shading::wireframe), true));
+  const auto pixels =
+      drawn(render_frame(scene, camera_of_primitives(), drawing(Shading::wireframe), true));
   EXPECT_GT(pixels.size(), 8u);
   for (const Pixel& p : pixels) {
     EXPECT_LT(p.x, 16);
@@ -129,7 +131,7 @@ TEST(Strips, ManySamplesGiveTheSamePictureAsTheWholeAtOnce) {
     for (int k = 0; k < 3; ++k) v.push_back({side(random), side(random) / 300, 2 + side(random)});
     t.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  Camera wide = camera();
+  Camera wide = camera_of_primitives();
   wide.width = 4096;
   wide.height = 5;
   wide.projection.fx = wide.projection.fy = 4096;
@@ -165,7 +167,7 @@ TEST(Facings, TheThreeTestsAgreeButWhereTrianglesAreEdgeOn) {
   const auto facings = [&](Precision precision) {
     PipelineOptions options = drawing(Shading::none);
     options.precision = precision;
-    return render_frame(scene_of(v, t), camera(), options, false).statistics.facings;
+    return render_frame(scene_of(v, t), camera_of_primitives(), options, false).statistics.facings;
   };
   const FacingStatistics f = facings(Precision::binary64);
   EXPECT_EQ(f.compared, 300u);

@@ -141,8 +141,8 @@ TEST(Snap, IsTheNearestPositionOfTheGrid) {
 }
 
 /// 32 × 32 pixels; (x, y, 2) lies at 16 + 16·x, 16 + 16·y.
-Camera camera() {
-  Camera camera = testing::camera_of(32, 32, 32);
+Camera camera_of_wires() {
+  Camera camera = checks::camera_of(32, 32, 32);
   camera.near = 1;
   camera.far = 100;
   return camera;
@@ -195,14 +195,14 @@ TEST(Wireframe, LinesHaveTheDepthsAndColoursOfTheirNearestPoints) {
     for (Corner& c : corners) {
       c = {place(random), place(random), depth(random), {unit(random), unit(random), unit(random)}};
     }
-    Scene scene = testing::scene_of(
+    Scene scene = checks::scene_of(
         {place_of(corners[0]), place_of(corners[1]), place_of(corners[2])}, {{0, 1, 2}});
     for (const Corner& c : corners) {
       scene.meshes[0].colours.push_back({c.colour[0], c.colour[1], c.colour[2], 1});
     }
     for (const WireLine line : {WireLine::explicit_equation, WireLine::dda, WireLine::bresenham,
                                 WireLine::midpoint, WireLine::diamond_exit}) {
-      const PipelineFrame frame = render_frame(scene, camera(), wires(line), true);
+      const PipelineFrame frame = render_frame(scene, camera_of_wires(), wires(line), true);
       std::size_t drawn = 0;
       for (std::uint32_t y = 0; y < 32; ++y) {
         for (std::uint32_t x = 0; x < 32; ++x) {
@@ -242,14 +242,15 @@ TEST(Wireframe, TheNearerOfTwoLinesIsSeenWhereTheyCross) {
   for (const double other : {3.0, 7.0}) {
     const auto at = [](double x, double y, double z) { return place_of({x, y, z, {}}); };
     const Scene scene =
-        testing::scene_of({at(4.5, 4.5, 5), at(28.5, 28.5, 5), at(4.5, 28.5, 5),
-                           at(4.5, 28.5, other), at(28.5, 4.5, other), at(4.5, 4.5, other)},
-                          {{0, 1, 2}, {3, 4, 5}});
+        checks::scene_of({at(4.5, 4.5, 5), at(28.5, 28.5, 5), at(4.5, 28.5, 5),
+                          at(4.5, 28.5, other), at(28.5, 4.5, other), at(4.5, 4.5, other)},
+                         {{0, 1, 2}, {3, 4, 5}});
     for (const auto order : {std::array{0u, 1u}, std::array{1u, 0u}}) {
       Scene ordered = scene;
       ordered.meshes[0].triangles = {scene.meshes[0].triangles[order[0]],
                                      scene.meshes[0].triangles[order[1]]};
-      const PipelineFrame frame = render_frame(ordered, camera(), wires(WireLine::bresenham), true);
+      const PipelineFrame frame =
+          render_frame(ordered, camera_of_wires(), wires(WireLine::bresenham), true);
       const std::uint32_t seen = frame.id[16 * 32 + 16];
       ASSERT_NE(seen, no_surface);
       EXPECT_EQ(order[seen], other < 5 ? 1u : 0u);
@@ -265,14 +266,14 @@ TEST(Points, ShowTheirVertex) {
   const std::array<Corner, 3> corners{{{4.25, 20.75, 3, {1, 0.5, 0.25}},
                                        {20.5, 3.5, 6, {0.25, 0.125, 1}},
                                        {28.75, 28.25, 9, {0.5, 0.75, 0.125}}}};
-  Scene scene = testing::scene_of(
-      {place_of(corners[0]), place_of(corners[1]), place_of(corners[2])}, {{0, 1, 2}});
+  Scene scene = checks::scene_of({place_of(corners[0]), place_of(corners[1]), place_of(corners[2])},
+                                 {{0, 1, 2}});
   for (const Corner& c : corners) {
     scene.meshes[0].colours.push_back({c.colour[0], c.colour[1], c.colour[2], 1});
   }
   PipelineOptions options = wires(WireLine::bresenham);
   options.shading = Shading::points;
-  PipelineFrame frame = render_frame(scene, camera(), options, true);
+  PipelineFrame frame = render_frame(scene, camera_of_wires(), options, true);
   EXPECT_EQ(frame.statistics.fragments, 3u);
   EXPECT_EQ(frame.statistics.depth_passed, 3u);
   for (const Corner& c : corners) {
@@ -287,7 +288,7 @@ TEST(Points, ShowTheirVertex) {
   // Each side of the scissor cuts off one of them.
   const auto points_in = [&](const WindowRectangle& r) {
     options.scissor = r;
-    return render_frame(scene, camera(), options, true).statistics.fragments;
+    return render_frame(scene, camera_of_wires(), options, true).statistics.fragments;
   };
   EXPECT_EQ(points_in({4, 0, 28, 32}), 3u);
   EXPECT_EQ(points_in({5, 0, 27, 32}), 2u);
@@ -301,15 +302,15 @@ TEST(Points, ShowTheirVertex) {
 
 /// A traced triangle against its own definition.
 TEST(Trace, SaysWhatEveryStageDid) {
-  Scene scene = testing::scene_of({{-0.5, -0.5, 2}, {1.5, -1, 4}, {-0.3, 0.75, 3}, {9, 9, 9}},
-                                  {{0, 1, 2}, {2, 1, 0}, {0, 2, 3}});
+  Scene scene = checks::scene_of({{-0.5, -0.5, 2}, {1.5, -1, 4}, {-0.3, 0.75, 3}, {9, 9, 9}},
+                                 {{0, 1, 2}, {2, 1, 0}, {0, 2, 3}});
   scene.objects.push_back(scene.objects[0]);
   PipelineOptions options;
   options.precision = Precision::binary64;
   options.subpixel_bits = 16;
   options.depth_format.storage = Storage::float64;
   const Pixel pixel{14, 14};
-  const PrimitiveTrace trace = trace_triangle(scene, camera(), options, 0, pixel);
+  const PrimitiveTrace trace = trace_triangle(scene, camera_of_wires(), options, 0, pixel);
   EXPECT_EQ(trace.near, 1);
   EXPECT_EQ(trace.far, 100);
   // u = 16 + 32·x/z: (8, 8), (28, 8), (12.8, 24); no centre lies on a side.
@@ -364,21 +365,21 @@ TEST(Trace, SaysWhatEveryStageDid) {
   EXPECT_FALSE(trace.culled);
 
   // Turned, of the second object, and culled; beside the pixel; in an image that it leaves.
-  const PrimitiveTrace turned = trace_triangle(scene, camera(), options, 4, Pixel{2, 2});
+  const PrimitiveTrace turned = trace_triangle(scene, camera_of_wires(), options, 4, Pixel{2, 2});
   EXPECT_EQ(turned.in_window, Facing::front);
   EXPECT_EQ(turned.in_world, Facing::front);
   EXPECT_EQ(turned.fragments, fragments);
   ASSERT_TRUE(turned.sample);
   EXPECT_FALSE(turned.sample->covered);
   options.culling = Culling::back;
-  const PrimitiveTrace culled = trace_triangle(scene, camera(), options, 0, pixel);
+  const PrimitiveTrace culled = trace_triangle(scene, camera_of_wires(), options, 0, pixel);
   EXPECT_TRUE(culled.culled);
   EXPECT_EQ(culled.fragments, 0u);
   EXPECT_FALSE(culled.sample);
   options.culling = Culling::none;
-  EXPECT_FALSE(trace_triangle(scene, camera(), options, 0, {}).sample);
+  EXPECT_FALSE(trace_triangle(scene, camera_of_wires(), options, 0, {}).sample);
   for (const std::uint32_t size : {10u, 14u, 20u}) {
-    Camera small = camera();
+    Camera small = camera_of_wires();
     small.width = small.height = size;
     std::uint64_t inside = 0;
     for (std::int64_t y = 0; y < size; ++y) {
@@ -393,7 +394,7 @@ TEST(Trace, SaysWhatEveryStageDid) {
 /// that is asked for.
 TEST(Trace, StoresWhatTheMappingMakesOfTheDepth) {
   const Scene scene =
-      testing::scene_of({{-0.5, -0.5, 2.1}, {1.5, -1, 4.3}, {-0.3, 0.75, 3.7}}, {{0, 1, 2}});
+      checks::scene_of({{-0.5, -0.5, 2.1}, {1.5, -1, 4.3}, {-0.3, 0.75, 3.7}}, {{0, 1, 2}});
   const auto mapped = [](Mapping mapping, auto D, auto n, auto f) {
     const decltype(D) one = 1;
     switch (mapping) {
@@ -415,7 +416,7 @@ TEST(Trace, StoresWhatTheMappingMakesOfTheDepth) {
         options.precision = precision;
         options.depth_format.mapping = mapping;
         options.depth_format.storage = Storage::float64;
-        Camera c = camera();
+        Camera c = camera_of_wires();
         c.near = 1.1;
         c.far = 99.7;
         const auto trace = trace_triangle(scene, c, options, 0, Pixel{x, 12});

@@ -17,14 +17,14 @@
 namespace fathom::pipeline {
 namespace {
 
-using testing::scene_of;
+using checks::scene_of;
 using Vector = std::array<double, 3>;
 
 constexpr std::uint32_t size = 16;
 
 /// At the origin, along z. A point (x·z/8, y·z/8, z) is seen at (x, y) in pixels, exactly.
 Camera camera() {
-  Camera camera = testing::camera_of(size, size, 8);
+  Camera camera = checks::camera_of(size, size, 8);
   camera.projection.cx = camera.projection.cy = 0;
   camera.near = 1;
   camera.far = 64;
@@ -478,7 +478,7 @@ TEST(Shading, ClippingChangesNoColour) {
 }
 
 TEST(Lighting, OfACamera) {
-  Camera camera = testing::camera_of(8, 8, 4);
+  Camera camera = checks::camera_of(8, 8, 4);
   camera.world_to_camera[2][3] = 3;  // the eye at z = −3
   const Lighting lighting = lighting_of(camera, {});
   EXPECT_FALSE(lighting.orthographic);
@@ -492,7 +492,7 @@ TEST(Lighting, OfACamera) {
 }
 
 TEST(Lighting, TurnsWithTheCameraUnlessItIsInTheWorld) {
-  Camera camera = testing::camera_of(8, 8, 4);
+  Camera camera = checks::camera_of(8, 8, 4);
   camera.world_to_camera = {{{0, 0, -1, 0}, {0, 1, 0, 0}, {1, 0, 0, 0}}};  // looks along x
   PipelineOptions o;
   o.light = {.towards = {0, 0, -2}};

@@ -17,9 +17,9 @@ namespace fathom::pipeline {
 namespace {
 
 using Number = long double;
-using Vector = std::array<Number, 3>;
+using LongVector = std::array<Number, 3>;
 
-Number volume(const Vector& a, const Vector& b, const Vector& c) {
+Number volume(const LongVector& a, const LongVector& b, const LongVector& c) {
   return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
          a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
@@ -37,7 +37,7 @@ class Model {
   Model(const Scene& scene, const Camera& camera) : mesh_(scene.meshes[0]), camera_(camera) {
     const auto& m = camera.world_to_camera;
     for (const MeshPoint& p : mesh_.vertices) {
-      Vector q{};
+      LongVector q{};
       for (std::size_t i = 0; i < 3; ++i) {
         q[i] = Number(m[i][0]) * p.x + Number(m[i][1]) * p.y + Number(m[i][2]) * p.z + m[i][3];
       }
@@ -46,14 +46,14 @@ class Model {
   }
 
   [[nodiscard]] std::optional<Hit> hit(std::size_t t, Number u, Number v) const {
-    const Vector ray{(u - camera_.projection.cx) / camera_.projection.fx,
-                     (v - camera_.projection.cy) / camera_.projection.fy, 1};
+    const LongVector ray{(u - camera_.projection.cx) / camera_.projection.fx,
+                         (v - camera_.projection.cy) / camera_.projection.fy, 1};
     const auto& [a, b, c] = mesh_.triangles[t];
-    const Vector &A = points_[a], &B = points_[b], &C = points_[c];
-    const Vector w{volume(ray, B, C), volume(A, ray, C), volume(A, B, ray)};
+    const LongVector &A = points_[a], &B = points_[b], &C = points_[c];
+    const LongVector w{volume(ray, B, C), volume(A, ray, C), volume(A, B, ray)};
     const Number sum = w[0] + w[1] + w[2];
     Hit h{{w[0] / sum, w[1] / sum, w[2] / sum}, {}, volume(A, B, C) / sum};
-    const Vector scaled{h.weights[0] * A[2], h.weights[1] * B[2], h.weights[2] * C[2]};
+    const LongVector scaled{h.weights[0] * A[2], h.weights[1] * B[2], h.weights[2] * C[2]};
     const Number all = scaled[0] + scaled[1] + scaled[2];
     for (std::size_t k = 0; k < 3; ++k) h.affine[k] = scaled[k] / all;
     if (h.depth < camera_.near || h.depth > camera_.far) return std::nullopt;
@@ -102,12 +102,12 @@ class Model {
  private:
   const Mesh& mesh_;
   Camera camera_;
-  std::vector<Vector> points_;
+  std::vector<LongVector> points_;
 };
 
 /// Turned and moved, with unequal focal lengths and its axis beside the middle.
 Camera oblique_camera() {
-  Camera camera = testing::camera_of(64, 48, 60);
+  Camera camera = checks::camera_of(64, 48, 60);
   camera.projection.fy = 52;
   camera.projection.cx = 30.25;
   camera.projection.cy = 26.5;
@@ -127,7 +127,7 @@ Scene coloured(std::uint64_t seed, int count, double least_z) {
     for (int k = 0; k < 3; ++k) vertices.push_back({side(random), side(random), z(random)});
     triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  Scene scene = testing::scene_of(std::move(vertices), std::move(triangles));
+  Scene scene = checks::scene_of(std::move(vertices), std::move(triangles));
   for (std::size_t i = 0; i < scene.meshes[0].vertices.size(); ++i) {
     const auto part = [&] { return static_cast<float>(unit(random)); };
     scene.meshes[0].colours.push_back({part(), part(), part(), 1});

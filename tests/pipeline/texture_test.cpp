@@ -42,31 +42,32 @@ double looked_up(const RgbImage& image, TextureFilter filter, const Uv& uv, cons
   return Texture(image).sample({uv, dx, dy}, filter)[1];
 }
 
-constexpr double rounded = 1e-14;
+constexpr double rounding_error = 1e-14;
 
 /// A quarter of the way from one texel to the next, in each component.
 TEST(TextureByHand, EachComponentIsMixedByItself) {
   RgbImage image(2, 1);
   image.pixels = {{0, 51, 102}, {255, 204, 153}};
   const Colour c = Texture(image).sample({{0.375, 0.5}, {}, {}}, TextureFilter::bilinear);
-  EXPECT_NEAR(c[0], 0.25, rounded);
-  EXPECT_NEAR(c[1], 0.35, rounded);
-  EXPECT_NEAR(c[2], 0.45, rounded);
+  EXPECT_NEAR(c[0], 0.25, rounding_error);
+  EXPECT_NEAR(c[1], 0.35, rounding_error);
+  EXPECT_NEAR(c[2], 0.45, rounding_error);
   // Between the texels 5, 6, 9 and 10, at 1.25 and 1.5 of their centres.
-  EXPECT_NEAR(looked_up(four_by_four, TextureFilter::bilinear, {0.4375, 0.5}), 7.25 / 15, rounded);
+  EXPECT_NEAR(looked_up(four_by_four, TextureFilter::bilinear, {0.4375, 0.5}), 7.25 / 15,
+              rounding_error);
 }
 
 /// The coarsest level of a row or a column, odd ones too, is one texel.
 TEST(TextureByHand, LevelsOfRowsAndColumns) {
   for (const RgbImage& image : {grey(4, {0, 51, 102, 255}), grey(1, {0, 51, 102, 255})}) {
     for (const TextureFilter filter : {TextureFilter::trilinear, TextureFilter::anisotropic}) {
-      EXPECT_NEAR(looked_up(image, filter, {0.3, 0.7}, {100, 0}, {0, 100}), 0.4, rounded);
+      EXPECT_NEAR(looked_up(image, filter, {0.3, 0.7}, {100, 0}, {0, 100}), 0.4, rounding_error);
     }
   }
   // Of three, the last has no partner and is left out: ⌊3/2⌋ = 1.
   EXPECT_NEAR(
       looked_up(grey(3, {0, 51, 255}), TextureFilter::trilinear, {0.5, 0.5}, {9, 0}, {0, 9}), 0.1,
-      rounded);
+      rounding_error);
   EXPECT_EQ(looked_up(grey(1, {102}), TextureFilter::trilinear, {0.5, 0.5}, {9, 0}, {0, 9}), 0.4);
 }
 
@@ -114,14 +115,15 @@ TEST(TextureByHand, BilinearMixesFourTexels) {
   };
   EXPECT_EQ(at(0.25, 0.75), 0);  // at the centres, the texels
   EXPECT_EQ(at(0.75, 0.25), 102 / 255.);
-  EXPECT_NEAR(at(0.5, 0.5), (0 + 1 + 0.2 + 0.4) / 4, rounded);
-  EXPECT_NEAR(at(0.375, 0.75), 0.25, rounded);        // a quarter of the way from 0 to 1
-  EXPECT_NEAR(at(0.25, 0.625), 0.25 * 0.2, rounded);  // down from 0 to 1/5
-  EXPECT_NEAR(at(0.375, 0.625), 0.75 * (0.25 * 1) + 0.25 * (0.75 * 0.2 + 0.25 * 0.4), rounded);
+  EXPECT_NEAR(at(0.5, 0.5), (0 + 1 + 0.2 + 0.4) / 4, rounding_error);
+  EXPECT_NEAR(at(0.375, 0.75), 0.25, rounding_error);        // a quarter of the way from 0 to 1
+  EXPECT_NEAR(at(0.25, 0.625), 0.25 * 0.2, rounding_error);  // down from 0 to 1/5
+  EXPECT_NEAR(at(0.375, 0.625), 0.75 * (0.25 * 1) + 0.25 * (0.75 * 0.2 + 0.25 * 0.4),
+              rounding_error);
   // Over the sides, the texels of the other side.
-  EXPECT_NEAR(at(0, 0.75), 0.5, rounded);
-  EXPECT_NEAR(at(0.25, 0), 0.1, rounded);
-  EXPECT_NEAR(at(0, 0), 0.4, rounded);
+  EXPECT_NEAR(at(0, 0.75), 0.5, rounding_error);
+  EXPECT_NEAR(at(0.25, 0), 0.1, rounding_error);
+  EXPECT_NEAR(at(0, 0), 0.4, rounding_error);
 }
 
 TEST(TextureByHand, MipLevelsAreMeans) {
@@ -130,15 +132,15 @@ TEST(TextureByHand, MipLevelsAreMeans) {
   const auto at = [](double u, double v, double texels) {
     return looked_up(four_by_four, TextureFilter::trilinear, {u, v}, {texels / 4, 0});
   };
-  EXPECT_NEAR(at(0.25, 0.75, 2), 2.5 / 15, rounded);
-  EXPECT_NEAR(at(0.75, 0.75, 2), 4.5 / 15, rounded);
-  EXPECT_NEAR(at(0.25, 0.25, 2), 10.5 / 15, rounded);
-  EXPECT_NEAR(at(0.75, 0.25, 2), 12.5 / 15, rounded);
-  EXPECT_NEAR(at(0.25, 0.25, 4), 7.5 / 15, rounded);    // level 2
-  EXPECT_NEAR(at(0.25, 0.25, 400), 7.5 / 15, rounded);  // there is no other
+  EXPECT_NEAR(at(0.25, 0.75, 2), 2.5 / 15, rounding_error);
+  EXPECT_NEAR(at(0.75, 0.75, 2), 4.5 / 15, rounding_error);
+  EXPECT_NEAR(at(0.25, 0.25, 2), 10.5 / 15, rounding_error);
+  EXPECT_NEAR(at(0.75, 0.25, 2), 12.5 / 15, rounding_error);
+  EXPECT_NEAR(at(0.25, 0.25, 4), 7.5 / 15, rounding_error);    // level 2
+  EXPECT_NEAR(at(0.25, 0.25, 400), 7.5 / 15, rounding_error);  // there is no other
   // Odd sizes drop what is left over: 3 × 1 becomes the mean of its first two.
   EXPECT_NEAR(looked_up(grey(3, {0, 102, 255}), TextureFilter::trilinear, {0.5, 0.5}, {100, 0}),
-              0.2, rounded);
+              0.2, rounding_error);
 }
 
 TEST(TextureByHand, TrilinearMixesTwoLevels) {
@@ -147,12 +149,12 @@ TEST(TextureByHand, TrilinearMixesTwoLevels) {
   };
   // At the lower left texel's centre: 12/15 in level 0. In level 1 between its four texels, a
   // quarter of the way over either side: (9·10.5 + 3·12.5 + 3·2.5 + 4.5)/16 = 9 fifteenths.
-  EXPECT_NEAR(at({0.25, 0}, {0, 0.25}), 12. / 15, rounded);             // a texel a pixel
-  EXPECT_NEAR(at({0.1, 0}, {0, 0.1}), 12. / 15, rounded);               // less
-  EXPECT_NEAR(at({0.5, 0}, {0, 0.25}), 9. / 15, rounded);               // two: the longer counts
-  EXPECT_NEAR(at({0, 0.25}, {0.3, 0.4}), 9. / 15, rounded);             // √(1.2² + 1.6²) = 2
-  EXPECT_NEAR(at({std::sqrt(2.) / 4, 0}, {0, 0}), 10.5 / 15, rounded);  // √2: level ½
-  EXPECT_NEAR(at({std::sqrt(2.) / 2, 0}, {0, 0}), 8.25 / 15, rounded);  // 2√2: level 1½
+  EXPECT_NEAR(at({0.25, 0}, {0, 0.25}), 12. / 15, rounding_error);  // a texel a pixel
+  EXPECT_NEAR(at({0.1, 0}, {0, 0.1}), 12. / 15, rounding_error);    // less
+  EXPECT_NEAR(at({0.5, 0}, {0, 0.25}), 9. / 15, rounding_error);    // two: the longer counts
+  EXPECT_NEAR(at({0, 0.25}, {0.3, 0.4}), 9. / 15, rounding_error);  // √(1.2² + 1.6²) = 2
+  EXPECT_NEAR(at({std::sqrt(2.) / 4, 0}, {0, 0}), 10.5 / 15, rounding_error);  // √2: level ½
+  EXPECT_NEAR(at({std::sqrt(2.) / 2, 0}, {0, 0}), 8.25 / 15, rounding_error);  // 2√2: level 1½
 }
 
 TEST(TextureByHand, AnisotropicLooksAlongTheLongerSide) {
@@ -160,33 +162,33 @@ TEST(TextureByHand, AnisotropicLooksAlongTheLongerSide) {
     return looked_up(four_by_four, TextureFilter::anisotropic, uv, dx, dy);
   };
   // Four texels along u, one along v: four looks in level 0, at the centres of a row.
-  EXPECT_NEAR(at({0.5, 0.125}, {1, 0}, {0, 0.25}), (12 + 13 + 14 + 15) / 60., rounded);
-  EXPECT_NEAR(at({0.5, 0.875}, {1, 0}, {0, 0.25}), (0 + 1 + 2 + 3) / 60., rounded);
+  EXPECT_NEAR(at({0.5, 0.125}, {1, 0}, {0, 0.25}), (12 + 13 + 14 + 15) / 60., rounding_error);
+  EXPECT_NEAR(at({0.5, 0.875}, {1, 0}, {0, 0.25}), (0 + 1 + 2 + 3) / 60., rounding_error);
   // And along v: a column, where trilinear filtering has the mean of all.
-  EXPECT_NEAR(at({0.125, 0.5}, {0.25, 0}, {0, 1}), (0 + 4 + 8 + 12) / 60., rounded);
+  EXPECT_NEAR(at({0.125, 0.5}, {0.25, 0}, {0, 1}), (0 + 4 + 8 + 12) / 60., rounding_error);
   EXPECT_NEAR(looked_up(four_by_four, TextureFilter::trilinear, {0.125, 0.5}, {0.25, 0}, {0, 1}),
-              7.5 / 15, rounded);
+              7.5 / 15, rounding_error);
   // Two texels either way: one look, level 1.
-  EXPECT_NEAR(at({0.25, 0.25}, {0.5, 0}, {0, 0.5}), 10.5 / 15, rounded);
+  EXPECT_NEAR(at({0.25, 0.25}, {0.5, 0}, {0, 0.5}), 10.5 / 15, rounding_error);
   // Two by one: two looks, half of the longer side apart, in level 0.
-  EXPECT_NEAR(at({0.25, 0.125}, {0.5, 0}, {0, 0.25}), (12 + 13) / 30., rounded);
+  EXPECT_NEAR(at({0.25, 0.125}, {0.5, 0}, {0, 0.25}), (12 + 13) / 30., rounding_error);
   // 64 by 1: 16 looks, each of 4 texels: all of level 2.
-  EXPECT_NEAR(at({0.1, 0.1}, {16, 0}, {0, 0.25}), 7.5 / 15, rounded);
+  EXPECT_NEAR(at({0.1, 0.1}, {16, 0}, {0, 0.25}), 7.5 / 15, rounding_error);
   // Less than a texel: one look where it is.
-  EXPECT_NEAR(at({0.125, 0.125}, {0.01, 0}, {0, 0.0001}), 12. / 15, rounded);
-  EXPECT_NEAR(at({0.125, 0.125}, {0, 0}, {0, 0}), 12. / 15, rounded);
+  EXPECT_NEAR(at({0.125, 0.125}, {0.01, 0}, {0, 0.0001}), 12. / 15, rounding_error);
+  EXPECT_NEAR(at({0.125, 0.125}, {0, 0}, {0, 0}), 12. / 15, rounding_error);
 }
 
 /// A square at depth 8 that fills 8 × 8 pixels, its texture `repeats` times on either side.
 Scene square(double repeats) {
   Scene scene =
-      testing::scene_of({{0, 0, 8}, {8, 0, 8}, {8, 8, 8}, {0, 8, 8}}, {{0, 2, 1}, {0, 3, 2}});
+      checks::scene_of({{0, 0, 8}, {8, 0, 8}, {8, 8, 8}, {0, 8, 8}}, {{0, 2, 1}, {0, 3, 2}});
   scene.meshes[0].texture_coordinates = {{0, repeats}, {repeats, repeats}, {repeats, 0}, {0, 0}};
   return scene;
 }
 
-Camera camera() {
-  Camera camera = testing::camera_of(8, 8, 8);
+Camera camera_of_eight() {
+  Camera camera = checks::camera_of(8, 8, 8);
   camera.projection.cx = camera.projection.cy = 0;
   return camera;
 }
@@ -203,12 +205,13 @@ double drawn(const Scene& scene, const RgbImage& texture, TextureFilter filter, 
   options.texture = file;
   options.filter = filter;
   options.interpolation = interpolation;
-  const double red = render_frame(scene, camera(), options, true).picture.pixels.at(y * 8 + x)[0];
+  const double red =
+      render_frame(scene, camera_of_eight(), options, true).picture.pixels.at(y * 8 + x)[0];
   std::filesystem::remove(file);
   return red;
 }
 
-constexpr double kept = 0x1p-25 + rounded;
+constexpr double kept = 0x1p-25 + rounding_error;
 
 TEST(TextureByHand, AtNamedPixels) {
   // Texels of 4 × 4 pixels. Pixel (1, 6) has u = 1.5/8, v = 1.5/8: in the lower left texel.
@@ -246,7 +249,8 @@ TEST(TextureByHand, ReducedAtNamedPixels) {
     options.shading = Shading::none;
     options.texture = "checker";
     options.filter = filter;
-    return render_frame(square(repeats), camera(), options, true).picture.pixels.at(y * 8 + x)[0];
+    return render_frame(square(repeats), camera_of_eight(), options, true)
+        .picture.pixels.at(y * 8 + x)[0];
   };
   for (std::size_t i = 0; i < 64; ++i) {
     EXPECT_EQ(checkered(1, TextureFilter::nearest, i % 8, i / 8), (i % 8 + i / 8) % 2 == 0 ? 1 : 0);
@@ -261,7 +265,7 @@ TEST(TextureByHand, InPerspective) {
   // has v = (1 − s)/16 / (s/8 + (1 − s)/16) with s = (y + ½)/8: row 2, s = 5/16: (11/256)/(21/256);
   // affinely 11/16.
   Scene scene =
-      testing::scene_of({{0, 0, 16}, {16, 0, 16}, {8, 8, 8}, {0, 8, 8}}, {{0, 2, 1}, {0, 3, 2}});
+      checks::scene_of({{0, 0, 16}, {16, 0, 16}, {8, 8, 8}, {0, 8, 8}}, {{0, 2, 1}, {0, 3, 2}});
   scene.meshes[0].texture_coordinates = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
   // Rows of 1 × 64 texels, row k from the bottom of colour k/255·4: v·64 = 33.5 and 44.
   std::vector<int> codes;
@@ -442,9 +446,9 @@ TEST(TextureFiles, SizesThatCannotBe) {
 
 /// What a triangle's trace says of a sample is what is drawn there, its texture included.
 TEST(TextureByHand, TraceShowsTheColourThatIsDrawn) {
-  Scene scene = testing::scene_of({{-2, -1.5, 4}, {3, -1, 9}, {0.25, 2, 20}}, {{0, 1, 2}});
+  Scene scene = checks::scene_of({{-2, -1.5, 4}, {3, -1, 9}, {0.25, 2, 20}}, {{0, 1, 2}});
   scene.meshes[0].texture_coordinates = {{0, 0}, {8, 0}, {3, 9}};
-  const Camera camera = testing::camera_of(16, 12, 16);
+  const Camera camera = checks::camera_of(16, 12, 16);
   PipelineOptions options;
   options.texture = "checker";
   options.filter = TextureFilter::nearest;
@@ -468,9 +472,9 @@ TEST(TextureByHand, TraceShowsTheColourThatIsDrawn) {
 
 /// Also where no picture is asked for.
 TEST(TextureFiles, AMissingOneIsSaidToBe) {
-  Scene scene = testing::scene_of({{-2, -1.5, 4}, {3, -1, 9}, {0.25, 2, 20}}, {{0, 1, 2}});
+  Scene scene = checks::scene_of({{-2, -1.5, 4}, {3, -1, 9}, {0.25, 2, 20}}, {{0, 1, 2}});
   scene.meshes[0].texture_coordinates = {{0, 0}, {8, 0}, {3, 9}};
-  const Camera camera = testing::camera_of(16, 12, 16);
+  const Camera camera = checks::camera_of(16, 12, 16);
   PipelineOptions options;
   options.texture = "/nowhere/texture.png";
   EXPECT_THROW(render_frame(scene, camera, options, false), InputError);

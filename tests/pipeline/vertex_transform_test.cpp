@@ -91,8 +91,8 @@ TEST(VertexTransform, VolumesAndFragmentsOfMappings) {
 }
 
 TEST(FillInRange, HoldsTheSceneWhereTheCameraHasNone) {
-  const Scene scene = testing::scene_of({{0, 0, 2}, {1, 0, 3}, {0, 1, 8}}, {{0, 1, 2}});
-  Camera camera = testing::camera_of(8, 8, 4);
+  const Scene scene = checks::scene_of({{0, 0, 2}, {1, 0, 3}, {0, 1, 8}}, {{0, 1, 2}});
+  Camera camera = checks::camera_of(8, 8, 4);
   DepthFormat format{Mapping::standard, Storage::float32, 0, 0, 1};
   fill_in_range(scene, camera, format);
   EXPECT_EQ(format.near, 1);
@@ -104,7 +104,7 @@ TEST(FillInRange, HoldsTheSceneWhereTheCameraHasNone) {
   EXPECT_EQ(format.near, 0.25);
   EXPECT_EQ(format.far, 4);
   // Behind the eye too: 10⁻⁴ of the greatest depth.
-  const Scene around = testing::scene_of({{0, 0, -2}, {1, 0, 3}, {0, 1, 8}}, {{0, 1, 2}});
+  const Scene around = checks::scene_of({{0, 0, -2}, {1, 0, 3}, {0, 1, 8}}, {{0, 1, 2}});
   camera.near = 0;
   format.near = format.far = 0;
   fill_in_range(around, camera, format);

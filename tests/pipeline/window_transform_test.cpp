@@ -62,7 +62,7 @@ TEST(ClipLine, IsCutAtBothEnds) {
 }
 
 TEST(Viewport, CornersOfTheSquareAreThoseOfTheRectangle) {
-  const Camera camera = testing::camera_of(100, 80, 1);
+  const Camera camera = checks::camera_of(100, 80, 1);
   PipelineOptions options;
   options.viewport = WindowRectangle{10, 20, 40, 30};  // from the lower left
   options.depth_range = {0.25, 0.75};

@@ -24,7 +24,7 @@ Scene some_scene() {
     }
     triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  Scene scene = testing::scene_of(std::move(vertices), std::move(triangles));
+  Scene scene = checks::scene_of(std::move(vertices), std::move(triangles));
   scene.objects.push_back(scene.objects[0]);
   Object& placed = scene.objects.back();
   placed.placed_as_is = false;
@@ -35,7 +35,7 @@ Scene some_scene() {
 
 /// Whose focal length is a power of two, so that the rays of its pixels are binary64 numbers.
 Camera some_camera(ProjectionModel model) {
-  Camera camera = testing::camera_of(96, 64, model == ProjectionModel::perspective ? 64 : 16);
+  Camera camera = checks::camera_of(96, 64, model == ProjectionModel::perspective ? 64 : 16);
   camera.projection.model = model;
   camera.world_to_camera[0][3] = 0.375;
   camera.world_to_camera[1][3] = -0.25;

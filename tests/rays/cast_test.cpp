@@ -59,14 +59,14 @@ void expect_as_by_rationals(const test::RayCase& all) {
 class RayAdversaries : public ::testing::TestWithParam<test::Family> {};
 
 TEST_P(RayAdversaries, MeetWhatTheyMeetInRationalNumbers) {
-  testing::for_each_adversary(
+  checks::for_each_adversary(
       60, [&](std::uint64_t seed) { expect_as_by_rationals(GetParam().draw(seed)); });
 }
 
 TEST_P(RayAdversaries, MeetTheSameWithAllVectorInstructions) {
-  for (const std::int64_t target : testing::vector_targets()) {
-    const testing::OnlyTarget only(target);
-    testing::for_each_adversary(
+  for (const std::int64_t target : checks::vector_targets()) {
+    const checks::OnlyTarget only(target);
+    checks::for_each_adversary(
         2, [&](std::uint64_t seed) { expect_as_by_rationals(GetParam().draw(1000 + seed)); });
   }
 }

@@ -18,7 +18,7 @@ constexpr CastOptions whole_line{.segment = {.t_min = -std::numeric_limits<doubl
 /// A closed sphere: all points of the last ring are one.
 Scene closed_sphere(std::uint32_t rings, bool in_binary32) {
   Scene scene;
-  scene.meshes.push_back(testing::sphere(rings));
+  scene.meshes.push_back(checks::sphere(rings));
   scene.objects.push_back({.name = "sphere"});
   auto& vertices = scene.meshes[0].vertices;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -91,7 +91,7 @@ std::vector<double> values_of(const RayHitLists& lists) {
 }
 
 TEST(RayLawAdversaries, LinesMeetClosedSurfacesAnEvenNumberOfTimes) {
-  testing::for_each_adversary(300, [](std::uint64_t seed) {
+  checks::for_each_adversary(300, [](std::uint64_t seed) {
     const Scene scene = test::voxel_solid(seed);
     const RayScene prepared(scene);
     const std::vector<Ray> rays = test::rays_at_voxels(seed, 50);
@@ -104,7 +104,7 @@ TEST(RayLawAdversaries, LinesMeetClosedSurfacesAnEvenNumberOfTimes) {
 
 // At an edge that a ray only touches it enters and leaves at the same t.
 TEST(RayLawAdversaries, LinesEnterSolidsWhereTheyFirstMeetThem) {
-  testing::for_each_adversary(300, [](std::uint64_t seed) {
+  checks::for_each_adversary(300, [](std::uint64_t seed) {
     const Scene scene = test::voxel_solid(seed);
     const RayScene prepared(scene);
     const std::vector<Ray> rays = test::rays_at_voxels(seed, 50);
@@ -116,7 +116,7 @@ TEST(RayLawAdversaries, LinesEnterSolidsWhereTheyFirstMeetThem) {
 }
 
 TEST(RayLawAdversaries, RoundedValuesStayWhereTrianglesAreInAnotherOrder) {
-  testing::for_each_adversary(150, [](std::uint64_t seed) {
+  checks::for_each_adversary(150, [](std::uint64_t seed) {
     Scene scene = test::voxel_solid(seed);
     const std::vector<Ray> rays = test::rays_at_voxels(seed, 50);
     const auto expected = values_of(all_hits(RayScene(scene), rays));
@@ -131,7 +131,7 @@ TEST(RayLawAdversaries, RoundedValuesStayWhereTrianglesAreInAnotherOrder) {
 }
 
 TEST(RayLawAdversaries, PointsAreInsideAsByRationals) {
-  testing::for_each_adversary(60, [](std::uint64_t seed) {
+  checks::for_each_adversary(60, [](std::uint64_t seed) {
     const Scene scene = test::voxel_solid(seed);
     const RayScene prepared(scene);
     const auto triangles = test::rational_triangles(scene);

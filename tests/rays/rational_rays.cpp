@@ -17,8 +17,8 @@ std::vector<oracle::Triangle> rational_triangles(const Scene& scene) {
     oracle::Triangle triangle;
     const auto corners = source.world_corners(i);
     for (std::size_t k = 0; k < 3; ++k)
-      triangle[k] = {testing::rational(Ratio(corners[k].x)), testing::rational(Ratio(corners[k].y)),
-                     testing::rational(Ratio(corners[k].z))};
+      triangle[k] = {checks::rational(Ratio(corners[k].x)), checks::rational(Ratio(corners[k].y)),
+                     checks::rational(Ratio(corners[k].z))};
     triangles.push_back(triangle);
   }
   return triangles;

@@ -45,7 +45,7 @@ Scene soup(Random& random, int triangles, const Coordinate& coordinate) {
     const std::uint32_t a = index(), b = index(), c = index();
     list.push_back({a, b, c});
   }
-  return testing::scene_of(std::move(vertices), std::move(list));
+  return checks::scene_of(std::move(vertices), std::move(list));
 }
 
 Point to_array(const MeshPoint& p) {
@@ -158,7 +158,7 @@ RayCase at_needles(std::uint64_t seed) {
                c = static_cast<std::uint32_t>(random() % 12);
     list.push_back({a, b, c});
   }
-  RayCase all{testing::scene_of(std::move(vertices), std::move(list)), {}, {}};
+  RayCase all{checks::scene_of(std::move(vertices), std::move(list)), {}, {}};
   aim(all, random, 20, whole, true);
   return all;
 }

@@ -1,21 +1,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "fathom/failures/errors.h"
 #include "fathom/rays/cast.h"
 #include "fathom/rays/ray_tree.h"
 #include "tests/inputs/scene_building.h"
+#include "tests/special_values.h"
 
 namespace fathom::rays {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// The square [0, 4]² at z = 4, whose diagonal runs from (0, 0) to (4, 4).
 Scene square() {
-  return testing::scene_of({{0, 0, 4}, {4, 0, 4}, {4, 4, 4}, {0, 4, 4}}, {{0, 1, 2}, {0, 2, 3}});
+  return checks::scene_of({{0, 0, 4}, {4, 0, 4}, {4, 4, 4}, {0, 4, 4}}, {{0, 1, 2}, {0, 2, 3}});
 }
 
 RayHit cast_one(const Scene& scene, const Ray& ray, const CastOptions& options = {}) {
@@ -84,8 +82,8 @@ Scene crowd(std::uint32_t copies) {
     triangles.push_back({0, 2, 1});
     triangles.push_back({3, 5, 4});
   }
-  return testing::scene_of({{0, 0, 4}, {4, 0, 4}, {0, 4, 4}, {0, 0, 5}, {4, 0, 5}, {0, 4, 5}},
-                           std::move(triangles));
+  return checks::scene_of({{0, 0, 4}, {4, 0, 4}, {0, 4, 4}, {0, 0, 5}, {4, 0, 5}, {0, 4, 5}},
+                          std::move(triangles));
 }
 
 TEST(Cast, CountsEachTriangleOfACrowd) {
@@ -115,14 +113,14 @@ TEST(Cast, CountsCrowdsInWindingNumbers) {
   for (int i = 0; i < 10; ++i)
     triangles.insert(triangles.end(), {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}});
   const Scene scene =
-      testing::scene_of({{-1, -1, -1}, {3, -1, -1}, {-1, 3, -1}, {-1, -1, 3}}, triangles);
+      checks::scene_of({{-1, -1, -1}, {3, -1, -1}, {-1, 3, -1}, {-1, -1, 3}}, triangles);
   const std::vector<std::array<double, 3>> points{{0, 0, 0}, {9, 0, 0}, {-9, 0, 0}};
   EXPECT_EQ(winding_numbers(RayScene(scene), points), (std::vector<std::int64_t>{10, 0, 0}));
 }
 
 /// The first object once more, moved by 2⁻⁶⁰ along z: too little for binary64.
 Scene nearly_equal_objects() {
-  Scene scene = testing::scene_of({{0, 0, 4}, {4, 0, 4}, {0, 4, 4}}, {{0, 1, 2}});
+  Scene scene = checks::scene_of({{0, 0, 4}, {4, 0, 4}, {0, 4, 4}}, {{0, 1, 2}});
   for (int i = 0; i < 6; ++i) {
     Object moved = scene.objects[0];
     moved.world_from_mesh.rows[2][3] = -std::ldexp(1.0, -60);
@@ -161,7 +159,7 @@ TEST(RayTree, IgnoresAVertexWithoutATriangle) {
 
 TEST(Cast, MeetsNothingInAnEmptyScene) {
   const std::array rays{Ray{{0, 0, 0}, {0, 0, 1}}, Ray{{1e300, 0, 0}, {0, 0, 1}}};
-  for (const Scene& scene : {Scene{}, testing::scene_of({{1, 1, 1}}, {{0, 0, 0}})}) {
+  for (const Scene& scene : {Scene{}, checks::scene_of({{1, 1, 1}}, {{0, 0, 0}})}) {
     const RayScene prepared(scene);
     EXPECT_EQ(cast(prepared, rays), (std::vector<RayHit>{{}, {}}));
     EXPECT_EQ(all_hits(prepared, rays).splits, (std::vector<std::size_t>{0, 0, 0}));
@@ -190,7 +188,7 @@ TEST(Cast, RefusesASegmentThatEndsBeforeItBegins) {
 }
 
 TEST(RayScene, RefusesASceneWithAFault) {
-  const Scene scene = testing::scene_of({{0, 0, NAN}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const Scene scene = checks::scene_of({{0, 0, NAN}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
   EXPECT_THROW(RayScene prepared(scene), InputError);
 }
 

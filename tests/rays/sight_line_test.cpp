@@ -61,7 +61,7 @@ void expect_end_bounded(const SightEnd& end, const WorldPoint& exact, long power
 class SightLineAdversaries : public ::testing::TestWithParam<test::Family> {};
 
 TEST_P(SightLineAdversaries, HaveErrorsWithinTheirBounds) {
-  testing::for_each_adversary(60, [&](std::uint64_t seed) {
+  checks::for_each_adversary(60, [&](std::uint64_t seed) {
     const test::RayCase all = GetParam().draw(seed);
     const RayScene scene(all.scene);
     const TriangleSource& source = scene.triangles();

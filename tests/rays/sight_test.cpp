@@ -73,14 +73,14 @@ void expect_as_by_rationals(test::RayCase all, std::uint64_t seed) {
 class SightAdversaries : public ::testing::TestWithParam<test::Family> {};
 
 TEST_P(SightAdversaries, SeeWhatTheySeeInRationalNumbers) {
-  testing::for_each_adversary(
+  checks::for_each_adversary(
       60, [&](std::uint64_t seed) { expect_as_by_rationals(GetParam().draw(seed), seed); });
 }
 
 TEST_P(SightAdversaries, SeeTheSameWithAllVectorInstructions) {
-  for (const std::int64_t target : testing::vector_targets()) {
-    const testing::OnlyTarget only(target);
-    testing::for_each_adversary(
+  for (const std::int64_t target : checks::vector_targets()) {
+    const checks::OnlyTarget only(target);
+    checks::for_each_adversary(
         2, [&](std::uint64_t seed) { expect_as_by_rationals(GetParam().draw(1000 + seed), seed); });
   }
 }
@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Families, SightAdversaries, ::testing::ValuesIn(test::f
 
 /// The square [0, 4]² at z = 4, whose diagonal runs from (0, 0) to (4, 4).
 Scene square() {
-  return testing::scene_of({{0, 0, 4}, {4, 0, 4}, {4, 4, 4}, {0, 4, 4}}, {{0, 1, 2}, {0, 2, 3}});
+  return checks::scene_of({{0, 0, 4}, {4, 0, 4}, {4, 4, 4}, {0, 4, 4}}, {{0, 1, 2}, {0, 2, 3}});
 }
 
 bool sees_one(const Scene& scene, const SightPoint& eye, const SightPoint& point,

@@ -54,7 +54,7 @@ void expect_values(const Scene& scene, const Ray& ray, const oracle::RayHit& hit
 class RayValueAdversaries : public ::testing::TestWithParam<test::Family> {};
 
 TEST_P(RayValueAdversaries, AreRationalNumbersRoundedOnce) {
-  testing::for_each_adversary(5, [&](std::uint64_t seed) {
+  checks::for_each_adversary(5, [&](std::uint64_t seed) {
     const test::RayCase all = GetParam().draw(seed);
     const auto triangles = test::rational_triangles(all.scene);
     for (const Ray& ray : all.rays) {
@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(Families, RayValueAdversaries, ::testing::ValuesIn(test
                          [](const auto& family) { return family.param.name; });
 
 TEST(HitValues, AreThoseOnPaper) {
-  const Scene scene = testing::scene_of({{0, 0, 4}, {4, 0, 4}, {0, 4, 4}}, {{0, 1, 2}});
+  const Scene scene = checks::scene_of({{0, 0, 4}, {4, 0, 4}, {0, 4, 4}}, {{0, 1, 2}});
   const auto values = hit_values<double>(scene, {{1, 2, 0}, {0, 0, 2}}, 0);
   EXPECT_EQ(values.t, 2);
   EXPECT_EQ(values.distance, 4);
@@ -84,7 +84,7 @@ TEST(HitValues, AreThoseOnPaper) {
 }
 
 TEST(HitValues, OfManyHitsAreThoseOfEach) {
-  const Scene scene = testing::scene_of({{0, 0, 4}, {4, 0, 4}, {0, 4, 4}}, {{0, 1, 2}});
+  const Scene scene = checks::scene_of({{0, 0, 4}, {4, 0, 4}, {0, 4, 4}}, {{0, 1, 2}});
   const std::vector<Ray> rays{
       {{1, 2, 0}, {0, 0, 2}}, {{9, 9, 0}, {0, 0, 1}}, {{1, 1, 9}, {0, 0, -1}}};
   const std::vector<std::uint32_t> met{0, no_triangle, 0};
@@ -101,7 +101,7 @@ TEST(HitValues, OfManyHitsAreThoseOfEach) {
 }
 
 TEST(HitValues, RefuseATriangleThatIsNotMet) {
-  const Scene scene = testing::scene_of({{0, 0, 4}, {4, 0, 4}, {0, 4, 4}}, {{0, 1, 2}});
+  const Scene scene = checks::scene_of({{0, 0, 4}, {4, 0, 4}, {0, 4, 4}}, {{0, 1, 2}});
   EXPECT_THROW(hit_values<float>(scene, {{9, 9, 0}, {0, 0, 2}}, 0), UsageError);
   EXPECT_THROW(hit_values<float>(scene, {{1, 1, 0}, {0, 0, 2}}, 1), std::out_of_range);
 }

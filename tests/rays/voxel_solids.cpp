@@ -70,7 +70,7 @@ Scene voxel_solid(std::uint64_t seed) {
       }
     }
   }
-  return testing::scene_of(std::move(vertices), std::move(list));
+  return checks::scene_of(std::move(vertices), std::move(list));
 }
 
 std::vector<Ray> rays_at_voxels(std::uint64_t seed, int count) {

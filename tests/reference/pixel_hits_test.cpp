@@ -15,9 +15,9 @@
 namespace fathom {
 namespace {
 
-using testing::CaseMaker;
-using testing::effort;
-using testing::Kind;
+using checks::CaseMaker;
+using checks::effort;
+using checks::Kind;
 
 void check(const Scene& scene, const Camera& camera, Cull cull, std::size_t& hits) {
   const PixelHits found = hits_of_pixels(scene, camera, cull);
@@ -60,9 +60,9 @@ TEST(PixelHits, OfEqualRoundedDepthsAreOrderedExactly) {
     vertices.insert(vertices.end(), {{-8, -8, z}, {8, -8, z}, {0, 8, z}});
     triangles.push_back({first, first + 1, first + 2});
   }
-  Camera camera = testing::camera_of(2, 2, 2);
+  Camera camera = checks::camera_of(2, 2, 2);
   camera.world_to_camera[2][3] = 1;
-  const PixelHits found = hits_of_pixels(testing::scene_of(vertices, triangles), camera);
+  const PixelHits found = hits_of_pixels(checks::scene_of(vertices, triangles), camera);
   ASSERT_EQ(found.splits, (std::vector<std::size_t>{0, 5, 10, 15, 20}));
   const std::array<std::uint32_t, 5> order{2, 4, 1, 3, 0};
   for (std::size_t i = 0; i < found.hits.size(); ++i)
@@ -70,7 +70,7 @@ TEST(PixelHits, OfEqualRoundedDepthsAreOrderedExactly) {
 }
 
 TEST(PixelHits, RefuseALens) {
-  Camera camera = testing::camera_of(4, 4, 4);
+  Camera camera = checks::camera_of(4, 4, 4);
   camera.projection.lens.emplace(Lens{LensModel::simple_radial, {0.1}});
   EXPECT_THROW(hits_of_pixels({}, camera), UsageError);
 }

@@ -17,9 +17,9 @@ namespace fathom {
 namespace {
 
 using namespace triangle;
-using testing::CaseMaker;
-using testing::effort;
-using testing::Kind;
+using checks::CaseMaker;
+using checks::effort;
+using checks::Kind;
 
 struct Covering {
   std::uint32_t number;
@@ -62,7 +62,7 @@ TEST(Probe, FindsWhatEveryTriangleLookedAtExactlyGives) {
   for (const Kind kind : {Kind::few_bits, Kind::neighbours, Kind::huge, Kind::tiny}) {
     CaseMaker maker(29 + static_cast<std::uint64_t>(kind), kind);
     for (int i = 0; i < 200 / effort; ++i) {
-      testing::Case c = maker.make();
+      checks::Case c = maker.make();
       // The same mesh once more, elsewhere: numbers go on from one object to the next.
       Object second = c.scene.objects[0];
       second.placed_as_is = false;
@@ -117,11 +117,11 @@ TEST(Probe, ShowsUnderLensesWhatTheReferenceEngineShows) {
   options.channels = {Channel::Z, Channel::id, Channel::distance};
   for (const LensModel model : {LensModel::simple_radial, LensModel::opencv_14, LensModel::division,
                                 LensModel::eucm, LensModel::table}) {
-    testing::LensCaseMaker maker(static_cast<std::uint64_t>(model), Kind::few_bits);
+    checks::LensCaseMaker maker(static_cast<std::uint64_t>(model), Kind::few_bits);
     for (std::uint64_t i = 0; i < 40U / effort; ++i) {
-      testing::Case c = maker.make(model == LensModel::table ? LensModel::division : model).view;
+      checks::Case c = maker.make(model == LensModel::table ? LensModel::division : model).view;
       if (model == LensModel::table)
-        c.camera = testing::with_table(c.camera, testing::DirectionMaker(i).numbers(30));
+        c.camera = checks::with_table(c.camera, checks::DirectionMaker(i).numbers(30));
       const DepthMap map = render_reference(c.scene, c.camera, options).map;
       for (std::uint32_t y = 0; y < c.camera.height; ++y) {
         for (std::uint32_t x = 0; x < c.camera.width; ++x) {

@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-namespace fathom {
+namespace fathom::reference {
 namespace {
-
-using namespace reference;
 
 /// More pixels than are taken at once: rows are cut where enough are there.
 TEST(ChosenRows, TakesWholeRowsUntilEnough) {
@@ -29,4 +27,4 @@ TEST(ChosenRows, TakesWholeRowsUntilEnough) {
 }
 
 }  // namespace
-}  // namespace fathom
+}  // namespace fathom::reference

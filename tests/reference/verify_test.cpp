@@ -22,12 +22,12 @@
 namespace fathom {
 namespace {
 
-using testing::camera_of;
-using testing::CaseMaker;
-using testing::effort;
-using testing::every_channel;
-using testing::Kind;
-using testing::scene_of;
+using checks::camera_of;
+using checks::CaseMaker;
+using checks::effort;
+using checks::every_channel;
+using checks::Kind;
+using checks::scene_of;
 
 const std::filesystem::path data = test::source_dir() / "data";
 
@@ -104,7 +104,7 @@ TEST(Verify, AgreesWithBothEnginesOnRandomScenes) {
   for (const Kind kind : {Kind::few_bits, Kind::neighbours, Kind::huge, Kind::tiny}) {
     CaseMaker maker(71 + static_cast<std::uint64_t>(kind), kind);
     for (int i = 0; i < 400 / effort; ++i, ++cases) {
-      const testing::Case c = maker.make();
+      const checks::Case c = maker.make();
       RenderOptions options;
       options.channels = every_channel;
       options.cull = i % 5 == 0 ? Cull::back : i % 5 == 1 ? Cull::front : Cull::none;
@@ -126,23 +126,23 @@ std::vector<Channel> channels_of_lenses() {
 }
 
 /// A random scene under each of some lens models, and one under a table.
-std::vector<testing::Case> lens_cases(std::uint64_t seed) {
-  std::vector<testing::Case> cases;
-  testing::LensCaseMaker maker(seed, Kind::few_bits);
+std::vector<checks::Case> lens_cases(std::uint64_t seed) {
+  std::vector<checks::Case> cases;
+  checks::LensCaseMaker maker(seed, Kind::few_bits);
   for (const LensModel model : {LensModel::radial, LensModel::opencv, LensModel::division,
                                 LensModel::fisheye_stereographic}) {
     cases.push_back(maker.make(model).view);
   }
-  testing::Case with_table = cases.back();
+  checks::Case with_table = cases.back();
   with_table.camera =
-      testing::with_table(with_table.camera, testing::DirectionMaker(seed).numbers(30));
+      checks::with_table(with_table.camera, checks::DirectionMaker(seed).numbers(30));
   cases.push_back(with_table);
   return cases;
 }
 
 TEST(Verify, AgreesUnderLenses) {
   for (std::uint64_t seed = 0; seed < 60 / effort; ++seed) {
-    for (const testing::Case& c : lens_cases(seed)) {
+    for (const checks::Case& c : lens_cases(seed)) {
       SCOPED_TRACE(seed);
       RenderOptions options;
       options.channels = channels_of_lenses();
@@ -154,7 +154,7 @@ TEST(Verify, AgreesUnderLenses) {
 }
 
 TEST(Verify, FindsOneBitUnderLenses) {
-  for (const testing::Case& c : lens_cases(7)) {
+  for (const checks::Case& c : lens_cases(7)) {
     RenderOptions options;
     options.channels = channels_of_lenses();
     const DepthMap right = render_reference(c.scene, c.camera, options).map;
@@ -206,8 +206,8 @@ TEST(Verify, AgreesOnHardScenes) {
 
 TEST(Verify, SceneOfSeveralObjectsAndPlacements) {
   Warnings warnings;
-  const auto placed = testing::effort > 1 ? data / "meshes" / "house.gltf"  // has few triangles
-                                          : data / "scenes" / "pair.json";
+  const auto placed = checks::effort > 1 ? data / "meshes" / "house.gltf"  // has few triangles
+                                         : data / "scenes" / "pair.json";
   const Scene scene = read_scene({placed, data / "meshes" / "cube.obj"}, {}, warnings);
   ASSERT_GT(scene.objects.size(), 1U);
   const Camera camera = frame_scene(scene, {}, {.width = 96, .height = 64});

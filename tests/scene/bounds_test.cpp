@@ -5,20 +5,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "fathom/numeric/rounding.h"
 #include "tests/inputs/scene_of_points.h"
+#include "tests/special_values.h"
 
 namespace fathom {
 namespace {
 
 using Vector3 = std::array<double, 3>;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 TEST(WorldBounds, OfMeshesAsTheyAre) {
-  Scene scene = testing::scene_of_points({{1, 2, 3}, {-1, 5, 2}});
+  Scene scene = checks::scene_of_points({{1, 2, 3}, {-1, 5, 2}});
   // A vertex that no triangle uses does not count.
   scene.meshes[0].vertices.push_back({100, 100, 100});
   const auto bounds = world_bounds(scene);
@@ -41,7 +39,7 @@ TEST(WorldBounds, OfPlacedMeshesAreTheExactOnesRoundedOutwards) {
       for (MeshPoint& p : vertices)
         p = {vertices[0].x * (1 + 0x1p-52 * std::round(3 * any(random))), vertices[0].y,
              vertices[0].z * (1 + 0x1p-52 * std::round(3 * any(random)))};
-    Scene scene = testing::scene_of_points(vertices);
+    Scene scene = checks::scene_of_points(vertices);
     Object& object = scene.objects[0];
     object.placed_as_is = false;
     for (auto& row : object.world_from_mesh.rows)

@@ -111,7 +111,7 @@ void check(std::uint64_t seed, const ScratchFolder& folder) {
 
 TEST(CutFilesAdversaries, AreReadWholeOrRefused) {
   const ScratchFolder folder;
-  testing::for_each_adversary(20, [&](std::uint64_t seed) { check(seed, folder); });
+  checks::for_each_adversary(20, [&](std::uint64_t seed) { check(seed, folder); });
 }
 
 }  // namespace

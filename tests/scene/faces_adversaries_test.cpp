@@ -15,8 +15,8 @@
 namespace fathom {
 namespace {
 
-using testing::Draw;
-using testing::Ring;
+using checks::Draw;
+using checks::Ring;
 
 /// Faces as an OBJ file has them; no two share corners.
 struct File {
@@ -41,22 +41,22 @@ struct File {
   }
 };
 
-Mesh read_in_mode(const std::filesystem::path& path, const testing::FloatingPointMode* mode) {
-  const testing::InMode in_mode(mode);
+Mesh read_in_mode(const std::filesystem::path& path, const checks::FloatingPointMode* mode) {
+  const checks::InMode in_mode(mode);
   Warnings warnings;
   return read_scene({path}, {}, warnings).meshes.at(0);
 }
 
 TEST(FacesAdversaries, AreCutAlikeInEveryMode) {
-  testing::for_each_adversary(60, [](std::uint64_t seed) {
+  checks::for_each_adversary(60, [](std::uint64_t seed) {
     Draw draw(seed);
     File file;
     for (std::uint64_t k = 0; k < 30; ++k) {
-      file.add(testing::hard_face(draw.one_of(testing::all_face_families), 30 * seed + k));
+      file.add(checks::hard_face(draw.one_of(checks::all_face_families), 30 * seed + k));
     }
     const ScratchFolder folder;
     const Mesh mesh =
-        read_in_mode(folder.write("faces.obj", file.text), &draw.one_of(testing::other_modes));
+        read_in_mode(folder.write("faces.obj", file.text), &draw.one_of(checks::other_modes));
     EXPECT_EQ(mesh.vertices, file.vertices);
     EXPECT_EQ(mesh.triangles, file.triangles);
   });

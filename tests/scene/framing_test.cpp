@@ -14,12 +14,12 @@
 #include "tests/effort.h"
 #include "tests/inputs/scene_of_points.h"
 #include "tests/scratch_folder.h"
+#include "tests/special_values.h"
 
 namespace fathom {
 namespace {
 
 using ::testing::HasSubstr;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Vector3 y_up{0, 1, 0}, z_up{0, 0, 1};
 
 /// Whether a point projects into the part of the image that a margin of a twentieth leaves. Exact.
@@ -46,7 +46,7 @@ std::vector<MeshPoint> cloud(const Vector3& centre, const Vector3& size) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> any(-1, 1);
   std::vector<MeshPoint> points;
-  for (int i = 0; i < std::max(4, 50 / testing::effort); ++i)
+  for (int i = 0; i < std::max(4, 50 / checks::effort); ++i)
     points.push_back({centre[0] + size[0] * any(random), centre[1] + size[1] * any(random),
                       centre[2] + size[2] * any(random)});
   return points;
@@ -77,13 +77,13 @@ TEST(Frame, SeesAllOfEveryScene) {
   int drawn = 0;
   for (const auto& [name, vertices] : trouble()) {
     SCOPED_TRACE(name);
-    const Scene scene = testing::scene_of_points(vertices);
+    const Scene scene = checks::scene_of_points(vertices);
     for (const auto projection : {ProjectionModel::perspective, ProjectionModel::orthographic})
       for (const Vector3& up : {y_up, z_up, Vector3{-1, 0, 0}, Vector3{0.3, -1e-5, 0.7}})
         for (const double azimuth : {0.0, 35.0, 90.0, 250.0})
           for (const double elevation : {-90.0, -30.0, 0.0, 25.0, 90.0})
             for (const double fov : {1.0, 40.0, 150.0}) {
-              if (++drawn % testing::effort != 0) continue;
+              if (++drawn % checks::effort != 0) continue;
               LensChoice lens;
               lens.model = projection;
               lens.vertical_fov = fov;
@@ -114,7 +114,7 @@ TEST(Frame, FillsTheImageButForItsMargin) {
 TEST(Frame, AnOrbitSeesAllFromEverywhere) {
   for (const auto& [name, vertices] : trouble()) {
     SCOPED_TRACE(name);
-    const auto bounds = world_bounds(testing::scene_of_points(vertices));
+    const auto bounds = world_bounds(checks::scene_of_points(vertices));
     ASSERT_TRUE(bounds);
     const auto path = orbit({0, 20, z_up}, 7, *bounds);
     ASSERT_EQ(path.size(), 7U);

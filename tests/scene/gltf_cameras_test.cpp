@@ -13,11 +13,11 @@
 namespace fathom {
 namespace {
 
-using testing::json;
+using checks::json;
 
 /// Nodes of which each is the child of the one before; the last has a mesh and a camera.
-testing::Asset chain(const std::vector<json>& nodes) {
-  testing::Asset asset;
+checks::Asset chain(const std::vector<json>& nodes) {
+  checks::Asset asset;
   asset.positions({0, 0, -3, 1, 0, -3, 0, 1, -2});
   asset.tree["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}};
   asset.tree["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
@@ -37,10 +37,10 @@ struct Beside {
   double largest = 0;
 };
 
-Beside beside(const testing::Asset& asset) {
+Beside beside(const checks::Asset& asset) {
   const ScratchFolder folder;
   const std::string text = asset.done().dump();
-  const Scene scene = testing::read_bytes(text).scene;
+  const Scene scene = checks::read_bytes(text).scene;
   const Camera camera = import_gltf(folder.write("a.gltf", text), 640, 480).at(0).camera;
   const auto& M = scene.objects.at(0).world_from_mesh;
   Beside result;
@@ -61,7 +61,7 @@ Beside beside(const testing::Asset& asset) {
 }
 
 /// The camera's numbers are rounded once: entries of at most `entry` times world coordinates.
-void expect_same_place(const testing::Asset& asset, double entry = 2) {
+void expect_same_place(const checks::Asset& asset, double entry = 2) {
   const Beside found = beside(asset);
   const std::array<std::array<double, 3>, 3> own{{{0, 0, -3}, {1, 0, -3}, {0, 1, -2}}};
   for (std::size_t i = 0; i < 3; ++i)
@@ -93,7 +93,7 @@ TEST(GltfCameras, LieWhereTheMeshesOfTheirNodesLie) {
 TEST(GltfCameras, AndSoFarFromLengthOne) {
   // The polynomial matrix of this quaternion scales and shears: its rows are (1, 0, 0), (0, −1,
   // −1), (0, 1, −1).
-  const testing::Asset asset = chain({{{"rotation", {1, 0, 0, 0.5}}, {"translation", {4, -5, 6}}}});
+  const checks::Asset asset = chain({{{"rotation", {1, 0, 0, 0.5}}, {"translation", {4, -5, 6}}}});
   EXPECT_EQ(beside(asset).lengths[1], std::sqrt(2.0));
   expect_same_place(asset);
   // A sheared child of a scaled parent.

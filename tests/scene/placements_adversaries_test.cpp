@@ -20,8 +20,8 @@
 namespace fathom {
 namespace {
 
+using checks::Draw;
 using nlohmann::json;
-using testing::Draw;
 using Q = mpq_class;
 using Point = std::array<Q, 3>;
 using Numbers = std::vector<double>;
@@ -169,7 +169,7 @@ void add_ways(const Tree& tree, std::size_t number, std::vector<const Node*> way
 
 Q rational(const Dyadic& x) {
   Q q;
-  testing::set(q.get_mpq_t(), x);
+  checks::set(q.get_mpq_t(), x);
   return q;
 }
 
@@ -248,8 +248,8 @@ json scene_file(Draw& draw, std::vector<Numbers>& transforms) {
   return {{"meshes", meshes}};
 }
 
-Scene scene_in_mode(const std::filesystem::path& path, const testing::FloatingPointMode* mode) {
-  const testing::InMode in_mode(mode);
+Scene scene_in_mode(const std::filesystem::path& path, const checks::FloatingPointMode* mode) {
+  const checks::InMode in_mode(mode);
   Warnings warnings;
   return read_scene({path}, {}, warnings);
 }
@@ -257,7 +257,7 @@ Scene scene_in_mode(const std::filesystem::path& path, const testing::FloatingPo
 TEST(PlacementsAdversaries, AreComposedAsRationalNumbersAre) {
   std::string buffer(positions.size() * sizeof(float), '\0');
   std::memcpy(buffer.data(), positions.data(), buffer.size());
-  testing::for_each_adversary(600, [&](std::uint64_t seed) {
+  checks::for_each_adversary(600, [&](std::uint64_t seed) {
     const ScratchFolder folder;  // a file that is written again may have to be on the disk first
     folder.write("positions.bin", buffer);
     Draw draw(seed);
@@ -268,7 +268,7 @@ TEST(PlacementsAdversaries, AreComposedAsRationalNumbersAre) {
     const std::string text = scene_file(draw, transforms).dump();
     SCOPED_TRACE(text + "\n" + asset);
     const std::string file = folder.write("scene.json", text);
-    const testing::FloatingPointMode* const mode = testing::any_mode(draw.generator());
+    const checks::FloatingPointMode* const mode = checks::any_mode(draw.generator());
     std::vector<std::vector<const Node*>> ways;
     for (const std::size_t root : tree.roots) add_ways(tree, root, {}, ways);
     if (any_is_beyond(ways, transforms)) {

@@ -10,13 +10,12 @@
 
 #include "fathom/failures/errors.h"
 #include "tests/scratch_folder.h"
+#include "tests/special_values.h"
 
 namespace fathom {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A strip of so many triangles.
 Scene strip(std::uint32_t triangles) {

@@ -11,11 +11,11 @@
 namespace fathom {
 namespace {
 
-using testing::Both;
+using checks::Both;
+using checks::ply_of;
+using checks::stl_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using testing::ply_of;
-using testing::stl_of;
 
 /// Two triangles about a point.
 Mesh pair_at(double x) {

@@ -14,9 +14,9 @@
 namespace fathom {
 namespace {
 
-using testing::Both;
-using testing::ply_of;
-using testing::stl_of;
+using checks::Both;
+using checks::ply_of;
+using checks::stl_of;
 
 /// A triangle that is asked for by its number is that of the mesh in memory.
 TEST(TriangleSource, TheSameInMemoryAndInFiles) {
@@ -59,8 +59,8 @@ TEST(TriangleSource, RefusesANumberThatIsNotThere) {
 
 /// A mesh that is placed often: numbers of triangles would wrap.
 TEST(TriangleSource, MoreTrianglesThanNumbersAreRefused) {
-  Scene scene = testing::scene_of({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
-                                  std::vector<CornerIndices>(1 << 20, {0, 1, 2}));
+  Scene scene = checks::scene_of({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
+                                 std::vector<CornerIndices>(1 << 20, {0, 1, 2}));
   scene.objects.resize(4095, scene.objects[0]);
   EXPECT_EQ(TriangleSource(scene).count(), 4095ULL << 20);
   scene.objects.resize(4096, scene.objects[0]);

@@ -12,8 +12,8 @@ namespace fathom {
 namespace {
 
 using namespace triangle;
-using testing::CaseMaker;
-using testing::Kind;
+using checks::CaseMaker;
+using checks::Kind;
 
 Dyadic exactly(double x) {
   return x;
@@ -36,7 +36,7 @@ bool expect_within(const Certified<Real>& computed, const Ratio& exact) {
   return true;
 }
 
-void check(const testing::Case& c, Tally& tally) {
+void check(const checks::Case& c, Tally& tally) {
   const TriangleSource triangles(c.scene);
   const SceneRays rays(triangles, c.camera);
   CertifiedSurfaces surfaces(rays);
@@ -73,8 +73,8 @@ class Surfaces : public ::testing::TestWithParam<Kind> {};
 TEST_P(Surfaces, SayOnlyWhatIsSo) {
   CaseMaker maker(111 + static_cast<std::uint64_t>(GetParam()), GetParam());
   Tally tally;
-  for (int i = 0; i < 300 / testing::effort && !HasFailure(); ++i) check(maker.make(), tally);
-  if (testing::effort > 1) return;
+  for (int i = 0; i < 300 / checks::effort && !HasFailure(); ++i) check(maker.make(), tally);
+  if (checks::effort > 1) return;
   EXPECT_GT(tally.covered, 2000);
   if (GetParam() != Kind::few_bits) return;
   EXPECT_GT(tally.depths, tally.asked * 9 / 10);

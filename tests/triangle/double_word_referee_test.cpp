@@ -14,9 +14,9 @@ namespace fathom {
 namespace {
 
 using namespace triangle;
-using testing::Case;
-using testing::CaseMaker;
-using testing::Kind;
+using checks::Case;
+using checks::CaseMaker;
+using checks::Kind;
 
 int exact_order(const Ratio& a, const Ratio& b) {
   const int order = compare(a, b);

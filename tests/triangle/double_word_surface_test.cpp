@@ -17,12 +17,12 @@ namespace fathom {
 namespace {
 
 using namespace triangle;
-using testing::Numbers;
-using testing::root;
-using testing::Share;
+using checks::Numbers;
+using checks::root;
+using checks::Share;
 
 Camera camera_from(Numbers& n, bool perspective) {
-  Camera c = testing::camera_of(200, 150, 0);
+  Camera c = checks::camera_of(200, 150, 0);
   c.projection.model = perspective ? ProjectionModel::perspective : ProjectionModel::orthographic;
   do {
     const double size = perspective ? 140 : 60;
@@ -68,7 +68,7 @@ MeshTriangle corners_from(Numbers& n) {
 }
 
 /// A triangle seen at a sample that it covers.
-struct Seen {
+struct SeenSurface {
   MeshTriangle corners;
   const ObjectRays& object;
   const SceneRays& rays;
@@ -78,24 +78,24 @@ struct Seen {
 
 struct Binary64 {
   using Real = double;
-  static DepthForms<double> forms(const Seen& x) {
+  static DepthForms<double> forms(const SeenSurface& x) {
     return depth_forms<double>(x.corners, x.object.rays, x.image);
   }
-  static Certified<double> depth(const Seen& x) {
+  static Certified<double> depth(const SeenSurface& x) {
     return depth_forms<double>(x.corners, x.object.rays, x.image).at(x.s, x.image.perspective);
   }
-  static Certified<double> distance(const Seen& x) {
+  static Certified<double> distance(const SeenSurface& x) {
     return product(depth(x), ray_length<double>(x.rays, x.s));
   }
-  static auto position(const Seen& x) {
+  static auto position(const SeenSurface& x) {
     const Rays& world = x.rays.world().rays;
     return fathom::position(world, RaySizes(world, x.image), x.image.perspective, x.s, depth(x));
   }
-  static auto weights(const Seen& x) {
+  static auto weights(const SeenSurface& x) {
     const auto forms = weight_forms<double>(x.corners, x.object.rays, x.image);
     return std::array{forms.at(0, x.s), forms.at(1, x.s)};
   }
-  static auto normal(const Seen& x) {
+  static auto normal(const SeenSurface& x) {
     return unit_normal<double>(x.corners, x.object, x.rays.world(), x.image, x.s);
   }
 };
@@ -103,24 +103,24 @@ struct Binary64 {
 template <const WideArithmetic& wide>
 struct Wide {
   using Real = DoubleWord<false>;
-  static DepthForms<Real> forms(const Seen& x) {
+  static DepthForms<Real> forms(const SeenSurface& x) {
     const auto f = wide.depth_forms(x.corners, x.object.rays, x.image);
     return {{f.varying.a, f.varying.b, f.varying.c, f.varying.error},
             {f.constant.value, f.constant.error}};
   }
-  static Certified<WordPair> depth(const Seen& x) {
+  static Certified<WordPair> depth(const SeenSurface& x) {
     return wide.depth(wide.depth_forms(x.corners, x.object.rays, x.image), x.s,
                       x.image.perspective);
   }
-  static auto distance(const Seen& x) { return wide.distance(depth(x), x.rays, x.s); }
-  static auto position(const Seen& x) {
+  static auto distance(const SeenSurface& x) { return wide.distance(depth(x), x.rays, x.s); }
+  static auto position(const SeenSurface& x) {
     const Rays& world = x.rays.world().rays;
     return wide.position(world, RaySizes(world, x.image), x.image.perspective, x.s, depth(x));
   }
-  static auto weights(const Seen& x) {
+  static auto weights(const SeenSurface& x) {
     return wide.weights(x.corners, x.object.rays, x.image, x.s);
   }
-  static auto normal(const Seen& x) {
+  static auto normal(const SeenSurface& x) {
     return wide.normal(x.corners, x.object, x.rays.world(), x.image, x.s);
   }
 };
@@ -145,7 +145,7 @@ Dyadic determinant_of(const ObjectRays& object, const ProjectedTriangle& t) {
 /// The parts of depth and weights, before quotients and differences cover their errors: n·d is
 /// Σe/det H, n·t is Δ/det H, d·(r × t) and d·(t × p) are e_B/det H and e_C/det H.
 template <class Arithmetic>
-void add_shares_of_parts(const Seen& x, const ProjectedTriangle& t, Shares& shares) {
+void add_shares_of_parts(const SeenSurface& x, const ProjectedTriangle& t, Shares& shares) {
   using Real = typename Arithmetic::Real;
   const Dyadic det = determinant_of(x.object, t);
   const auto over_det = [&](const LinearForm& form) { return Ratio(form.at(x.s.u, x.s.v), det); };
@@ -162,7 +162,7 @@ void add_shares_of_parts(const Seen& x, const ProjectedTriangle& t, Shares& shar
 
 /// The parts of the unit normal, n = p × r in the world: its components, |n|, n·d.
 template <class Real>
-void add_shares_of_normal(const Seen& x, const ProjectedTriangle& t, const ExactVector3& n,
+void add_shares_of_normal(const SeenSurface& x, const ProjectedTriangle& t, const ExactVector3& n,
                           Shares& shares) {
   const PlacedNormal<Real> normal = world_normal<Real>(x.corners, x.object);
   const Vector<double> errors = errors_of(normal);
@@ -177,7 +177,7 @@ void add_shares_of_normal(const Seen& x, const ProjectedTriangle& t, const Exact
 }
 
 template <class Arithmetic>
-void add_shares(const Seen& x, const ProjectedTriangle& t, Sign handedness, Shares& shares) {
+void add_shares(const SeenSurface& x, const ProjectedTriangle& t, Sign handedness, Shares& shares) {
   const ImagePoint s{x.s.u, x.s.v};
   add_shares_of_parts<Arithmetic>(x, t, shares);
   shares.depth.add(Arithmetic::depth(x), depth_at(t, s));
@@ -213,9 +213,9 @@ template <class Arithmetic>
 Shares shares_of(bool perspective, std::uint64_t seed) {
   Numbers n(seed);
   Shares shares;
-  for (int i = 0; i < 120 / testing::effort + 10; ++i) {
+  for (int i = 0; i < 120 / checks::effort + 10; ++i) {
     const Camera camera = camera_from(n, perspective);
-    Scene scene = testing::scene_of({}, {});
+    Scene scene = checks::scene_of({}, {});
     scene.objects[0] = object_from(n);
     const SceneRays rays(scene, camera);
     const ObjectRays& object = rays.object(0);
@@ -239,7 +239,7 @@ Shares shares_of(bool perspective, std::uint64_t seed) {
       }
     }
   }
-  EXPECT_GT(shares.depth.count(), 300 / testing::effort);
+  EXPECT_GT(shares.depth.count(), 300 / checks::effort);
   return shares;
 }
 
@@ -250,7 +250,7 @@ struct Tightness {
 };
 
 void expect_tight(const Shares& shares, const Tightness& least, bool perspective) {
-  if (testing::effort > 1) return;
+  if (checks::effort > 1) return;
   EXPECT_GT(shares.varying.publish("varying"), least.varying);
   EXPECT_GT(shares.constant.publish("constant"), least.constant);
   EXPECT_GT(shares.edges.publish("edges"), least.edges);

@@ -12,11 +12,11 @@ namespace fathom {
 namespace {
 
 using namespace triangle;
-using testing::Numbers;
-using testing::Share;
+using checks::Numbers;
+using checks::Share;
 
 Camera camera_from(Numbers& n) {
-  Camera c = testing::camera_of(64, 64, 0);
+  Camera c = checks::camera_of(64, 64, 0);
   const double size = std::ldexp(1, 3 + n.below(8));
   c.projection.fx = size * (1.5 + n.unit() / 2);
   c.projection.fy = size * (1.5 + n.unit() / 2);
@@ -34,22 +34,22 @@ Ratio exact_length(const Camera& c, const ImagePoint& s) {
   const Ratio across = Ratio(Dyadic(s.u) - Dyadic(c.projection.cx) - half_less_centre) -
                        Ratio(c.projection.skew) * y;
   const Ratio x = quotient(across, Ratio(c.projection.fx));
-  return testing::root(x * x + y * y + Ratio(1.0));
+  return checks::root(x * x + y * y + Ratio(1.0));
 }
 
 TEST(RayLengthShares, InBothArithmetics) {
   Numbers n(44);
   Share binary64, double_words;
-  for (int i = 0; i < 3000 / testing::effort; ++i) {
+  for (int i = 0; i < 3000 / checks::effort; ++i) {
     const Camera camera = camera_from(n);
-    const SceneRays rays(testing::scene_of({}, {}), camera);
+    const SceneRays rays(checks::scene_of({}, {}), camera);
     const ImagePoint s{n.below(64) + 0.5, n.below(64) + 0.5};
     const Ratio exact = exact_length(camera, s);
     binary64.add(ray_length<double>(rays, s), exact);
     double_words.add(ray_length<DoubleWord<false>>(rays, s), exact);
   }
-  testing::expect_share(binary64.publish("binary64"), 0.12);
-  testing::expect_share(double_words.publish("double_words"), 0.012);
+  checks::expect_share(binary64.publish("binary64"), 0.12);
+  checks::expect_share(double_words.publish("double_words"), 0.012);
 }
 
 }  // namespace

@@ -13,10 +13,10 @@ namespace fathom {
 namespace {
 
 using namespace triangle;
-using testing::Numbers;
+using checks::Numbers;
 
-Camera camera_from(Numbers& n, bool perspective) {
-  Camera c = testing::camera_of(640, 480, 0);
+Camera skewed_camera(Numbers& n, bool perspective) {
+  Camera c = checks::camera_of(640, 480, 0);
   c.projection.model = perspective ? ProjectionModel::perspective : ProjectionModel::orthographic;
   c.projection.fx = 400 * (1 + n.unit() / 2);
   c.projection.fy = (n.below(2) ? 1 : -1) * 400 * (1 + n.unit() / 2);
@@ -41,7 +41,7 @@ Object object_from(Numbers& n, bool placed) {
   return object;
 }
 
-Dyadic exactly(const WordPair& x) {
+Dyadic exact_pair(const WordPair& x) {
   return Dyadic(x.hi) + Dyadic(x.lo);
 }
 
@@ -55,7 +55,7 @@ ExactPoint point_on(const Rays& rays, bool perspective, double u, double v, doub
                              perspective ? Dyadic(D) * Dyadic(v) : Dyadic(v), Dyadic(D), 1.0};
   std::array<Dyadic, 3> p;
   for (std::size_t j = 0; j < 4; ++j) {
-    for (std::size_t k = 0; k < 3; ++k) p[k] += exactly(rays.columns[j][k]) * factors[j];
+    for (std::size_t k = 0; k < 3; ++k) p[k] += exact_pair(rays.columns[j][k]) * factors[j];
   }
   return {p[0], p[1], p[2]};
 }
@@ -66,7 +66,7 @@ TEST_P(RaysOf, PointsAreSeenWhereTheyWereTaken) {
   const auto [perspective, placed] = GetParam();
   Numbers n(101);
   for (int i = 0; i < 300; ++i) {
-    const Camera camera = camera_from(n, perspective);
+    const Camera camera = skewed_camera(n, perspective);
     const Object object = object_from(n, placed);
     const ObjectRays rays(object, camera);
     ASSERT_TRUE(rays.usable);
@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(Cameras, RaysOf, ::testing::Combine(::testing::Bool(), 
 
 TEST(ObjectRays, APlacementThatFlattensIsNotUsable) {
   Numbers n(102);
-  const Camera camera = camera_from(n, true);
+  const Camera camera = skewed_camera(n, true);
   Object object = object_from(n, true);
   object.world_from_mesh.rows[2] = object.world_from_mesh.rows[1];
   EXPECT_FALSE(ObjectRays(object, camera).usable);
@@ -112,7 +112,7 @@ TEST(ExactRow, ValuesAreTheExactOnes) {
                          coefficients[2] * Dyadic(X.z) + coefficients[3];
     if (const std::optional<WordPair> value = row.value_at(X)) {
       ++found;
-      ASSERT_EQ(exactly(*value), exact);
+      ASSERT_EQ(exact_pair(*value), exact);
     }
     // 512·2⁻¹¹ at the finest: every coordinate is a multiple of 2⁻¹¹.
     const long bit = row.last_bit_at({-11, -11, -11});
@@ -125,7 +125,7 @@ TEST(ExactRow, ValuesAreTheExactOnes) {
 
 /// An entry that is not 0 but rounds to 0 would count as exact.
 TEST(Rays, EntriesThatUnderflowAreRefused) {
-  const Camera plain = testing::camera_of(16, 12, 8);
+  const Camera plain = checks::camera_of(16, 12, 8);
   ASSERT_TRUE(ObjectRays({}, plain).usable);
   Camera centre = plain;  // at (−5·10⁻³²⁴/4, 0, 0)
   centre.world_to_camera = {{{4, 0, 0, 0x1p-1074}, {0, 1, 0, 0}, {0, 0, 1, 0}}};

@@ -14,20 +14,20 @@ using namespace triangle;
 /// Two triangles that cross along a line through the sample (4.5, 4.5), where their depth is 2; a
 /// copy of the first, and one behind it.
 Scene crossing_scene() {
-  return testing::scene_of({{-2, -2, 2},
-                            {2, -2, 2},
-                            {0, 3, 2},  // depth 2
-                            {-2, -2, 1},
-                            {2, -2, 3},
-                            {0, 3, 2},  // depth 2 + x/2
-                            {-4, -4, 4},
-                            {4, -4, 4},
-                            {0, 6, 4}},
-                           {{0, 1, 2}, {3, 4, 5}, {2, 0, 1}, {6, 7, 8}});
+  return checks::scene_of({{-2, -2, 2},
+                           {2, -2, 2},
+                           {0, 3, 2},  // depth 2
+                           {-2, -2, 1},
+                           {2, -2, 3},
+                           {0, 3, 2},  // depth 2 + x/2
+                           {-4, -4, 4},
+                           {4, -4, 4},
+                           {0, 6, 4}},
+                          {{0, 1, 2}, {3, 4, 5}, {2, 0, 1}, {6, 7, 8}});
 }
 
 Camera camera() {
-  Camera c = testing::camera_of(9, 9, 2);
+  Camera c = checks::camera_of(9, 9, 2);
   c.near = 2;
   c.far = 4;
   return c;

@@ -11,9 +11,9 @@ namespace fathom {
 namespace {
 
 using namespace triangle;
-using testing::CaseMaker;
-using testing::effort;
-using testing::Kind;
+using checks::CaseMaker;
+using checks::effort;
+using checks::Kind;
 
 SampleSides::Sides shared_sides(const SampleSides& sides, const Mesh& mesh, std::uint32_t t) {
   const auto& [a, b, c] = mesh.triangles[t];
@@ -27,7 +27,7 @@ TEST(SampleSides, TrianglesThatShareASideDoNotCoverTheSample) {
   for (const Kind kind : {Kind::few_bits, Kind::neighbours, Kind::huge, Kind::tiny}) {
     CaseMaker maker(11 + static_cast<std::uint64_t>(kind), kind);
     for (int i = 0; i < 1000 / effort; ++i) {
-      const testing::Case c = maker.make();
+      const checks::Case c = maker.make();
       const Object& object = c.scene.objects[0];
       const Mesh& mesh = c.scene.meshes[0];
       const ImagePoint s{random() % c.camera.width + 0.5, random() % c.camera.height + 0.5};

@@ -17,7 +17,7 @@ TEST(Sampling, PixelsAreSampledAtTheirCentres) {
 }
 
 TEST(Sampling, TheEndsOfTheRangeCountAndZeroDoesNot) {
-  Camera camera = testing::camera_of(4, 4, 1);
+  Camera camera = checks::camera_of(4, 4, 1);
   const auto counts = [&](const Ratio& depth) { return is_in_range(depth, camera); };
   EXPECT_FALSE(counts(Ratio()));
   EXPECT_FALSE(counts(Ratio(-1.0, 3.0)));

@@ -10,9 +10,9 @@ namespace fathom {
 namespace {
 
 using namespace triangle;
-using testing::CaseMaker;
-using testing::effort;
-using testing::Kind;
+using checks::CaseMaker;
+using checks::effort;
+using checks::Kind;
 
 /// The boxes that triangles are found by never leave out what bounding_box() has, and mostly are
 /// the same.
@@ -21,7 +21,7 @@ TEST(TriangleBoxes, ContainThoseOfTheReference) {
   for (const Kind kind : {Kind::few_bits, Kind::neighbours, Kind::huge, Kind::tiny}) {
     CaseMaker maker(5 + static_cast<std::uint64_t>(kind), kind);
     for (int i = 0; i < 500 / effort; ++i) {
-      const testing::Case c = maker.make();
+      const checks::Case c = maker.make();
       const Object& object = c.scene.objects[0];
       const Mesh& mesh = c.scene.meshes[0];
       TriangleBoxes ours(object, mesh, c.camera);

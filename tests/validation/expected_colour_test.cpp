@@ -18,7 +18,7 @@ using pipeline::Shading;
 constexpr std::uint32_t size = 32;
 
 Camera camera() {
-  Camera camera = testing::camera_of(size, size, 16);
+  Camera camera = checks::camera_of(size, size, 16);
   camera.near = 1;
   camera.far = 100;
   return camera;
@@ -107,7 +107,7 @@ TEST(ExpectedColour, CodesAreRoundedToNearest) {
 
 /// A shallow pyramid of eight sides, whose normals are those of a ball.
 LitScene pyramid() {
-  Scene scene = testing::scene_of({{0, 0, 6}}, {});
+  Scene scene = checks::scene_of({{0, 0, 6}}, {});
   for (std::uint32_t k = 0; k < 8; ++k) {
     const double angle = std::acos(-1.0) * (k + 0.1) / 4;
     scene.meshes[0].vertices.push_back({5 * std::cos(angle), -5 * std::sin(angle), 8});
@@ -175,7 +175,7 @@ TEST(ExpectedColour, ExplainsThePipelinesPicturesAndNoOthers) {
 }
 
 TEST(LitScene, RefusesWhatBoundsDoNotKnow) {
-  const Scene scene = testing::scene_of({{0, 0, 8}, {1, 0, 8}, {0, 1, 8}}, {{0, 1, 2}});
+  const Scene scene = checks::scene_of({{0, 0, 8}, {1, 0, 8}, {0, 1, 8}}, {{0, 1, 2}});
   Camera orthographic = camera();
   orthographic.projection.model = ProjectionModel::orthographic;
   EXPECT_THROW(lit_scene(scene, orthographic, {}), std::exception);

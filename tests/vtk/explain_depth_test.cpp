@@ -46,7 +46,7 @@ TEST(ExplainDepth, OfOneActor) {
 TEST(ExplainDepth, IsTheSameInEveryFloatingPointMode) {
   Drawing drawing;
   drawing.add(ball());
-  testing::expect_same_in_all_modes([&] {
+  checks::expect_same_in_all_modes([&] {
     const DepthVerdict verdict = drawing.explained();
     return std::pair(verdict.map.depths, verdict.attribution.counts);
   });

@@ -22,8 +22,8 @@ struct Clipped {
   std::vector<Json> answers;
 };
 
-Clipped clip(const std::string& algorithm, const std::string& cases,
-             std::vector<std::string> options = {}) {
+Clipped clipped_by(const std::string& algorithm, const std::string& cases,
+                   std::vector<std::string> options = {}) {
   options.insert(options.begin(), {"clip", "--algorithm", algorithm});
   Clipped result{run_fathom(options, {.input = cases}), {}};
   std::istringstream lines(result.outcome.out);
@@ -34,7 +34,7 @@ Clipped clip(const std::string& algorithm, const std::string& cases,
 /// The one answer to one case.
 Json answer(const std::string& algorithm, const std::string& object,
             const std::vector<std::string>& options = {}) {
-  const Clipped clipped = clip(algorithm, object + "\n", options);
+  const Clipped clipped = clipped_by(algorithm, object + "\n", options);
   EXPECT_EQ(clipped.outcome.status, 0) << clipped.outcome.err;
   EXPECT_EQ(clipped.answers.size(), 1u);
   return clipped.answers.empty() ? Json() : clipped.answers[0];
@@ -76,8 +76,8 @@ const std::string notched_case = R"({"subject": [[[0,0],[4,0],[4,4],[3,1],[1,1],
 
 // Sutherland–Hodgman's ring bridges the notch: the same region, but not the same border.
 TEST(Clip, AgainstFindsTheBridgingEdge) {
-  const Clipped clipped =
-      clip("sutherland-hodgman", "\n" + notched_case + "\n" + notched_case, {"--against", "cgal"});
+  const Clipped clipped = clipped_by(
+      "sutherland-hodgman", "\n" + notched_case + "\n" + notched_case, {"--against", "cgal"});
   EXPECT_EQ(clipped.outcome.status, 1);
   ASSERT_EQ(clipped.answers.size(), 2U);
   EXPECT_EQ(clipped.answers[0]["area_exact"], "1");
@@ -118,7 +118,7 @@ TEST(Clip, MessagesAboutKeysNameTheAlgorithm) {
   const auto expect_error = [](const std::string& algorithm, const std::string& object,
                                const std::string& error,
                                const std::vector<std::string>& options = {}) {
-    const Clipped clipped = clip(algorithm, object, options);
+    const Clipped clipped = clipped_by(algorithm, object, options);
     EXPECT_EQ(clipped.outcome.status, 3);
     EXPECT_EQ(clipped.outcome.err, "fathom: error: standard input: line 1: " + error + "\n");
     EXPECT_EQ(clipped.answers.at(0), Json({{"error", error}}));
@@ -176,13 +176,13 @@ TEST(Clip, MessagesAboutKeysNameTheAlgorithm) {
 TEST(Clip, AgainstLooksAtPolygonsNotAtHowTheyAreWritten) {
   const std::string window = R"( "clip": [[[-1,2],[9,2],[9,5],[-1,5]]]})";
   const std::string square = R"({"subject": [[[4,4],[0,4],[0,0],[2,0],[4,0]]],)" + window;
-  const Clipped same = clip("sutherland-hodgman", square, {"--against", "cgal"});
+  const Clipped same = clipped_by("sutherland-hodgman", square, {"--against", "cgal"});
   EXPECT_EQ(same.outcome.status, 0) << same.outcome.err;
   EXPECT_TRUE(same.answers.at(0)["against"]["difference"].is_null());
   EXPECT_NE(same.answers[0]["polygons"], answer("cgal", square)["polygons"]);
   const std::string two =
       R"({"subject": [[[0,0],[4,0],[4,4],[0,4]], [[5,0],[6,0],[6,4],[5,4]]],)" + window;
-  const Clipped together = clip("sutherland-hodgman", two, {"--against", "cgal"});
+  const Clipped together = clipped_by("sutherland-hodgman", two, {"--against", "cgal"});
   EXPECT_EQ(together.outcome.status, 1);
   EXPECT_EQ(together.answers.at(0)["against"]["difference"]["kind"], "polygons");
   EXPECT_THAT(together.outcome.err, HasSubstr("the borders are the same, but only "));
@@ -190,8 +190,8 @@ TEST(Clip, AgainstLooksAtPolygonsNotAtHowTheyAreWritten) {
 
 // What rounding does to a region is a piece of it, with its area.
 TEST(Clip, AgainstFindsWhatRoundingChanges) {
-  const Clipped clipped =
-      clip("weiler-atherton", notched_case, {"--kernel", "double", "--against", "weiler-atherton"});
+  const Clipped clipped = clipped_by("weiler-atherton", notched_case,
+                                     {"--kernel", "double", "--against", "weiler-atherton"});
   EXPECT_EQ(clipped.outcome.status, 1);
   ASSERT_EQ(clipped.answers.size(), 1U);
   const Json& difference = clipped.answers[0]["against"]["difference"];
@@ -204,19 +204,19 @@ TEST(Clip, AgainstFindsWhatRoundingChanges) {
   // Where nothing is rounded, there is no difference.
   const std::string squares =
       R"({"subject": [[[0,0],[4,0],[4,4],[0,4]]], "clip": [[[2,2],[6,2],[6,6],[2,6]]]})";
-  EXPECT_EQ(
-      clip("weiler-atherton", squares, {"--kernel", "double", "--against", "cgal"}).outcome.status,
-      0);
+  EXPECT_EQ(clipped_by("weiler-atherton", squares, {"--kernel", "double", "--against", "cgal"})
+                .outcome.status,
+            0);
 }
 
 TEST(Clip, AgainstComparesSegmentsToo) {
   const std::string corner = R"({"segment": [[0,2],[2,0]], "window": [1,1,6,3]})";
-  const Clipped same = clip("cohen-sutherland", corner, {"--against", "liang-barsky"});
+  const Clipped same = clipped_by("cohen-sutherland", corner, {"--against", "liang-barsky"});
   EXPECT_EQ(same.outcome.status, 0);
   EXPECT_TRUE(same.answers[0]["against"]["difference"].is_null());
   const std::string slanted = R"({"segment": [[0,0],[3,7]], "window": [1,1,6,3]})";
   const Clipped rounded =
-      clip("cohen-sutherland", slanted, {"--kernel", "double", "--against", "liang-barsky"});
+      clipped_by("cohen-sutherland", slanted, {"--kernel", "double", "--against", "liang-barsky"});
   EXPECT_EQ(rounded.outcome.status, 1);
   const Json& difference = rounded.answers[0]["against"]["difference"];
   EXPECT_EQ(difference["kind"], "value");
@@ -228,10 +228,10 @@ TEST(Clip, AgainstComparesSegmentsToo) {
 // A case that cannot be done weighs more than one that differs; those after it are answered.
 TEST(Clip, AgainstGoesOnAfterBadCases) {
   const Clipped clipped =
-      clip("sutherland-hodgman",
-           notched_case + "\n" + R"({"subject": [[[0,0],[1,1],[0,0]]], "clip": []})" + "\n" +
-               notched_case,
-           {"--against", "cgal"});
+      clipped_by("sutherland-hodgman",
+                 notched_case + "\n" + R"({"subject": [[[0,0],[1,1],[0,0]]], "clip": []})" + "\n" +
+                     notched_case,
+                 {"--against", "cgal"});
   EXPECT_EQ(clipped.outcome.status, 3);
   ASSERT_EQ(clipped.answers.size(), 3U);
   EXPECT_TRUE(clipped.answers[1].contains("error"));
@@ -309,26 +309,26 @@ TEST(Clip, CasesThatCannotBeDoneDoNotStopTheOthers) {
   const std::string square = "[[0,0],[4,0],[4,4],[0,4]]";
   const std::string good = R"({"name": "good", "subject": [)" + square + R"(], "clip": []})";
   const Clipped clipped =
-      clip("weiler-atherton",
-           good + "\n" +
-               R"({"name": "bow", "subject": [[[0,0],[4,4],[4,0],[0,4]]], "clip": []})"
-               "\n" +
-               R"({"name": 3, "subject": [[[0,0],[4,0],[4,NaN]]], "clip": []})"
-               "\n" +
-               R"({"name": "far", "subject": [], "clip": [)" + square +
-               R"(, [[0,0],[1e999,0],[1,1]]]})"
-               "\n" +
-               R"({"name": "two", "subject": [[[0,0],[1,1],[0,0]]], "clip": []})"
-               "\n" +
-               R"({"name": "flat", "subject": [[[0,0],[1,1],[2,2]]], "clip": []})"
-               "\n" +
-               R"({"name": "typo", "subject": [], "clip": [], "operation": "difference"})"
-               "\n" +
-               R"({"name": "text", "subject": [[["0",0],[1,1],[2,2]]], "clip": []})"
-               "\n" +
-               R"({"name": "half", "subject": [)"
-               "\n\n" +
-               good + "\n");
+      clipped_by("weiler-atherton",
+                 good + "\n" +
+                     R"({"name": "bow", "subject": [[[0,0],[4,4],[4,0],[0,4]]], "clip": []})"
+                     "\n" +
+                     R"({"name": 3, "subject": [[[0,0],[4,0],[4,NaN]]], "clip": []})"
+                     "\n" +
+                     R"({"name": "far", "subject": [], "clip": [)" + square +
+                     R"(, [[0,0],[1e999,0],[1,1]]]})"
+                     "\n" +
+                     R"({"name": "two", "subject": [[[0,0],[1,1],[0,0]]], "clip": []})"
+                     "\n" +
+                     R"({"name": "flat", "subject": [[[0,0],[1,1],[2,2]]], "clip": []})"
+                     "\n" +
+                     R"({"name": "typo", "subject": [], "clip": [], "operation": "difference"})"
+                     "\n" +
+                     R"({"name": "text", "subject": [[["0",0],[1,1],[2,2]]], "clip": []})"
+                     "\n" +
+                     R"({"name": "half", "subject": [)"
+                     "\n\n" +
+                     good + "\n");
   EXPECT_EQ(clipped.outcome.status, 3);
   const std::vector<std::string> errors{
       "",
@@ -395,10 +395,10 @@ TEST(Clip, SutherlandHodgmanRingByRingAndInSpace) {
   EXPECT_EQ(space["attributes"], Json::parse("[[0.0],[1],[3],[4]]"));
   EXPECT_EQ(space["trace"].size(), 1u);
   const Clipped concave =
-      clip("sutherland-hodgman", R"({"subject": [], "clip": [[[0,0],[4,0],[1,1],[0,4]]]})"
-                                 "\n"
-                                 R"({"subject": [], "clip": [], "op": "difference"})"
-                                 "\n");
+      clipped_by("sutherland-hodgman", R"({"subject": [], "clip": [[[0,0],[4,0],[1,1],[0,4]]]})"
+                                       "\n"
+                                       R"({"subject": [], "clip": [], "op": "difference"})"
+                                       "\n");
   EXPECT_EQ(concave.outcome.status, 3);
   EXPECT_THAT(concave.answers[0]["error"].get<std::string>(), HasSubstr("not convex at (1, 1)"));
   EXPECT_THAT(concave.answers[1]["error"].get<std::string>(), HasSubstr("intersections only"));
@@ -502,7 +502,7 @@ TEST(Clip, PlaneSidesDistancesAndLine) {
 
 TEST(Clip, ATriangleWithoutAreaHasNoPlane) {
   const auto error_of = [](const std::string& object, const std::string& kernel) {
-    return clip("plane", object, {"--kernel", kernel}).answers.at(0).value("error", "");
+    return clipped_by("plane", object, {"--kernel", kernel}).answers.at(0).value("error", "");
   };
   const std::string on_a_line = R"({"triangle": [[0,0,0],[1,1,1],[2,2,2]], "eye": [1,0,0]})";
   for (const std::string kernel : {"exact", "double"}) {

@@ -19,8 +19,8 @@ struct Scanned {
   std::vector<Json> answers;
 };
 
-Scanned scan(const std::string& algorithm, const std::string& cases,
-             std::vector<std::string> options = {}) {
+Scanned scanned_by(const std::string& algorithm, const std::string& cases,
+                   std::vector<std::string> options = {}) {
   options.insert(options.begin(), {"scan", "--algorithm", algorithm});
   Scanned result{run_fathom(options, {.input = cases}), {}};
   std::istringstream lines(result.outcome.out);
@@ -30,7 +30,7 @@ Scanned scan(const std::string& algorithm, const std::string& cases,
 
 Json answer(const std::string& algorithm, const std::string& object,
             const std::vector<std::string>& options = {}) {
-  const Scanned scanned = scan(algorithm, object + "\n", options);
+  const Scanned scanned = scanned_by(algorithm, object + "\n", options);
   EXPECT_EQ(scanned.outcome.status, 0) << scanned.outcome.err;
   EXPECT_EQ(scanned.answers.size(), 1u);
   return scanned.answers.empty() ? Json() : scanned.answers[0];
@@ -247,7 +247,7 @@ TEST(Scan, TwoStepInterpolationOfQuadrilateralsDependsOnRotation) {
 // To a reader of JSON it is the end of the text.
 TEST(Scan, WhatComesAfterANulIsRefused) {
   using namespace std::string_literals;
-  const Scanned scanned = scan("dda", "{\"line\": [0,0,1,1]}\0 {\"line\": [5,5,6,6]}\n"s);
+  const Scanned scanned = scanned_by("dda", "{\"line\": [0,0,1,1]}\0 {\"line\": [5,5,6,6]}\n"s);
   EXPECT_EQ(scanned.outcome.status, 3);
   EXPECT_EQ(scanned.answers.at(0), Json({{"error", "not JSON at character 20"}}));
 }
@@ -277,7 +277,7 @@ TEST(Scan, TheTextbooksPixelsCanBeFoundAgain) {
 TEST(Scan, TheTextbooksRulesAreRefusedWhereTheyMeanNothing) {
   const auto refused = [](const std::string& algorithm, const std::vector<std::string>& options,
                           const std::string& said) {
-    const Scanned scanned = scan(algorithm, "{}\n", options);
+    const Scanned scanned = scanned_by(algorithm, "{}\n", options);
     EXPECT_EQ(scanned.outcome.status, 2);
     EXPECT_THAT(scanned.outcome.err, HasSubstr(said));
   };
@@ -364,13 +364,13 @@ TEST(Scan, CasesThatCannotBeDoneDoNotStopTheOthers) {
       {"line-forms", R"({"line": [1,2,1,2]})", "its ends are the same"},
   };
   for (const auto& [algorithm, object, said] : cases) {
-    const Scanned scanned = scan(algorithm, std::string(object) + "\n");
+    const Scanned scanned = scanned_by(algorithm, std::string(object) + "\n");
     EXPECT_EQ(scanned.outcome.status, 3) << object;
     ASSERT_EQ(scanned.answers.size(), 1u) << object;
     EXPECT_THAT(scanned.answers[0].value("error", ""), HasSubstr(said)) << object;
     EXPECT_THAT(scanned.outcome.err, HasSubstr("standard input: line 1: "));
   }
-  const Scanned mixed = scan("dda", "{\"line\": [0,0,1]}\n{\"line\": [0,0,1,0]}\n");
+  const Scanned mixed = scanned_by("dda", "{\"line\": [0,0,1]}\n{\"line\": [0,0,1,0]}\n");
   EXPECT_EQ(mixed.outcome.status, 3);
   ASSERT_EQ(mixed.answers.size(), 2u);
   EXPECT_EQ(mixed.answers[1]["pixels"].size(), 2u);
@@ -382,16 +382,16 @@ TEST(Scan, DegenerateTrianglesCoverNothing) {
 }
 
 TEST(Scan, WrongUsage) {
-  EXPECT_EQ(scan("nothing", "").outcome.status, 2);
-  EXPECT_EQ(scan("dda", "", {"--arithmetic", "float16"}).outcome.status, 2);
-  EXPECT_EQ(scan("edge-function", "", {"--subpixel-bits", "17"}).outcome.status, 2);
-  EXPECT_EQ(scan("dda", "", {"--subpixel-bits", "8"}).outcome.status, 2);
+  EXPECT_EQ(scanned_by("nothing", "").outcome.status, 2);
+  EXPECT_EQ(scanned_by("dda", "", {"--arithmetic", "float16"}).outcome.status, 2);
+  EXPECT_EQ(scanned_by("edge-function", "", {"--subpixel-bits", "17"}).outcome.status, 2);
+  EXPECT_EQ(scanned_by("dda", "", {"--subpixel-bits", "8"}).outcome.status, 2);
 }
 
 TEST(Scan, OptionsThatWouldChangeNothingAreRefused) {
   const auto expect_refusal = [](const std::string& algorithm, const char* option,
                                  const std::string& said) {
-    const Outcome outcome = scan(algorithm, "", {option}).outcome;
+    const Outcome outcome = scanned_by(algorithm, "", {option}).outcome;
     EXPECT_EQ(outcome.status, 2) << algorithm;
     EXPECT_EQ(outcome.err, "fathom: error: " + said + "\n");
   };

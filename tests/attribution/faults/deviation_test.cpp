@@ -92,17 +92,17 @@ RendererModel logarithmic_model() {
   return {.name = "logarithmic", .kind = raster};
 }
 
-struct Case {
+struct DepthCase {
   std::string name;
   ProjectionModel projection;
   RendererModel model;
 };
 
-void PrintTo(const Case& c, std::ostream* stream) {
+void PrintTo(const DepthCase& c, std::ostream* stream) {
   *stream << c.name;
 }
 
-class Depths : public testing::TestWithParam<Case> {
+class Depths : public testing::TestWithParam<DepthCase> {
  protected:
   [[nodiscard]] bool is_perspective() const {
     return GetParam().projection == ProjectionModel::perspective;
@@ -186,12 +186,12 @@ TEST_P(Depths, SlopesAreDerivatives) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, Depths,
-    testing::Values(Case{"Perspective", ProjectionModel::perspective, model_named("gl-unorm24")},
-                    Case{"Reversed", ProjectionModel::perspective,
-                         model_named("gl-float32-reversed")},
-                    Case{"Orthographic", ProjectionModel::orthographic, model_named("gl-unorm16")},
-                    Case{"Rays", ProjectionModel::perspective, model_named("float32-ray")},
-                    Case{"Logarithmic", ProjectionModel::perspective, logarithmic_model()}),
+    testing::Values(
+        DepthCase{"Perspective", ProjectionModel::perspective, model_named("gl-unorm24")},
+        DepthCase{"Reversed", ProjectionModel::perspective, model_named("gl-float32-reversed")},
+        DepthCase{"Orthographic", ProjectionModel::orthographic, model_named("gl-unorm16")},
+        DepthCase{"Rays", ProjectionModel::perspective, model_named("float32-ray")},
+        DepthCase{"Logarithmic", ProjectionModel::perspective, logarithmic_model()}),
     [](const auto& c) { return c.param.name; });
 
 TEST(DeviationSets, TheSmallestAreFirst) {

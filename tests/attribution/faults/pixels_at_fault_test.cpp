@@ -2,17 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "fathom/attribution/faults/local_faults.h"
 #include "tests/attribution/hand_made.h"
+#include "tests/special_values.h"
 
 namespace fathom::attribution {
 namespace {
 
 using testing::HasSubstr;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t width = 60, height = 40;
 
 /// A slope, nearer at the left, with a step to twice the depth in the middle of its rows.

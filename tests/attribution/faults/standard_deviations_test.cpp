@@ -93,7 +93,7 @@ class StandardDeviations : public ::testing::TestWithParam<int> {};
 
 // Were they those of independent pixels, the truth would be tens of them away.
 TEST_P(StandardDeviations, SayHowFarTheTruthIs) {
-  const int scenes = 60 / fathom::testing::effort;
+  const int scenes = 60 / fathom::checks::effort;
   const Deviations off = measured(GetParam(), scenes);
   EXPECT_LE(off.unnamed, scenes / 10);
   ASSERT_FALSE(off.of_all.empty());

@@ -1,16 +1,14 @@
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <vector>
 
 #include "fathom/attribution/pixels/pixel_judge.h"
 #include "fathom/attribution/truth.h"
+#include "tests/special_values.h"
 
 /// What fragments allow together: a square of two triangles, the sample near their diagonal.
 namespace fathom::attribution {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // 0 1    the triangles 0 1 2 and 1 3 2 share the edge from 1 to 2
 // 2 3

@@ -10,27 +10,20 @@
 #include "fathom/attribution/raster/clip_vertex.h"
 #include "fathom/camera/camera_making.h"
 #include "fathom/numeric/standard_arithmetic.h"
+#include "tests/attribution/hand_made.h"
 
 /// Held against matrices each entry of which is off by a rounding.
 namespace fathom::attribution {
 namespace {
 
-Camera level_camera() {
-  Camera camera = look_from({.azimuth = 35, .elevation = 25}, {0.1, -0.05, 0.2}, 3,
-                            {.width = 96, .height = 72, .vertical_fov = 45});
-  camera.near = 0.5;
-  camera.far = 20;
-  return camera;
-}
+using WorldPoint = std::array<double, 3>;
 
-using Point = std::array<double, 3>;
-
-Point point_at(const Camera& camera, std::size_t pixel, double depth) {
+WorldPoint point_at(const Camera& camera, std::size_t pixel, double depth) {
   const CameraRays rays = camera_rays(camera);
   const std::size_t column = pixel % camera.width, row = pixel / camera.width;
   const double x = static_cast<double>(column) + 0.5;
   const double y = static_cast<double>(row) + 0.5;
-  Point p{};
+  WorldPoint p{};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto at = [&](const CameraRays::Affine& f) {
       return f.at_corner[k] + x * f.per_u[k] + y * f.per_v[k];
@@ -42,7 +35,8 @@ Point point_at(const Camera& camera, std::size_t pixel, double depth) {
 
 /// z/w where entry k of row r is off by change(r, k), relatively.
 template <class Change>
-double normalized_depth(const std::array<ClipRow, 4>& rows, const Point& p, const Change& change) {
+double normalized_depth(const std::array<ClipRow, 4>& rows, const WorldPoint& p,
+                        const Change& change) {
   const auto value = [&](std::size_t r) {
     double sum = rows[r].row[3] * (1 + change(r, 3));
     for (std::size_t k = 0; k < 3; ++k) sum += rows[r].row[k] * (1 + change(r, k)) * p[k];
@@ -53,7 +47,7 @@ double normalized_depth(const std::array<ClipRow, 4>& rows, const Point& p, cons
 
 class RoundedMatrix : public testing::TestWithParam<Mapping> {
  protected:
-  const Camera camera_ = level_camera();
+  const Camera camera_ = test::level_camera();
   const RasterModel model_{.premultiplied = true, .mapping = GetParam()};
   const double half_ = GetParam() == Mapping::opengl ? 0.5 : 1;
 };
@@ -66,7 +60,7 @@ TEST_P(RoundedMatrix, MovesWindowDepthsByUpToTheBound) {
   std::uniform_real_distribution<double> rounding(-u, u);
   for (const std::size_t pixel : {std::size_t{0}, std::size_t{3000}, std::size_t{96 * 72 - 1}}) {
     for (const double depth : {0.6, 3.0, 18.0}) {
-      const Point p = point_at(camera_, pixel, depth);
+      const WorldPoint p = point_at(camera_, pixel, depth);
       const double exact = normalized_depth(rows, p, [](auto...) { return 0; });
       // First order in u, and 2⁻⁵³ of sums in binary64.
       const double bound = roundings.of_window(pixel, depth) * (1 + 1e-5);
@@ -90,13 +84,13 @@ INSTANTIATE_TEST_SUITE_P(All, RoundedMatrix, testing::Values(Mapping::opengl, Ma
 
 TEST(MatrixRoundings, AreNoneOfAMatrixThatIsKnown) {
   RasterModel model;
-  model.matrix = clip_from_held(level_camera(), model);
-  EXPECT_EQ(MatrixRoundings(level_camera(), model, {}).of_window(0, 3), 0);
+  model.matrix = clip_from_held(test::level_camera(), model);
+  EXPECT_EQ(MatrixRoundings(test::level_camera(), model, {}).of_window(0, 3), 0);
 }
 
 TEST(MatrixRoundings, OfTwoMatricesAreMore) {
-  const MatrixRoundings one(level_camera(), {.premultiplied = true}, {});
-  const MatrixRoundings two(level_camera(), {.premultiplied = false}, {});
+  const MatrixRoundings one(test::level_camera(), {.premultiplied = true}, {});
+  const MatrixRoundings two(test::level_camera(), {.premultiplied = false}, {});
   EXPECT_GE(two.of_window(0, 3), 2 * one.of_window(0, 3));
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 using namespace fast;
 using namespace triangle;
-using testing::camera_of;
+using checks::camera_of;
 
 /// What bins of a scene of one mesh are filled from.
 struct Filling {
@@ -100,7 +100,7 @@ TEST(TileGrid, ReachesToTheLastColumnThatThereIs) {
 TEST(Bins, TakeTheLastTrianglesThatThereAre) {
   const std::uint32_t first = no_surface - 1500;
   std::vector<CornerIndices> triangles(1500, {0, 1, 2});
-  const Scene scene = testing::scene_of({{-9, -9, 1}, {9, -9, 1}, {0, 9, 1}}, triangles);
+  const Scene scene = checks::scene_of({{-9, -9, 1}, {9, -9, 1}, {0, 9, 1}}, triangles);
   const Camera camera = camera_of(8, 8, 4);
   Filling filling(scene, camera, first);
   const Bins bins = filling.filled(first, no_surface, Cull::none, false);
@@ -120,7 +120,7 @@ TEST(Bins, SayWhichTrianglesCoverNoSample) {
     for (int k = 0; k < 3; ++k) vertices.push_back({x + size(random), y + size(random), 1});
     triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  const Scene scene = testing::scene_of(vertices, triangles);
+  const Scene scene = checks::scene_of(vertices, triangles);
   Camera camera = camera_of(128, 128, 1);
   camera.projection.model = ProjectionModel::orthographic;
   camera.projection.cx = camera.projection.cy = 0;
@@ -155,7 +155,7 @@ TEST(Bins, SayWhichTrianglesCoverNoSample) {
 
 TEST(ImageObjects, OwnTheNumbersOfTheirTriangles) {
   const Camera camera = camera_of(8, 8, 4);
-  Scene scene = testing::scene_of({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{0, 1, 2}, {0, 2, 1}});
+  Scene scene = checks::scene_of({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{0, 1, 2}, {0, 2, 1}});
   ImageObjects objects;
   for (std::uint32_t first = 0; first < 10; first += 2) {
     objects.emplace_back(scene.objects[0], scene.meshes[0], camera, first);
@@ -217,7 +217,7 @@ TEST(Bins, HoldEveryTriangleThatASampleOrAreaOfTheTileSees) {
   for (int i = 0; i < 8 && !HasFatalFailure(); ++i) {
     Camera camera = camera_of(160, 140, 64);
     if (i % 4 == 3) camera.world_to_camera[2][3] = -3.25;  // among the triangles
-    const Scene scene = testing::soup(random, 24, i % 2 == 0);
+    const Scene scene = checks::soup(random, 24, i % 2 == 0);
     check(scene, camera, i % 3 == 0 ? Cull::back : Cull::none, i >= 6, met);
   }
   EXPECT_GT(met, 100);
@@ -230,7 +230,7 @@ TEST(Bins, LeaveOutTilesThatLongTrianglesMiss) {
   for (const double z : {1.0, -1.0}) {
     SCOPED_TRACE(z);
     const Scene scene =
-        testing::scene_of({{-1 * z, -0.9 * z, z}, {1, 0.8, 1}, {1, 0.802, 1}}, {{0, 1, 2}});
+        checks::scene_of({{-1 * z, -0.9 * z, z}, {1, 0.8, 1}, {1, 0.802, 1}}, {{0, 1, 2}});
     Filling filling(scene, camera);
     const Bins bins = filling.filled();
     std::size_t tiles = 0;
@@ -246,7 +246,7 @@ TEST(Bins, LeaveOutTilesThatLongTrianglesMiss) {
 /// A bin of a part of the scene holds that part.
 TEST(Bins, HoldTheTrianglesThatTheyAreOf) {
   std::mt19937_64 random(182);
-  const Scene scene = testing::soup(random, 30, true);
+  const Scene scene = checks::soup(random, 30, true);
   const Camera camera = camera_of(160, 140, 64);
   Filling filling(scene, camera);
   const Bins all = filling.filled();

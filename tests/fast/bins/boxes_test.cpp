@@ -17,8 +17,8 @@ namespace {
 
 using namespace fast;
 using namespace triangle;
-using testing::CaseMaker;
-using testing::Kind;
+using checks::CaseMaker;
+using checks::Kind;
 
 std::vector<std::uint64_t> in_one_tile(const BoxBatch& boxes) {
   std::vector<std::uint64_t> entries;
@@ -33,7 +33,7 @@ struct Tally {
   int settled = 0, unsettled = 0, degenerate = 0, culled = 0, covered = 0;
 };
 
-void check(const testing::Case& c, Cull cull, Tally& tally) {
+void check(const checks::Case& c, Cull cull, Tally& tally) {
   const Mesh& mesh = c.scene.meshes[0];
   const VertexTransform transform(c.scene.objects[0], c.camera);
   const auto vertices = std::make_unique<ImageVertex[]>(mesh.vertices.size());
@@ -101,7 +101,7 @@ TEST(Boxes, WhatIsSettledIsSo) {
 /// Wherever in a batch of whatever size a corner is that indexes no vertex.
 TEST(Boxes, CornersThatAreNoVerticesAreFound) {
   const std::vector<MeshPoint> points{{1, 1, 1}, {3, 1, 1}, {1, 3, 1}};
-  Camera camera = testing::camera_of(6, 5, 1);
+  Camera camera = checks::camera_of(6, 5, 1);
   camera.projection.model = ProjectionModel::orthographic;
   const VertexTransform transform(Object{}, camera);
   std::array<ImageVertex, 3> vertices;
@@ -141,7 +141,7 @@ TEST(Boxes, AFullBatchOnPaper) {
     }
     triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  Camera camera = testing::camera_of(width, 64, 1);
+  Camera camera = checks::camera_of(width, 64, 1);
   camera.projection.model = ProjectionModel::orthographic;
   camera.projection.cx = camera.projection.cy = 0;
   const VertexTransform transform(Object{}, camera);

@@ -56,6 +56,7 @@ HWY_AFTER_NAMESPACE();
 #include "tests/effort.h"
 #include "tests/engines/only_target.h"
 #include "tests/numeric/random_numbers.h"
+#include "tests/special_values.h"
 
 namespace fathom::fast {
 HWY_EXPORT(find_nearness);
@@ -65,10 +66,8 @@ namespace fathom {
 namespace {
 
 using namespace fast;
-using testing::any_double;
-using testing::Numbers;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using checks::any_double;
+using checks::Numbers;
 
 std::uint32_t moved_up(float x) {
   return moved_up_in_24_bits(std::bit_cast<std::uint32_t>(x));
@@ -154,7 +153,7 @@ std::vector<double> numbers_of_all_kinds(Numbers& n) {
     add_boundaries(x, numbers);
     add_boundaries(-x, numbers);
   }
-  for (int i = 0; i < 10000 / testing::effort; ++i) {
+  for (int i = 0; i < 10000 / checks::effort; ++i) {
     numbers.push_back(any_double(random));
     // Those that binary32 holds, subnormals of it among them.
     numbers.push_back(std::ldexp(n.unit(), n.below(290) - 155));
@@ -169,9 +168,9 @@ std::vector<double> numbers_of_all_kinds(Numbers& n) {
 }
 
 TEST(Nearness, IsTheSameByVectorsOfEveryKind) {
-  for (const std::int64_t target : testing::vector_targets()) {
+  for (const std::int64_t target : checks::vector_targets()) {
     SCOPED_TRACE(hwy::TargetName(target));
-    const testing::OnlyTarget only(target);
+    const checks::OnlyTarget only(target);
     Numbers n(69);
     expect_equal(numbers_of_all_kinds(n), n);
   }
@@ -179,7 +178,7 @@ TEST(Nearness, IsTheSameByVectorsOfEveryKind) {
 
 TEST(Nearness, IsNeverLessThanTheNumber) {
   Numbers n(64);
-  for (int i = 0; i < 20000 / testing::effort; ++i) {
+  for (int i = 0; i < 20000 / checks::effort; ++i) {
     const auto x = static_cast<float>(std::ldexp(n.unit(), n.below(220) - 100));
     const std::uint32_t up = moved_up(x);
     const auto moved = std::bit_cast<float>(up);

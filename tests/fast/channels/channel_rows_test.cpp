@@ -72,7 +72,7 @@ void expect_both(const Counts& counts) {
 
 /// The camera's numbers are powers of two: rays are exact, and all errors those of q.
 Camera plain_camera(bool perspective) {
-  Camera camera = testing::camera_of(64, 64, 64);
+  Camera camera = checks::camera_of(64, 64, 64);
   camera.projection.cx = camera.projection.cy = 96;  // no ray has a coordinate of 0
   camera.world_to_camera[0][3] = -2;
   if (!perspective) camera.projection.model = ProjectionModel::orthographic;
@@ -84,7 +84,7 @@ class ChannelRows : public ::testing::TestWithParam<bool> {};
 TEST_P(ChannelRows, DepthsAndCodes) {
   const bool perspective = GetParam();
   std::mt19937_64 random(51);
-  const Scene scene = testing::scene_of({}, {});
+  const Scene scene = checks::scene_of({}, {});
   const SceneRays rays(scene, plain_camera(perspective));
   Counts depths, codes;
   for (int i = 0; i < 100; ++i) {
@@ -120,7 +120,7 @@ TEST_P(ChannelRows, DepthsAndCodes) {
 TEST_P(ChannelRows, Positions) {
   const bool perspective = GetParam();
   std::mt19937_64 random(52);
-  const Scene scene = testing::scene_of({}, {});
+  const Scene scene = checks::scene_of({}, {});
   const SceneRays rays(scene, plain_camera(perspective));
   const Rays& world = rays.world().rays;
   const RaySizes sizes(world, {perspective, 64, 64});
@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(Fast, ChannelRows, ::testing::Bool());
 /// D·√(x² + y² + 1), by the square.
 TEST(Fast, RowsOfRayDistances) {
   std::mt19937_64 random(53);
-  const Scene scene = testing::scene_of({}, {});
+  const Scene scene = checks::scene_of({}, {});
   const SceneRays rays(scene, plain_camera(true));
   Counts counts;
   for (int i = 0; i < 100; ++i) {
@@ -180,7 +180,7 @@ TEST(Fast, RowsOfRayDistances) {
 /// An error that is infinite or NaN settles nothing.
 TEST(Fast, RowsOfUnknownDepths) {
   for (const bool perspective : {false, true}) {
-    const Scene scene = testing::scene_of({}, {});
+    const Scene scene = checks::scene_of({}, {});
     const SceneRays rays(scene, plain_camera(perspective));
     std::mt19937_64 random(54);
     Row row(random, perspective);

@@ -52,10 +52,10 @@ class WideRows : public ::testing::TestWithParam<Kind> {
       }
       triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
     }
-    return testing::scene_of(vertices, triangles);
+    return checks::scene_of(vertices, triangles);
   }
   Camera make_camera() {
-    Camera c = testing::camera_of(64, 64, 70);
+    Camera c = checks::camera_of(64, 64, 70);
     c.projection.cx += unit();
     if (GetParam() == Kind::skewed) {
       c.projection.skew = 11.3;

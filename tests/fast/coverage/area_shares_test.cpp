@@ -16,7 +16,7 @@ namespace fathom {
 namespace {
 
 using namespace fast;
-using namespace testing;
+using namespace checks;
 using oracle::Polygon;
 using oracle::Q;
 

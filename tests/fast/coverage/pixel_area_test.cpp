@@ -14,7 +14,7 @@ namespace fathom {
 namespace {
 
 using namespace fast;
-using namespace testing;
+using namespace checks;
 using oracle::Q;
 
 Interval area_of_union(const std::vector<SquareTriangle>& triangles) {
@@ -54,7 +54,7 @@ void expect_contains(const Interval& area, const Q& exact) {
 TEST(PixelArea, IntervalsContainTheExactArea) {
   std::mt19937_64 random(20);
   int settled = 0, cases = 0;
-  for (int i = 0; i < 3000 / testing::effort && !HasFailure(); ++i) {
+  for (int i = 0; i < 3000 / checks::effort && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
     const auto triangles =
         random_triangles(random, 1 + static_cast<std::size_t>(i) % 9, i % 2 == 0);
@@ -122,7 +122,7 @@ TEST(PixelArea, ALevelEdgeDividesTheSquare) {
 TEST(PixelArea, ASquareIsClippedByLinesWithinItsBound) {
   std::mt19937_64 random(21);
   std::uniform_real_distribution<double> number(-1, 1);
-  for (int i = 0; i < 3000 / testing::effort && !HasFailure(); ++i) {
+  for (int i = 0; i < 3000 / checks::effort && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
     ClippedSquare square;
     oracle::Polygon exact{{0, 0}, {1, 0}, {1, 1}, {0, 1}};

@@ -7,7 +7,7 @@
 #include "fathom/fast/coverage/square_edges.h"
 #include "tests/oracle/areas.h"
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 using SquareTriangle = std::array<fast::SquarePoint, 3>;
 
@@ -51,4 +51,4 @@ inline oracle::Q exact_area(const std::vector<SquareTriangle>& triangles) {
   return oracle::Areas(camera, placed).coverage(0, 0);
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

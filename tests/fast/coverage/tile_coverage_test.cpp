@@ -24,21 +24,21 @@ std::vector<CoverageTriangle> classes_of(const Scene& scene, const Camera& camer
 }
 
 TEST(CoverageClasses, OnPaper) {
-  Camera camera = testing::camera_of(100, 100, 1);
+  Camera camera = checks::camera_of(100, 100, 1);
   camera.projection.model = ProjectionModel::orthographic;
   camera.projection.cx = camera.projection.cy = 0;
   camera.near = 1;
   camera.far = 9;
-  const Scene scene = testing::scene_of({{2.25, 3.25, 2},
-                                         {4.75, 3.25, 2},
-                                         {2.25, 6.5, 2},  // in the range
-                                         {2, 3, 12},
-                                         {4, 3, 12},
-                                         {2, 6, 12},  // all behind far
-                                         {2, 3, 0.5},
-                                         {4, 3, 2},
-                                         {2, 6, 2}},  // cut at near
-                                        {{0, 1, 2}, {0, 2, 1}, {3, 4, 5}, {6, 7, 8}});
+  const Scene scene = checks::scene_of({{2.25, 3.25, 2},
+                                        {4.75, 3.25, 2},
+                                        {2.25, 6.5, 2},  // in the range
+                                        {2, 3, 12},
+                                        {4, 3, 12},
+                                        {2, 6, 12},  // all behind far
+                                        {2, 3, 0.5},
+                                        {4, 3, 2},
+                                        {2, 6, 2}},  // cut at near
+                                       {{0, 1, 2}, {0, 2, 1}, {3, 4, 5}, {6, 7, 8}});
   const auto classes = classes_of(scene, camera, {0, 63, 0, 63});
   EXPECT_EQ(classes[0].kind, CoverageClass::positive);
   EXPECT_EQ(classes[1].kind, CoverageClass::negative);
@@ -61,8 +61,8 @@ TEST(CoverageClasses, BoxesHoldEveryPixelWithAnArea) {
   std::mt19937_64 random(221);
   int inside = 0, certain = 0;
   for (int i = 0; i < 4; ++i) {
-    const Scene scene = testing::soup(random, 16, i % 2 == 0);
-    Camera camera = testing::camera_of(160, 140, 64);
+    const Scene scene = checks::soup(random, 16, i % 2 == 0);
+    Camera camera = checks::camera_of(160, 140, 64);
     if (i == 2) camera.near = 4;
     const PixelBox tile{64, 127, 0, 63};
     const auto classes = classes_of(scene, camera, tile);

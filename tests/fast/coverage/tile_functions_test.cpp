@@ -17,7 +17,7 @@ namespace {
 
 using namespace fast;
 using namespace triangle;
-using namespace testing;
+using namespace checks;
 
 /// A tile of the image.
 PixelBox tile_at(Numbers& n, const Camera& camera) {

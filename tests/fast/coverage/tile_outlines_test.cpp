@@ -17,7 +17,7 @@ using namespace triangle;
 
 /// An orthographic camera that takes (x, y) to column x and row y of an image of 128 by 128 pixels.
 Camera flat_camera() {
-  Camera camera = testing::camera_of(128, 128, 1);
+  Camera camera = checks::camera_of(128, 128, 1);
   camera.projection.model = ProjectionModel::orthographic;
   camera.projection.cx = camera.projection.cy = 0;
   return camera;
@@ -33,7 +33,7 @@ struct Outlined {
 
   Outlined(const std::vector<MeshPoint>& vertices, const std::vector<CornerIndices>& triangles,
            const PixelBox& tile)
-      : scene(testing::scene_of(vertices, triangles)),
+      : scene(checks::scene_of(vertices, triangles)),
         object(scene.objects[0], scene.meshes[0], camera, 0),
         numbers(triangles.size()),
         classes(triangles.size()) {

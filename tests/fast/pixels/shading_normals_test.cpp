@@ -14,7 +14,7 @@ namespace {
 
 using namespace fast;
 using namespace triangle;
-using testing::Numbers;
+using checks::Numbers;
 
 /// A mesh of 30 triangles between 12 vertices, of which some are at places of others, times `size`;
 /// a third of them lie in planes z = 1/2, so that components of sums cancel.
@@ -31,7 +31,7 @@ Scene random_scene(Numbers& n, double size, bool placed) {
   std::vector<CornerIndices> triangles;
   const auto corner = [&] { return static_cast<std::uint32_t>(n.below(12)); };
   for (int i = 0; i < 30; ++i) triangles.push_back({corner(), corner(), corner()});
-  Scene scene = testing::scene_of(vertices, triangles);
+  Scene scene = checks::scene_of(vertices, triangles);
   if (!placed) return scene;
   Object& object = scene.objects[0];
   object.placed_as_is = false;
@@ -68,7 +68,7 @@ void expect_unit(const Vector<Certified<double>>& found, const ExactVector3& m, 
 void check(const Scene& scene, NormalSource source, Numbers& n, int& known_corners,
            int& known_units) {
   const TriangleSource triangles(scene);
-  const Camera camera = testing::camera_of(10, 10, 10);
+  const Camera camera = checks::camera_of(10, 10, 10);
   const SceneRays rays(triangles, camera);
   const ValueFrame frame(rays);
   const auto corners = std::make_shared<const CornerNormals>(triangles, source);
@@ -99,7 +99,7 @@ void check(const Scene& scene, NormalSource source, Numbers& n, int& known_corne
 TEST(ShadingNormals, NoErrorExceedsItsBound) {
   Numbers n(77);
   int known_corners = 0, known_units = 0;
-  for (int i = 0; i < 1500 / testing::effort && !HasFailure(); ++i) {
+  for (int i = 0; i < 1500 / checks::effort && !HasFailure(); ++i) {
     const double size = std::ldexp(1, static_cast<int>(n.below(9)) * 20 - 80);
     Scene scene = random_scene(n, size, i % 2 == 1);
     Mesh& mesh = scene.meshes[0];
@@ -112,8 +112,8 @@ TEST(ShadingNormals, NoErrorExceedsItsBound) {
     check(scene, i % 5 == 0 ? NormalSource::place : NormalSource::file, n, known_corners,
           known_units);
   }
-  EXPECT_GT(known_corners, 100000 / testing::effort);
-  EXPECT_GT(known_units, 30000 / testing::effort);
+  EXPECT_GT(known_corners, 100000 / checks::effort);
+  EXPECT_GT(known_units, 30000 / checks::effort);
 }
 
 }  // namespace

@@ -28,8 +28,8 @@ namespace fathom {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::Both;
-using testing::effort;
+using checks::Both;
+using checks::effort;
 
 const fs::path data = test::source_dir() / "data";
 
@@ -55,15 +55,15 @@ void expect_same_coverage(const Both& both, const Camera& camera, Cull cull = Cu
     SCOPED_TRACE(std::to_string(limits.triangles_at_once) + " triangles at once, " +
                  std::to_string(limits.tile_bytes) + " bytes of tiles, " +
                  std::to_string(limits.kept_bytes) + " of triangles");
-    testing::expect_same_map(render_streamed(both.streamed, camera, options, limits).map, truth);
+    checks::expect_same_map(render_streamed(both.streamed, camera, options, limits).map, truth);
   }
 }
 
 /// Files of one scene each, removed with the object.
 class Files {
  public:
-  fs::path stl(const Mesh& mesh) { return folder_.write(next("stl"), testing::stl_of(mesh)); }
-  fs::path ply(const Mesh& mesh) { return folder_.write(next("ply"), testing::ply_of(mesh)); }
+  fs::path stl(const Mesh& mesh) { return folder_.write(next("stl"), checks::stl_of(mesh)); }
+  fs::path ply(const Mesh& mesh) { return folder_.write(next("ply"), checks::ply_of(mesh)); }
 
  private:
   std::string next(const std::string& ending) { return std::to_string(count_++) + "." + ending; }
@@ -109,7 +109,7 @@ TEST(CoverageInRounds, SoupsAndSlivers) {
   std::mt19937_64 random(1711);
   for (int i = 0; i < 12 / effort + 1; ++i) {
     SCOPED_TRACE("soup " + std::to_string(i) + " of seed 1711");
-    Scene scene = i % 3 == 2 ? testing::slivers(random, 60) : testing::soup(random, 80, i % 2 == 0);
+    Scene scene = i % 3 == 2 ? checks::slivers(random, 60) : checks::soup(random, 80, i % 2 == 0);
     // Some triangles again, and some with their corners in another order.
     Mesh& mesh = scene.meshes[0];
     for (std::size_t t = 0; t < 20; ++t) {
@@ -117,7 +117,7 @@ TEST(CoverageInRounds, SoupsAndSlivers) {
       mesh.triangles.push_back(t % 2 == 0 ? CornerIndices{b, c, a} : CornerIndices{b, a, c});
     }
     const Both both({files.ply(mesh)});
-    Camera camera = testing::camera_of(160, 140, 64);
+    Camera camera = checks::camera_of(160, 140, 64);
     if (i % 2 == 1) camera.near = 4;
     expect_same_coverage(both, camera, i % 5 == 0 ? Cull::back : Cull::none);
     if (::testing::Test::HasFailure()) return;
@@ -136,8 +136,8 @@ TEST(CoverageInRounds, TrianglesAroundTheEye) {
       for (int k = 0; k < 3; ++k) vertices.push_back({number(), number(), number() + 1});
       indices.push_back({3 * t, 3 * t + 1, 3 * t + 2});
     }
-    const Both both({files.ply(testing::scene_of(vertices, indices).meshes[0])});
-    Camera camera = testing::camera_of(200, 150, 90);
+    const Both both({files.ply(checks::scene_of(vertices, indices).meshes[0])});
+    Camera camera = checks::camera_of(200, 150, 90);
     if (i % 2 == 1) camera.near = 0.25;
     expect_same_coverage(both, camera);
   }
@@ -145,12 +145,12 @@ TEST(CoverageInRounds, TrianglesAroundTheEye) {
 
 TEST(CoverageInRounds, Adversaries) {
   Files files;
-  for (const testing::Family family : testing::all_families) {
+  for (const checks::Family family : checks::all_families) {
     // Files that are streamed are not placed.
-    if (family == testing::Family::placements) continue;
-    testing::for_each_adversary(6, [&](std::uint64_t seed) {
+    if (family == checks::Family::placements) continue;
+    checks::for_each_adversary(6, [&](std::uint64_t seed) {
       SCOPED_TRACE(name_of(family));
-      const testing::Case c = testing::adversarial_case(family, seed);
+      const checks::Case c = checks::adversarial_case(family, seed);
       const Both both({files.ply(c.scene.meshes.at(0))});
       expect_same_coverage(both, c.camera);
     });
@@ -243,8 +243,8 @@ class SomeTiles {
 
 TEST(CoverageInRounds, SomeTilesOfTrianglesFromAnywhere) {
   std::mt19937_64 random(1714);
-  const Scene scene = testing::soup(random, 700, false);
-  Camera camera = testing::camera_of(320, 280, 128);
+  const Scene scene = checks::soup(random, 700, false);
+  Camera camera = checks::camera_of(320, 280, 128);
   camera.near = 3;
   RenderOptions options;
   options.channels = {Channel::A};

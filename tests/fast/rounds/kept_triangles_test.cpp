@@ -18,7 +18,7 @@ using namespace fast;
 class KeptTrianglesOf : public ::testing::Test {
  protected:
   KeptTrianglesOf()
-      : camera_(testing::camera_of(160, 140, 64)),
+      : camera_(checks::camera_of(160, 140, 64)),
         scene_(two_soups()),
         triangles_(scene_),
         rays_(triangles_, camera_),
@@ -34,8 +34,8 @@ class KeptTrianglesOf : public ::testing::Test {
 
   static Scene two_soups() {
     std::mt19937_64 random(1715);
-    Scene scene = testing::soup(random, 900, false);
-    scene.meshes.push_back(testing::soup(random, 700, true).meshes[0]);
+    Scene scene = checks::soup(random, 900, false);
+    scene.meshes.push_back(checks::soup(random, 700, true).meshes[0]);
     scene.objects.push_back({.mesh = 1, .name = "other"});
     return scene;
   }

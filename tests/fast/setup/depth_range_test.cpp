@@ -14,7 +14,7 @@ using namespace fast;
 
 /// The ends enclose 1/limit and −limit: exactly compared, and next to them.
 TEST(DepthRange, PerspectiveLimitsEncloseTheReciprocals) {
-  Camera c = testing::camera_of(9, 9, 2);
+  Camera c = checks::camera_of(9, 9, 2);
   for (const double limit : {0.1, 1.0, 3.0, 7.0, 0x1.fffffffffffffp+3, 1e-30, 1e30}) {
     const Dyadic one(1.0);
     c.near = limit;
@@ -31,7 +31,7 @@ TEST(DepthRange, PerspectiveLimitsEncloseTheReciprocals) {
 
 /// Reciprocals that overflow, and those that are subnormal.
 TEST(DepthRange, ReciprocalsBeyondTheNormalNumbersAreEnclosed) {
-  Camera c = testing::camera_of(9, 9, 2);
+  Camera c = checks::camera_of(9, 9, 2);
   constexpr double greatest = std::numeric_limits<double>::max();
   for (const double limit : {0x1p-1074, 0x1.8p-1030, 0x1p-1024, 0x1.0000000000004p-1024, 0x1p-1023,
                              0x1p1022, 0x1.8p1023, greatest}) {
@@ -52,7 +52,7 @@ TEST(DepthRange, ReciprocalsBeyondTheNormalNumbersAreEnclosed) {
 }
 
 TEST(DepthRange, WithoutLimitsEverythingInFrontCounts) {
-  Camera c = testing::camera_of(9, 9, 2);
+  Camera c = checks::camera_of(9, 9, 2);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(depth_range(c).certainly_contains(-infinity, infinity));
   c.projection.model = ProjectionModel::orthographic;  // q = −D
@@ -63,7 +63,7 @@ TEST(DepthRange, WithoutLimitsEverythingInFrontCounts) {
 }
 
 TEST(DepthRange, OrthographicLimitsAreTheNegatedDepths) {
-  Camera c = testing::camera_of(9, 9, 2);
+  Camera c = checks::camera_of(9, 9, 2);
   c.projection.model = ProjectionModel::orthographic;
   c.near = 2;
   c.far = 4;

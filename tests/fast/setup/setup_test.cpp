@@ -16,7 +16,7 @@ namespace {
 
 using namespace fast;
 using namespace triangle;
-using namespace testing;
+using namespace checks;
 
 double edge_at(const TriangleSetup& s, std::size_t i, double x, double y) {
   return (s.edge_c[i] + s.edge_b[i] * y) + s.edge_a[i] * x;

@@ -13,7 +13,7 @@ namespace fathom {
 namespace {
 
 using namespace fast;
-using testing::Numbers;
+using checks::Numbers;
 namespace lanes = fast::HWY_NAMESPACE;
 
 constexpr int cell = 4, cells = 16;
@@ -69,7 +69,7 @@ std::set<std::uint32_t> required_cells(const lanes::LaneBatch& f) {
 TEST(CellSpans, HaveEveryCellThatATriangleMayMeet) {
   Numbers n(71);
   std::size_t few = 0, required_in_all = 0, listed_in_all = 0, box_cells = 0;
-  for (int i = 0; i < 20000 / testing::effort; ++i) {
+  for (int i = 0; i < 20000 / checks::effort; ++i) {
     const lanes::LaneBatch f = random_batch(n);
     lanes::SpanGuesses guesses;
     lanes::make_span_guesses(f, guesses);
@@ -108,8 +108,8 @@ TEST(CellSpans, HaveEveryCellThatATriangleMayMeet) {
                  static_cast<std::size_t>(f.last_row[0] / cell - f.first_row[0] / cell + 1);
   }
   // It would not be worth the while to leave out little.
-  EXPECT_GT(few, 10000U / testing::effort);
-  EXPECT_GT(required_in_all, 30000U / testing::effort);
+  EXPECT_GT(few, 10000U / checks::effort);
+  EXPECT_GT(required_in_all, 30000U / checks::effort);
   EXPECT_LT(listed_in_all, box_cells / 2);
   EXPECT_LT(listed_in_all, 2 * required_in_all);
 }

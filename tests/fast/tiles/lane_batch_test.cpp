@@ -17,7 +17,7 @@ namespace fathom {
 namespace {
 
 using namespace fast;
-using namespace testing;
+using namespace checks;
 namespace lanes = fast::HWY_NAMESPACE;
 
 constexpr PixelBox area{128, 191, 64, 127};

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "fathom/fast/bins/bins.h"
@@ -14,14 +13,13 @@
 #include "fathom/fast/tiles/visible_triangles.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "tests/inputs/soup.h"
+#include "tests/special_values.h"
 
 namespace fathom {
 namespace {
 
 using namespace fast;
 using namespace triangle;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(SurfaceTag, HoldsTheNumberAndABoundThatIsNoLess) {
   for (const double error : {0.0, 1e-300, 0x1p-60, 1.0, std::nextafter(1.0, 0), 0.1}) {
@@ -109,8 +107,8 @@ TEST(Tile, ShowsTheNearestWhateverTheOrder) {
   std::mt19937_64 random(201);
   int seen = 0;
   for (int i = 0; i < 6; ++i) {
-    Scene scene = testing::soup(random, 20, i % 2 == 0);
-    Camera camera = testing::camera_of(160, 140, 64);
+    Scene scene = checks::soup(random, 20, i % 2 == 0);
+    Camera camera = checks::camera_of(160, 140, 64);
     if (i % 3 == 1) camera.near = 3;
     TileScene x(std::move(scene), camera);
     std::shuffle(x.drawn.begin(), x.drawn.end(), random);
@@ -125,9 +123,9 @@ TEST(Tile, ShowsTheNearestInColumnsBeyondTheRangeOfInt) {
   std::mt19937_64 random(202);
   int seen = 0;
   for (const std::uint32_t first_column : {0x7FFFFFC0U, 0x80000000U, 0xFFFFFFC0U}) {
-    Camera camera = testing::camera_of(0xFFFFFFFF, 140, 64);
+    Camera camera = checks::camera_of(0xFFFFFFFF, 140, 64);
     camera.projection.cx = first_column + 32.0;
-    TileScene x(testing::soup(random, 20, true), camera);
+    TileScene x(checks::soup(random, 20, true), camera);
     const TileGrid grid(camera.width, camera.height);
     const PixelBox area = grid.area(grid.columns + first_column / Tile::size);
     ASSERT_EQ(area.first_column, first_column);
@@ -148,7 +146,7 @@ TileScene nearer_and_nearer(std::uint32_t large) {
     vertices.insert(vertices.end(), {{-9 * z, -9 * z, z}, {9 * z, -9 * z, z}, {0, 9 * z, z}});
     triangles.push_back({first, first + 1, first + 2});
   }
-  return {testing::scene_of(vertices, triangles), testing::camera_of(64, 64, 64)};
+  return {checks::scene_of(vertices, triangles), checks::camera_of(64, 64, 64)};
 }
 
 std::uint32_t number_at(const Tile& tile, std::uint32_t column, std::uint32_t row) {
@@ -248,7 +246,7 @@ TileScene small_triangles(std::mt19937_64& random, int count) {
       vertices.push_back({(x + side(random)) * z, (y + side(random)) * z, z + place(random)});
     triangles.push_back({first, first + 1, first + 2});
   }
-  return {testing::scene_of(vertices, triangles), testing::camera_of(64, 64, 64)};
+  return {checks::scene_of(vertices, triangles), checks::camera_of(64, 64, 64)};
 }
 
 /// At each sample the same surface, with the same q and the same bound, and as much is known of
@@ -284,8 +282,8 @@ TEST(Tile, ComesBackFromAFileAsItWas) {
 }
 
 TEST(Tile, StartEmptiesIt) {
-  TileScene x(testing::scene_of({{-9, -9, 1}, {9, -9, 1}, {0, 9, 1}}, {{0, 1, 2}}),
-              testing::camera_of(64, 64, 1));
+  TileScene x(checks::scene_of({{-9, -9, 1}, {9, -9, 1}, {0, 9, 1}}, {{0, 1, 2}}),
+              checks::camera_of(64, 64, 1));
   Tile tile;
   tile.start({0, 63, 0, 63});
   tile.draw(x.objects[0], x.drawn, x.context());

@@ -13,11 +13,11 @@ namespace fathom {
 namespace {
 
 using namespace fast;
-using testing::Numbers;
-using testing::Share;
+using checks::Numbers;
+using checks::Share;
 
 Camera camera_from(Numbers& n, bool perspective) {
-  Camera c = testing::camera_of(1000, 800, 0);
+  Camera c = checks::camera_of(1000, 800, 0);
   c.projection.model = perspective ? ProjectionModel::perspective : ProjectionModel::orthographic;
   do {
     c.projection.fx = 700 * (1 + n.unit() / 2);
@@ -97,7 +97,7 @@ TEST_P(Vertices, BoundsHoldForFormsOfTheImage) {
   const bool perspective = GetParam();
   Numbers n(perspective ? 13 : 14);
   Share missed;
-  for (int i = 0; i < 600 / testing::effort; ++i) {
+  for (int i = 0; i < 600 / checks::effort; ++i) {
     const Camera camera = camera_from(n, perspective);
     const Object object = object_from(n);
     const VertexTransform transform(object, camera);
@@ -109,14 +109,14 @@ TEST_P(Vertices, BoundsHoldForFormsOfTheImage) {
       for (std::size_t j = 0; j < 5; ++j) missed.add(forms[j].value, exact[j], forms[j].error);
     }
   }
-  testing::expect_share(missed.publish("missed_form"), 0.25);
+  checks::expect_share(missed.publish("missed_form"), 0.25);
 }
 
 INSTANTIATE_TEST_SUITE_P(Fast, Vertices, ::testing::Bool());
 
 /// An entry that is not 0 but rounds to 0 would count as exact.
 TEST(Fast, MatricesWithEntriesThatUnderflowAreNotUsable) {
-  Camera camera = testing::camera_of(16, 12, 8);
+  Camera camera = checks::camera_of(16, 12, 8);
   camera.projection.fx = 2e-162;
   EXPECT_FALSE(VertexTransform(Object{}, camera)({0, 0, 1}).is_usable());  // below 2⁻²⁰⁰
   camera.world_to_camera[0][0] = 1e-162;
@@ -127,7 +127,7 @@ TEST(Fast, MatricesWithEntriesThatUnderflowAreNotUsable) {
 }
 
 TEST(Fast, VerticesOfMagnitudesBeyondTheBoundsAreNotUsable) {
-  const Camera camera = testing::camera_of(100, 100, 50);
+  const Camera camera = checks::camera_of(100, 100, 50);
   const VertexTransform transform(Object{}, camera);
   EXPECT_TRUE(transform({1, 1, 1}).is_usable());
   for (const MeshPoint& X : {MeshPoint{1, 1, 0x1p-61}, MeshPoint{1, 1, 0x1p61},

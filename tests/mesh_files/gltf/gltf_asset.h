@@ -15,7 +15,7 @@
 #include "tests/scratch_folder.h"
 
 /// glTF assets made for a test, and what the reader makes of them.
-namespace fathom::testing {
+namespace fathom::checks {
 
 using nlohmann::json;
 using Triangles = std::vector<CornerIndices>;
@@ -110,4 +110,4 @@ inline Asset five(json primitive) {
   return asset;
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -9,7 +9,7 @@
 namespace fathom {
 namespace {
 
-using namespace testing;
+using namespace checks;
 using mesh_files::ExpansionBudget;
 using ::testing::AllOf;
 using ::testing::HasSubstr;

@@ -11,7 +11,7 @@
 namespace fathom {
 namespace {
 
-using namespace testing;
+using namespace checks;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;

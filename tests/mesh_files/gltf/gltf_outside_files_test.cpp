@@ -9,7 +9,7 @@
 namespace fathom {
 namespace {
 
-using namespace testing;
+using namespace checks;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;

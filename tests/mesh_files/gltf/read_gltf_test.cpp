@@ -13,7 +13,7 @@
 namespace fathom {
 namespace {
 
-using namespace testing;
+using namespace checks;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -190,7 +190,7 @@ TEST(Gltf, BrokenTreesAreRefused) {
       fault({{{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}, {"scale", {1, 1, 1}}}},
             {0}),
       HasSubstr("together with a matrix"));
-  constexpr int deep = 100000 / testing::effort;
+  constexpr int deep = 100000 / checks::effort;
   json chain = json::array();
   for (int i = 0; i < deep; ++i) chain.push_back({{"children", {i + 1}}});
   chain.push_back({{"mesh", 0}});

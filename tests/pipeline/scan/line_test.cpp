@@ -63,7 +63,7 @@ Pixels nearest_pixels(const LineEnds& e) {
 }
 
 TEST(Line, EverySlopeInEveryOctantIsTheNearestPixels) {
-  for (std::int64_t dx = -63; dx <= 63; dx += testing::effort > 1 ? 7 : 1) {
+  for (std::int64_t dx = -63; dx <= 63; dx += checks::effort > 1 ? 7 : 1) {
     for (std::int64_t dy = -63; dy <= 63; ++dy) {
       const LineEnds ends{5, -3, 5 + dx, -3 + dy};
       const Pixels expected = nearest_pixels(ends);
@@ -206,7 +206,7 @@ TEST(Line, LinesOfFourThousandMillionPixelsDoNotOverflow) {
 TEST(Line, PixelsDoNotDependOnTheWindow) {
   std::mt19937 random(7);
   std::uniform_int_distribution<std::int64_t> coordinate(-100, 100);
-  for (int i = 0; i < 2000 / testing::effort; ++i) {
+  for (int i = 0; i < 2000 / checks::effort; ++i) {
     const LineEnds ends{coordinate(random), coordinate(random), coordinate(random),
                         coordinate(random)};
     const PixelWindow window{-20, -30, 25, 10};
@@ -285,7 +285,7 @@ Pixels diamond_by_cutting(double x0, double y0, double x1, double y1) {
 TEST(DiamondExit, AgreesWithCuttingAtTheSides) {
   std::mt19937 random(11);
   std::uniform_int_distribution<int> eighths(0, 64);
-  for (int i = 0; i < 1000 / testing::effort; ++i) {
+  for (int i = 0; i < 1000 / checks::effort; ++i) {
     const double x0 = eighths(random) / 8.0, y0 = eighths(random) / 8.0;
     const double x1 = eighths(random) / 8.0, y1 = eighths(random) / 8.0;
     Pixels pixels = diamond<Exact>(Exact(x0), Exact(y0), Exact(x1), Exact(y1));
@@ -299,7 +299,7 @@ TEST(DiamondExit, AgreesWithCuttingAtTheSides) {
 TEST(DiamondExit, JoinedSegmentsDrawNoPixelTwice) {
   std::mt19937 random(12);
   std::uniform_int_distribution<int> eighths(0, 160);
-  for (int i = 0; i < 300 / testing::effort; ++i) {
+  for (int i = 0; i < 300 / checks::effort; ++i) {
     // A segment cut anywhere draws what it draws whole.
     const Exact x0(eighths(random)), y0(eighths(random)), x1(eighths(random)), y1(eighths(random));
     const Exact t = Exact(eighths(random)) / Exact(160), eighth = Exact(1) / Exact(8);

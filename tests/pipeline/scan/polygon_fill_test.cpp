@@ -14,7 +14,7 @@
 namespace fathom::pipeline {
 namespace {
 
-using testing::Corners;
+using checks::Corners;
 
 template <class Number>
 std::vector<Pixel> filled(const std::vector<Corners>& rings, FillRule rule,
@@ -65,7 +65,7 @@ std::vector<Pixel> filled_by_rays(const std::vector<Corners>& rings, FillRule ru
 TEST(PolygonFill, RandomPolygonsAreWhatRaysSay) {
   std::mt19937 random(3);
   std::uniform_int_distribution<int> quarters(0, 64), corners(3, 9);
-  for (int i = 0; i < 500 / testing::effort; ++i) {
+  for (int i = 0; i < 500 / checks::effort; ++i) {
     std::vector<Corners> rings(1 + i % 2);
     for (Corners& ring : rings)
       for (int k = corners(random); k > 0; --k)
@@ -116,7 +116,7 @@ TEST(PolygonFill, WindowLimitsWithoutChanging) {
   std::mt19937 random(5);
   std::uniform_int_distribution<int> quarters(0, 64);
   const PixelWindow window{3, 5, 11, 12};
-  for (int i = 0; i < 300 / testing::effort; ++i) {
+  for (int i = 0; i < 300 / checks::effort; ++i) {
     std::vector<Corners> rings(1);
     for (int k = 0; k < 6; ++k)
       rings[0].push_back({quarters(random) / 4.0, quarters(random) / 4.0});
@@ -171,7 +171,7 @@ std::set<Pixel> flooded_by_definition(const CharacterGrid& grid, const Pixel& se
 
 TEST(FloodFill, ReachesWhatIsConnectedAndNothingElse) {
   std::mt19937 random(8);
-  for (int i = 0; i < 300 / testing::effort; ++i) {
+  for (int i = 0; i < 300 / checks::effort; ++i) {
     CharacterGrid grid(9, std::string(11, '.'));
     for (auto& row : grid)
       for (char& c : row) c = random() % 5 < 2 ? '#' : '.';

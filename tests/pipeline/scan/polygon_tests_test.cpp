@@ -18,9 +18,9 @@
 namespace fathom::pipeline {
 namespace {
 
-using testing::Corners;
+using checks::Corners;
 
-Ring<Exact> ring_of(const Corners& corners) {
+Ring<Exact> ring_of_corners(const Corners& corners) {
   Ring<Exact> ring;
   for (const auto& [x, y] : corners) ring.push_back({Exact(x), Exact(y)});
   return ring;
@@ -32,7 +32,8 @@ const Corners l_shape{{0, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 4}, {0, 4}};
 const Corners star{{8, 0}, {13, 15}, {0, 6}, {16, 6}, {3, 15}};
 
 TEST(Convexity, SquareYesLShapeNo) {
-  const Convexity s = convexity_of(ring_of(square)), l = convexity_of(ring_of(l_shape));
+  const Convexity s = convexity_of(ring_of_corners(square)),
+                  l = convexity_of(ring_of_corners(l_shape));
   EXPECT_TRUE(s.convex);
   EXPECT_TRUE(s.corners_on_one_side);
   EXPECT_EQ(s.turning_number, -1);  // drawn clockwise as seen
@@ -55,7 +56,7 @@ TEST(Convexity, DotProductsOfNeighbouringEdgesSayNothing) {
 }
 
 TEST(Convexity, APentagramTurnsOneWayButTwice) {
-  const Convexity c = convexity_of(ring_of(star));
+  const Convexity c = convexity_of(ring_of_corners(star));
   for (const int turn : c.turns) EXPECT_EQ(turn, c.turns[0]);
   EXPECT_EQ(std::abs(c.turning_number.value()), 2);
   EXPECT_FALSE(c.convex);
@@ -65,11 +66,11 @@ TEST(Convexity, BothTestsAgreeOnRandomSimpleAndCrossedRings) {
   std::mt19937 random(21);
   std::uniform_int_distribution<int> coordinate(0, 6), corners(3, 6);
   int convex = 0;
-  for (int i = 0; i < 4000 / testing::effort; ++i) {
+  for (int i = 0; i < 4000 / checks::effort; ++i) {
     Corners ring;
     for (int k = corners(random); k > 0; --k)
       ring.push_back({coordinate(random), coordinate(random)});
-    const Convexity c = convexity_of(ring_of(ring));
+    const Convexity c = convexity_of(ring_of_corners(ring));
     if (!c.turning_number) continue;  // repeats or turns back: no ring
     // Corners on one side of every edge and once around is what convex means.
     if (c.convex) {
@@ -79,32 +80,32 @@ TEST(Convexity, BothTestsAgreeOnRandomSimpleAndCrossedRings) {
       ASSERT_NE(std::abs(*c.turning_number), 1);
     }
   }
-  EXPECT_GT(convex, 300 / testing::effort);
+  EXPECT_GT(convex, 300 / checks::effort);
 }
 
 TEST(Inside, LeftOfEveryEdgeHoldsForConvexRingsOnly) {
   const Point<Exact> in_l{Exact(1), Exact(3)};
-  EXPECT_EQ(ray_crossings<Exact>({ring_of(l_shape)}, in_l).count % 2, 1);
-  EXPECT_FALSE(is_on_one_side_of_every_edge(ring_of(l_shape), in_l));
+  EXPECT_EQ(ray_crossings<Exact>({ring_of_corners(l_shape)}, in_l).count % 2, 1);
+  EXPECT_FALSE(is_on_one_side_of_every_edge(ring_of_corners(l_shape), in_l));
   const Point<Exact> in_square{Exact(1), Exact(3)};
-  EXPECT_TRUE(is_on_one_side_of_every_edge(ring_of(square), in_square));
+  EXPECT_TRUE(is_on_one_side_of_every_edge(ring_of_corners(square), in_square));
 }
 
 TEST(Inside, ARayThroughCornersCountsThemHalfOpen) {
   // The ray from (1, 2) runs through the corners (4, 2) and (2, 2) and along the edge between them.
-  const RayCrossings ray = ray_crossings<Exact>({ring_of(l_shape)}, {Exact(1), Exact(2)});
+  const RayCrossings ray = ray_crossings<Exact>({ring_of_corners(l_shape)}, {Exact(1), Exact(2)});
   EXPECT_EQ(ray.count % 2, 1);
   EXPECT_FALSE(ray.on_outline);
   // A line in both directions, as the source has it, would meet the outline an even number of
   // times.
-  Ring<Exact> mirrored = ring_of(l_shape);
+  Ring<Exact> mirrored = ring_of_corners(l_shape);
   for (auto& p : mirrored) p.x = -p.x;
   const RayCrossings left = ray_crossings<Exact>({mirrored}, {Exact(-1), Exact(2)});
   EXPECT_EQ((ray.count + left.count) % 2, 0);
 }
 
 TEST(Inside, WindingOfTheStarIsTwoInItsMiddle) {
-  const RayCrossings ray = ray_crossings<Exact>({ring_of(star)}, {Exact(8), Exact(8)});
+  const RayCrossings ray = ray_crossings<Exact>({ring_of_corners(star)}, {Exact(8), Exact(8)});
   EXPECT_EQ(ray.count, 2);
   EXPECT_EQ(std::abs(ray.winding), 2);
 }
@@ -113,7 +114,7 @@ TEST(Inside, WindingOfTheStarIsTwoInItsMiddle) {
 /// call counter-clockwise as seen positive.
 TEST(Orientation, IsTheSameForEveryQuestion) {
   const auto expect = [](const Corners& corners, const Point<Exact>& p, int orientation) {
-    const Ring<Exact> ring = ring_of(corners);
+    const Ring<Exact> ring = ring_of_corners(corners);
     const Convexity c = convexity_of(ring);
     EXPECT_EQ(c.turning_number, orientation);
     EXPECT_EQ(ray_crossings<Exact>({ring}, p).winding, orientation);
@@ -141,7 +142,7 @@ TEST(Orientation, IsTheSameForEveryQuestion) {
   expect(reversed(square), in_square, 1);
   expect(star, in_star, -2);
   expect(reversed(star), in_star, 2);
-  const Ring<Exact> s = ring_of(square);
+  const Ring<Exact> s = ring_of_corners(square);
   EXPECT_TRUE(edge_functions<Exact>({s[0], s[1], s[2]})->turned);
   EXPECT_FALSE(edge_functions<Exact>({s[2], s[1], s[0]})->turned);
   EXPECT_LT(left_of(s[0], s[1], s[2]), 0);
@@ -151,7 +152,7 @@ TEST(ConvexHull, IsCgals) {
   using Kernel = CGAL::Simple_cartesian<Exact>;
   std::mt19937 random(31);
   std::uniform_int_distribution<int> coordinate(0, 12), count(1, 30);
-  for (int i = 0; i < 500 / testing::effort; ++i) {
+  for (int i = 0; i < 500 / checks::effort; ++i) {
     std::vector<Point<Exact>> points;
     std::vector<Kernel::Point_2> theirs, hull;
     for (int k = count(random); k > 0; --k) {
@@ -176,7 +177,7 @@ TEST(ConvexHull, IsCgals) {
 TEST(ConvexHull, HoldsEveryConvexCombination) {
   std::mt19937 random(32);
   std::uniform_int_distribution<int> coordinate(0, 40), weight(0, 9);
-  for (int i = 0; i < 300 / testing::effort; ++i) {
+  for (int i = 0; i < 300 / checks::effort; ++i) {
     std::vector<Point<Exact>> points;
     std::vector<Exact> weights;
     Exact x(0), y(0), sum(0);
@@ -195,7 +196,7 @@ TEST(ConvexHull, HoldsEveryConvexCombination) {
 }
 
 TEST(ConvexHull, NegativeWeightsLeaveIt) {
-  const Ring<Exact> corners = ring_of({{0, 0}, {4, 0}, {0, 4}});
+  const Ring<Exact> corners = ring_of_corners({{0, 0}, {4, 0}, {0, 4}});
   const Ring<Exact> hull = convex_hull(corners);
   const auto lies_in = [&](int a, int b, int c) {
     return is_in_hull(hull, combination<Exact>(corners, {Exact(a), Exact(b), Exact(c)}));
@@ -210,7 +211,7 @@ TEST(ConvexHull, NegativeWeightsLeaveIt) {
 }
 
 TEST(ConvexHull, OfAPointAndOfASegmentHoldsWhatLiesOnThem) {
-  const Ring<Exact> point = ring_of({{1, 2}}), segment = ring_of({{0, 0}, {4, 2}});
+  const Ring<Exact> point = ring_of_corners({{1, 2}}), segment = ring_of_corners({{0, 0}, {4, 2}});
   EXPECT_TRUE(is_in_hull(point, point[0]));
   EXPECT_FALSE(is_in_hull(point, segment[0]));
   EXPECT_TRUE(is_in_hull<Exact>(segment, {Exact(2), Exact(1)}));
@@ -230,7 +231,7 @@ bool is_in_triangle(const std::array<Point<Exact>, 3>& t, const Point<Exact>& p)
 TEST(Tessellate, CoversTheInsideOnceAndNothingElse) {
   std::mt19937 random(41);
   std::uniform_int_distribution<int> coordinate(0, 12), corners(3, 8), fine(1, 3600);
-  for (int i = 0; i < 60 / testing::effort + 1; ++i) {
+  for (int i = 0; i < 60 / checks::effort + 1; ++i) {
     Rings<Exact> rings(1 + i % 3);
     for (auto& ring : rings)
       for (int k = corners(random); k > 0; --k)
@@ -252,8 +253,8 @@ TEST(Tessellate, CoversTheInsideOnceAndNothingElse) {
 }
 
 TEST(Tessellate, AHoleStaysOne) {
-  const auto triangles = tessellate(
-      {ring_of({{0, 0}, {9, 0}, {9, 9}, {0, 9}}), ring_of({{3, 3}, {3, 6}, {6, 6}, {6, 3}})});
+  const auto triangles = tessellate({ring_of_corners({{0, 0}, {9, 0}, {9, 9}, {0, 9}}),
+                                     ring_of_corners({{3, 3}, {3, 6}, {6, 6}, {6, 3}})});
   Exact twice(0);
   for (const auto& t : triangles) twice += area_of(t);
   EXPECT_EQ(twice, Exact(2 * (81 - 9)));

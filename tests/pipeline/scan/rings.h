@@ -3,9 +3,9 @@
 #include <utility>
 #include <vector>
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// A ring by its corners' coordinates.
 using Corners = std::vector<std::pair<double, double>>;
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -55,7 +55,7 @@ TEST(Triangle, FragmentCountsOfTheDemo) {
 TEST(Triangle, BothWindingsCoverTheSameAndZeroAreaNothing) {
   std::mt19937 random(2);
   std::uniform_int_distribution<int> quarters(0, 60);
-  for (int i = 0; i < 500 / testing::effort; ++i) {
+  for (int i = 0; i < 500 / checks::effort; ++i) {
     const auto q = [&] { return quarters(random) / 4.0; };
     const Triangle t = triangle_of(q(), q(), q(), q(), q(), q());
     const auto pixels = by_edge_functions(t);
@@ -111,7 +111,7 @@ TEST(Triangle, BarycentricCoordinatesAreAreaRatiosAndTwoInterpolations) {
 TEST(Triangle, TwoStepInterpolationEqualsBarycentric) {
   std::mt19937 random(6);
   std::uniform_int_distribution<int> quarters(0, 60), value(-9, 9);
-  for (int i = 0; i < 200 / testing::effort; ++i) {
+  for (int i = 0; i < 200 / checks::effort; ++i) {
     const auto q = [&] { return quarters(random) / 4.0; };
     const Triangle t = triangle_of(q(), q(), q(), q(), q(), q());
     const std::array<Exact, 3> R{Exact(value(random)), Exact(value(random)), Exact(value(random))};
@@ -172,7 +172,7 @@ TEST(EdgeFunction, ClosedEdgesAreEveryTriangles) {
 TEST(SubpixelGrid, CoversWhatExactEdgeFunctionsOfTheSnappedCornersDo) {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> coordinate(-3, 14);
-  for (int i = 0; i < 1200 / testing::effort; ++i) {
+  for (int i = 0; i < 1200 / checks::effort; ++i) {
     const int bits = i % 17;
     std::array<GridPoint, 3> corners;
     Triangle exact;
@@ -203,7 +203,7 @@ TEST(SubpixelGrid, BlocksTellTheTruth) {
   std::mt19937_64 random(10);
   std::uniform_real_distribution<double> coordinate(-10, 42);
   int all = 0, none = 0;
-  for (int i = 0; i < 200 / testing::effort; ++i) {
+  for (int i = 0; i < 200 / checks::effort; ++i) {
     const auto t = GridTriangle::of({snap(coordinate(random), coordinate(random), 8),
                                      snap(coordinate(random), coordinate(random), 8),
                                      snap(coordinate(random), coordinate(random), 8)});
@@ -259,7 +259,7 @@ struct GridMesh {
 TEST(SubpixelGrid, SharedEdgesCoverEverySampleOnceAtEveryNumberOfBits) {
   std::mt19937_64 random(77);
   int flips = 0, samples_with_flips = 0;
-  for (int i = 0; i < 34 / testing::effort + 17; ++i) {
+  for (int i = 0; i < 34 / checks::effort + 17; ++i) {
     const int bits = i % 17;
     const GridMesh mesh(random, 0.8);
     std::map<Pixel, int> signed_count, unsigned_count, flipped;

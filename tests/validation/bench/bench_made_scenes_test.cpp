@@ -11,6 +11,7 @@
 
 #include "fathom/render.h"
 #include "fathom/scene/framing.h"
+#include "tests/validation/bench/covered_share.h"
 #include "validation/scenes/made/made_meshes.h"
 #include "validation/scenes/made/random.h"
 #include "validation/scenes/scenes.h"
@@ -83,13 +84,6 @@ double quantile(const std::vector<Corners>& triangles, double share, const Measu
   return *at;
 }
 
-double covered_share(const BenchScene& bench) {
-  const DepthMap map = render(bench.scene, bench.camera, {.engine = Engine::fast}).map;
-  const Samples<float>& Z = *map.values<float>("Z");
-  const auto covered = std::count_if(Z.begin(), Z.end(), [](float z) { return std::isfinite(z); });
-  return static_cast<double>(covered) / static_cast<double>(Z.size());
-}
-
 TEST(BenchNoise, IsSmoothAndBoundedAndTheSameEverywhere) {
   double least = 1, most = -1;
   for (int i = -400; i < 400; ++i) {
@@ -151,7 +145,7 @@ TEST(BenchCity, IsSeenFromWithin) {
                                     [](const Corners& t) { return corners_behind(t) == 3; });
   const double share = static_cast<double>(behind) / static_cast<double>(triangles.size());
   EXPECT_NEAR(share, 0.5, 0.1);
-  const double covered = covered_share(bench);
+  const double covered = checks::covered_share(bench);
   EXPECT_GT(covered, 0.85);  // all but the sky
   EXPECT_LT(covered, 1);
 }
@@ -165,7 +159,7 @@ TEST(BenchTree, ItsLeavesAreBelowAPixel) {
   EXPECT_LT(quantile(triangles, 0.5, size), 0.2);
   EXPECT_LT(quantile(triangles, 0.9, size), 0.5);
   EXPECT_GT(quantile(triangles, 1, size), 1000);  // the trunk
-  const double covered = covered_share(bench);
+  const double covered = checks::covered_share(bench);
   EXPECT_GT(covered, 0.08);
   EXPECT_LT(covered, 0.25);
 }
@@ -181,7 +175,7 @@ TEST(BenchText, IsOfSliversThatFaceTheReader) {
     const MeshPoint &A = mesh.vertices[a], &B = mesh.vertices[b], &C = mesh.vertices[c];
     ASSERT_GT((B.x - A.x) * (C.y - A.y) - (B.y - A.y) * (C.x - A.x), 0);
   }
-  const double covered = covered_share(bench);
+  const double covered = checks::covered_share(bench);
   EXPECT_GT(covered, 0.1);
   EXPECT_LT(covered, 0.3);
 }
@@ -199,7 +193,7 @@ TEST(BenchCad, IsOfFansAndSlivers) {
   const auto most = std::max_element(used.begin(), used.end(),
                                      [](auto& a, auto& b) { return a.second < b.second; });
   EXPECT_GE(most->second, 358);  // a rod's end
-  const double covered = covered_share(bench);
+  const double covered = checks::covered_share(bench);
   EXPECT_GT(covered, 0.35);
   EXPECT_LT(covered, 0.6);
 }

@@ -118,8 +118,8 @@ TEST(GeneratedScene, TheMapIsThatOfTheSameTrianglesInMemory) {
     const StreamedScene streamed = scene_of(kind, 100000);
     const Camera camera = camera_of(kind, {320, 180});
     const RenderOptions options{.channels = {Channel::Z, Channel::id}};
-    testing::expect_same_map(render(streamed, camera, options).map,
-                             render(as_scene_in_memory(streamed), camera, options).map);
+    checks::expect_same_map(render(streamed, camera, options).map,
+                            render(as_scene_in_memory(streamed), camera, options).map);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fathom/render.h"
+#include "tests/validation/bench/covered_share.h"
 #include "validation/scenes/shapes.h"
 
 namespace fathom::bench {
@@ -29,14 +30,6 @@ void expect_closed(const Mesh& mesh) {
     EXPECT_EQ(count, 1) << edge.first << " " << edge.second;
     EXPECT_EQ(passed.count({edge.second, edge.first}), 1U) << edge.first << " " << edge.second;
   }
-}
-
-/// Share of the pixels that show a surface.
-double covered_share(const BenchScene& bench) {
-  const DepthMap map = render(bench.scene, bench.camera, {.engine = Engine::fast}).map;
-  const Samples<float>& Z = *map.values<float>("Z");
-  const auto covered = std::count_if(Z.begin(), Z.end(), [](float z) { return std::isfinite(z); });
-  return static_cast<double>(covered) / static_cast<double>(Z.size());
 }
 
 TEST(BenchScenes, SpheresAreClosedAndFaceOutwards) {
@@ -68,7 +61,7 @@ TEST(BenchScenes, SpheresAreSeenWholeAndCoverTheirShare) {
   // polygon cuts off and the pixels on its border: 2π·175 of them, of which less than half differ.
   const double disc = 3.14159265 * 523.5 * 523.5 / (1920.0 * 1080.0);
   const double border = 3.14159265 * 175 / (640.0 * 360.0);
-  EXPECT_NEAR(covered_share(make_scene("sphere-20k", 640, 360)), disc, border);
+  EXPECT_NEAR(checks::covered_share(make_scene("sphere-20k", 640, 360)), disc, border);
 }
 
 // Each of 200 samples is covered by a number of triangles with mean 50 and standard deviation
@@ -118,8 +111,8 @@ TEST(BenchScenes, CornersOfTheAlignedGridArePixelCentres) {
 }
 
 TEST(BenchScenes, RoomIsClosedFromInside) {
-  EXPECT_EQ(covered_share(make_scene("room", 320, 180)), 1);
-  const double outside = covered_share(make_scene("room-outside", 320, 180));
+  EXPECT_EQ(checks::covered_share(make_scene("room", 320, 180)), 1);
+  const double outside = checks::covered_share(make_scene("room-outside", 320, 180));
   EXPECT_GT(outside, 0.1);
   EXPECT_LT(outside, 1);
 }

@@ -23,14 +23,14 @@ namespace {
 using attribution::PixelClass;
 using lens::ExactDirection;
 
-constexpr std::uint32_t width = 48, height = 36;
+constexpr std::uint32_t columns = 48, rows = 36;
 
 LensCase case_of(const std::string& scene, const Camera& lens) {
   return lens_case(make_validation_scene(scene, lens.width, lens.height), lens);
 }
 
 Camera lens_named(const std::string& name) {
-  const std::vector<Camera> all = lens_cameras(width, height);
+  const std::vector<Camera> all = lens_cameras(columns, rows);
   return *std::ranges::find(all, name, &Camera::name);
 }
 
@@ -47,7 +47,7 @@ std::size_t surfaces(const LensCase& given) {
 }
 
 TEST(LensJudge, ExplainsPerfectAnswersThroughEveryLens) {
-  for (const Camera& lens : lens_cameras(width, height)) {
+  for (const Camera& lens : lens_cameras(columns, rows)) {
     for (const char* scene : {"spot", "slivers"}) {
       const LensCase given = case_of(scene, lens);
       const LensJudge judge(given);
@@ -68,7 +68,7 @@ TEST(LensJudge, ExplainsPerfectAnswersThroughEveryLens) {
 
 /// Every pixel that shows a surface is unexplained, whatever is wrong with it.
 TEST(LensJudge, LeavesWrongAnswersUnexplained) {
-  for (const Camera& lens : lens_cameras(width, height)) {
+  for (const Camera& lens : lens_cameras(columns, rows)) {
     const LensCase given = case_of("slivers", lens);
     const LensJudge judge(given);
     const EngineAnswers right = perfect_answers(given, judge.rays());

@@ -141,7 +141,7 @@ TEST(AntialiasingMethods, FxaaComesNearerToEdgesOfSurfacesAndTextures) {
 /// What a frame takes is measured, so that buffers count that no table knows of: FXAA has a second
 /// picture, samples are kept while they are drawn.
 TEST(AntialiasingMethods, MemoryIsMeasured) {
-  if (testing::effort > 1) GTEST_SKIP() << "sanitizers keep memory of their own";
+  if (checks::effort > 1) GTEST_SKIP() << "sanitizers keep memory of their own";
   const Judged large{siemens_star(36, 90, 96.3, 95.8), window_camera(192, 192), false, {}};
   const auto bytes_a_pixel = [&](const pipeline::Antialias& antialias) {
     const auto bytes =

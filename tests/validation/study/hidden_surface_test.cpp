@@ -192,7 +192,7 @@ TEST(HiddenSurfaceStudy, AGivenSceneIsSeenFromTheEye) {
 /// rounding has none, so rounding is their only cause; decided exactly on the rounded pieces, the
 /// outlines account for most of them.
 TEST(HiddenSurfaceStudy, TheTreesWrongPixelsComeFromRounding) {
-  if (testing::effort > 1) GTEST_SKIP() << "seconds without sanitizers";
+  if (checks::effort > 1) GTEST_SKIP() << "seconds without sanitizers";
   struct Expected {
     std::string_view mesh;
     std::size_t binary64, exact_outlines;

@@ -62,18 +62,18 @@ std::map<std::string, std::string> expect_pictures_by_commands(
   if (made.status != 0) return printed;
   const fs::path beside = folder.path() / "made", shown = folder.path() / "shown";
   const std::string page = folder.read("made/index.html");
-  EXPECT_EQ(testing::expect_pictures(
+  EXPECT_EQ(checks::expect_pictures(
                 page, [&](const std::string& picture) { return fs::exists(beside / picture); }),
             pictures_of_page);
   EXPECT_TRUE(fs::exists(beside / "summary.json"));
   fs::create_directory(shown);
   for (const fs::path& scene : scenes) fs::copy(scene, beside);
   std::set<std::string> pictures;
-  for (const std::string& picture : testing::texts_between(page, "<img src=\"", "\"")) {
+  for (const std::string& picture : checks::texts_between(page, "<img src=\"", "\"")) {
     fs::rename(beside / picture, shown / picture);
     pictures.insert(picture);
   }
-  const std::vector<std::string> commands = testing::texts_between(page, "<code>", "</code>");
+  const std::vector<std::string> commands = checks::texts_between(page, "<code>", "</code>");
   EXPECT_GE(commands.size(), least_commands);
   for (const std::string& command : commands) {
     // The study itself, which has been run; another renderer, which has tests of its own.
@@ -101,7 +101,7 @@ std::string printed_by(const std::map<std::string, std::string>& printed, const 
 
 // Some are drawn by exact arithmetic or by the exact engine, as their captions say.
 TEST(PageCommands, DrawThePicturesOfTheCourse) {
-  if (testing::effort > 1) GTEST_SKIP() << "some sixty renderings, each by a program of its own";
+  if (checks::effort > 1) GTEST_SKIP() << "some sixty renderings, each by a program of its own";
   const auto printed = expect_pictures_by_commands(
       "course", 73, 30,
       {"exercise-2.png", "exercise-6-exact.png", "square-0.png", "square-45.png", "square-90.png",
@@ -134,7 +134,7 @@ TEST(PageCommands, DrawThePicturesOfAScenesHiddenSurfaces) {
 // Exact pictures are drawn by exact areas, gratings from their samples, the wheel and the curve as
 // on the page of the course.
 TEST(PageCommands, DrawThePicturesOfAntialiasing) {
-  if (testing::effort > 1) GTEST_SKIP() << "the study takes half a minute without sanitizers";
+  if (checks::effort > 1) GTEST_SKIP() << "the study takes half a minute without sanitizers";
   std::set<std::string> others{"star-truth.png",  "sheets-truth.png",  "wall-truth.png",
                                "plane-truth.png", "wheel-sharp.png",   "wheel-next.png",
                                "coverage.png",    "wheel-shutter.png", "curve-enlarged.png",

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace fathom::testing {
+namespace fathom::checks {
 namespace {
 
 void expect_command(const std::string& figure) {
@@ -40,4 +40,4 @@ std::size_t expect_pictures(const std::string& page,
   return pictures.size();
 }
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace fathom::testing {
+namespace fathom::checks {
 
 /// All that stands between two marks.
 std::vector<std::string> texts_between(const std::string& page, const std::string& begin,
@@ -16,4 +16,4 @@ std::vector<std::string> texts_between(const std::string& page, const std::strin
 std::size_t expect_pictures(const std::string& page,
                             const std::function<bool(const std::string& name)>& is_file);
 
-}  // namespace fathom::testing
+}  // namespace fathom::checks

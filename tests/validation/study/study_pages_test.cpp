@@ -18,7 +18,7 @@ std::size_t expect_complete(const std::vector<StudyFile>& files) {
   EXPECT_NE(named("summary.json"), files.end());
   const auto index = named("index.html");
   if (index == files.end()) return 0;
-  return testing::expect_pictures(
+  return checks::expect_pictures(
       index->content, [&](const std::string& name) { return named(name) != files.end(); });
 }
 

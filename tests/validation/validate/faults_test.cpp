@@ -46,7 +46,7 @@ TEST_P(FaultGroups, AreFoundAndRightlyNamed) {
       fault_subject(spot(), exact_map_of(spot()), attribution::model_named(model));
   const std::vector<Fault> faults = fault_catalogue();
   // Under sanitizers one of the group's faults in four.
-  constexpr int every = testing::effort > 1 ? 4 : 1;
+  constexpr int every = checks::effort > 1 ? 4 : 1;
   int number = 0;
   FaultStudy study;
   for (const Fault& fault : faults) {
