@@ -3,8 +3,8 @@
 #include "apps/camera/shutter_command.h"
 #include "apps/shell/command.h"
 
-/// Commands of `fathom` and `fathom-textbook`. `render` is in render/render_arguments.h, and
-/// `dataset` in dataset/dataset_command.h.
+/// Commands of `fathom`, `fathom-surfaces` and `fathom-textbook`. `render` is in
+/// render/render_arguments.h, and `dataset` in dataset/dataset_command.h.
 namespace fathom::app {
 
 // Commands that look at maps, and `info`, which looks at any file.

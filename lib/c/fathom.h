@@ -26,7 +26,7 @@ extern "C" {
 
 /* NOLINTBEGIN(readability-identifier-naming): C has no namespaces, but prefixes. */
 
-/* Equal to the program's exit statuses. */
+/* 0 to 4 mean the same as the exit statuses of the program. */
 typedef enum {
   FATHOM_OK = 0,
   FATHOM_USAGE = 2,  /* arguments are invalid or contradict each other */

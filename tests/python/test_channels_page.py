@@ -1,5 +1,6 @@
 """docs/reference/channels.md: every channel that the program writes is in the table, with its type and its background."""
 
+import json
 import os
 import pathlib
 import re
@@ -34,11 +35,17 @@ def written(tmp_path_factory, run_program):
 
     run_program("render", source / "data/meshes/cube.obj", "--size", "64x48", "-o", folder / "z.exr")
     run_program("convert", folder / "z.exr", "--to", "disparity", "--baseline", "0.1", "-o", folder / "disparity.exr")
+    scene = folder / "stencil.json"
+    scene.write_text(json.dumps({"meshes": [{"file": str(source / "data/meshes/cube.obj"),
+                                             "draw": {"stencil": {"reference": 1, "pass": "replace"}}}]}))
+    run_program("render", scene, "--engine", "pipeline", "--size", "64x48", "--near", "0.1", "--far", "100", "--depth-format", "unorm24",
+                "-o", folder / "stencil.exr")
     every = ",".join(fathom.maps.rendered)
     return {
         "unorm24": render("24.exr", "--channels", every, "--samples", "4", "--depth-format", "unorm24", "--against-exact"),
         "float32": render("32.exr", "--channels", "Z", "--depth-format", "float32", "--mapping", "reversed"),
         "float64": render("64.exr", "--channels", "Z", "--depth-format", "float64"),
+        "stencil": fathom.read_map(folder / "stencil.exr"),
         "disparity": fathom.read_map(folder / "disparity.exr"),
     }
 

@@ -33,14 +33,6 @@ constexpr auto other_names = std::to_array<OtherName>({{"depth", "Z"},
                                                        {"points", "P"},
                                                        {"barycentric", "bary"}});
 
-/// The meanings of the channels of a depth buffer.
-constexpr auto buffer_channels = std::to_array<std::pair<std::string_view, std::string_view>>(
-    {{"Zwindow", "stored depth"},
-     {"Zdecoded", "depth decoded from the buffer"},
-     {"Zerror", "decoded minus exact depth"},
-     {"Zwinner", "triangle that wins in the buffer"},
-     {"Zfight", "where the wrong surface wins"}});
-
 /// "N" of "N.X" where the map has all parts of N; else the name.
 std::string name_for_users(const DepthMap& map, const std::string& name) {
   const std::string stem = name.substr(0, name.rfind('.'));
@@ -77,9 +69,8 @@ UnknownName unknown_contents(const std::string& name) {
 
 std::string meaning_of(const std::string& channel) {
   if (const auto ours = channel_named(channel)) return std::string(description_of(*ours).meaning);
-  for (const auto& [name, meaning] : buffer_channels)
-    if (name == channel) return std::string(meaning);
-  return {};
+  const AddedChannel* const added = added_channel_named(channel);
+  return added ? std::string(added->meaning) : std::string();
 }
 
 std::vector<std::string> names_of_channels(const DepthMap& map) {

@@ -24,6 +24,11 @@ std::optional<Channel> channel_named(std::string_view name) {
   return found->channel;
 }
 
+const AddedChannel* added_channel_named(std::string_view name) {
+  const auto* const found = std::ranges::find(added_channels, name, &AddedChannel::name);
+  return found == added_channels.end() ? nullptr : found;
+}
+
 std::vector<std::string> part_names(Channel channel) {
   const ChannelDescription& d = description_of(channel);
   if (d.parts.empty()) return {std::string(d.name)};

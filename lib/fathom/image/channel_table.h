@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-/// The channels of exact maps (specification, section 6): the only place that defines their names,
-/// types and meanings.
+/// The channels of exact maps (specification, section 6), with their types and meanings, and the
+/// channels that samples, depth buffers and conversions add.
 namespace fathom {
 
 enum class Channel {
@@ -103,6 +103,30 @@ std::vector<std::string> part_names(Channel channel);
 /// The channels of materials, groups, parts and labels, in the order of Segmentation (mesh/).
 inline constexpr std::array segment_channels{Channel::material, Channel::group, Channel::part,
                                              Channel::label};
+
+/// A channel beside those of exact maps: of samples, of depth and stencil buffers, of `convert`.
+struct AddedChannel {
+  std::string_view name;
+  ChannelKind kind;
+  /// For people, in a few words.
+  std::string_view meaning;
+};
+
+inline constexpr auto added_channels = std::to_array<AddedChannel>({
+    {"Asampled", ChannelKind::quantity, "share of samples that hit a surface"},
+    {"Zwindow", ChannelKind::quantity, "stored depth"},
+    {"Zwindow.high", ChannelKind::quantity, "upper half of the stored depth"},
+    {"Zwindow.low", ChannelKind::quantity, "lower half of the stored depth"},
+    {"Zdecoded", ChannelKind::depth, "depth decoded from the buffer"},
+    {"Zerror", ChannelKind::quantity, "decoded minus exact depth"},
+    {"Zwinner", ChannelKind::identifier, "triangle that wins in the buffer"},
+    {"Zfight", ChannelKind::quantity, "where the wrong surface wins"},
+    {"stencil", ChannelKind::quantity, "number in the stencil buffer"},
+    {"disparity", ChannelKind::depth, "disparity of a stereo pair"},
+});
+
+/// "Zfight" → its row of added_channels; nullptr if there is no such channel.
+const AddedChannel* added_channel_named(std::string_view name);
 
 /// Whether a channel has no_segment where a surface without a segment is visible: one of
 /// segment_channels.

@@ -89,11 +89,11 @@ std::vector<std::uint8_t> group_mask(const DepthMap& map, const ImageChannel& ch
 
 ChannelKind kind_of(const ImageChannel& channel) {
   if (std::holds_alternative<Samples<std::uint32_t>>(channel.values)) {
-    // Of a depth buffer: codes, halves of binary64 numbers, and 1 where another surface wins; 1
-    // where a lens has a ray.
-    static constexpr std::array<std::string_view, 5> numbers{"Zwindow", "Zwindow.high",
-                                                             "Zwindow.low", "Zfight", "valid"};
-    const bool is_number = std::ranges::find(numbers, channel.name) != numbers.end();
+    const auto ours = channel_named(channel.name);
+    const AddedChannel* const added = added_channel_named(channel.name);
+    const bool is_number = (added && added->kind == ChannelKind::quantity) ||
+                           (ours && description_of(*ours).type == ChannelType::identifier &&
+                            description_of(*ours).kind == ChannelKind::quantity);
     return is_number ? ChannelKind::quantity : ChannelKind::identifier;
   }
   const auto [group, last] = tail_of(channel.name);
@@ -107,9 +107,10 @@ ChannelKind kind_of(const ImageChannel& channel) {
   }
   if (group == "Normal") return ChannelKind::direction;
   if (group == "Position") return ChannelKind::position;
-  static constexpr std::array<std::string_view, 6> depths{"ZBack", "disparity", "Zdecoded",
-                                                          "depth", "Depth",     "V"};
-  const bool depth = std::find(depths.begin(), depths.end(), last) != depths.end();
+  static constexpr std::array<std::string_view, 4> depths{"ZBack", "depth", "Depth", "V"};
+  const AddedChannel* const added = added_channel_named(last);
+  const bool depth = std::ranges::find(depths, last) != depths.end() ||
+                     (added && added->kind == ChannelKind::depth);
   if (last == "V" && group != "Depth" && group != "depth") return ChannelKind::quantity;
   return depth ? ChannelKind::depth : ChannelKind::quantity;
 }
