@@ -176,6 +176,52 @@ TEST(PlaneAreas, SumsContainTheExactSums) {
   EXPECT_GT(narrow, partly);
 }
 
+TEST(PlaneAreas, TermsOfSomeTrianglesAreThoseOfAll) {
+  constexpr WantedTerms on_surface{.image = false, .share = true, .moments = true};
+  int partly = 0;
+  testing::for_each_adversary(40, [&](std::uint64_t seed) {
+    const Case c = testing::adversarial_case(testing::all_families[0], seed);
+    const MeshOnImage image(c.scene, c.camera);
+    const PlaneAreas all(image.mesh, on_surface);
+    PlaneAreas some(image.mesh, {.image = false, .sums = true});
+    std::vector<bool> is_wanted(image.mesh.size());
+    for (std::size_t i = 0; i < is_wanted.size(); ++i) is_wanted[i] = (i + seed) % 3 == 0;
+    some.find_terms(on_surface, is_wanted);
+    for (std::uint32_t i = 0; i < image.mesh.size(); ++i) {
+      if (!is_wanted[i]) {
+        EXPECT_TRUE(some.terms(i).share.empty());
+        continue;
+      }
+      partly += all.terms(i).share.empty() ? 0 : 1;
+      EXPECT_EQ(sum_of(some.terms(i).share), sum_of(all.terms(i).share));
+      EXPECT_EQ(sum_of(some.terms(i).beta), sum_of(all.terms(i).beta));
+      EXPECT_EQ(sum_of(some.terms(i).gamma), sum_of(all.terms(i).gamma));
+    }
+  });
+  EXPECT_GT(partly, 10);
+}
+
+/// Four triangles are one crowded part. The first hides a piece inside the third and all of the
+/// fourth.
+TEST(PlaneAreas, OfTrianglesThatNothingHidesTakeNoArithmetic) {
+  const std::vector<MeshPoint> vertices{{0.5, 0.5, 1},   {1.5, 0.5, 1},   {0.5, 1.5, 1},
+                                        {2.5, 2.5, 3},   {3.5, 2.5, 1},   {2.5, 3.5, 2},
+                                        {0.25, 0.25, 2}, {2.25, 0.25, 2}, {0.25, 2.25, 2},
+                                        {0.6, 0.6, 3},   {0.8, 0.6, 3},   {0.6, 0.8, 3}};
+  const Scene scene = testing::scene_of(vertices, {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}});
+  const MeshOnImage image(scene, testing::plain_camera(4, 4));
+  for (const WantedTerms& wanted : {WantedTerms{}, WantedTerms{.image = false, .sums = true}}) {
+    const PlaneAreas areas(image.mesh, wanted);
+    ASSERT_EQ(areas.resolved().crowded.size(), 1);
+    EXPECT_EQ(areas.visibility(0), Visibility::whole);
+    EXPECT_EQ(areas.visibility(1), Visibility::whole);
+    EXPECT_EQ(areas.visibility(2), Visibility::partly);
+    EXPECT_EQ(areas.visibility(3), Visibility::partly);
+    EXPECT_TRUE(areas.terms(0).image.empty());
+    EXPECT_TRUE(areas.terms(3).image.empty());
+  }
+}
+
 /// Of a closed surface without arithmetic: the far side is hidden by the near one, whose inner
 /// triangles are visible as a whole.
 TEST(PlaneAreas, MostOfASphereIsSettledByItsSheets) {

@@ -1,6 +1,9 @@
 #include "fathom/area/areas.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -294,18 +297,26 @@ std::vector<SeenTriangle> seen_among(const SeenScene& scene,
   return seen;
 }
 
-/// area_of(0, round), …, area_of(count − 1, round). Exact sums are computed only if a bound leaves
-/// a rounding open, or if `exact`.
-template <class AreaOf>
+/// area_of(0, round), …, area_of(count − 1, round), of the triangles of members_of(0), … Exact sums
+/// are computed only of items of which a bound leaves a rounding open, or if `exact`.
+template <class MembersOf, class AreaOf>
 std::vector<LitArea> rounded_areas(SeenScene& scene, std::uint32_t count, bool exact,
-                                   const AreaOf& area_of) {
+                                   const MembersOf& members_of, const AreaOf& area_of) {
   std::vector<LitArea> result(count);
   std::vector<std::uint32_t> open(count);
   std::iota(open.begin(), open.end(), 0);
   for (bool has_exact_sums : {false, true}) {
     if (exact && !has_exact_sums) continue;
     if (open.empty()) break;
-    if (has_exact_sums) scene.find_exact_sums();
+    if (has_exact_sums) {
+      std::vector<std::uint32_t> numbers;
+      for (const std::uint32_t item : open) {
+        const auto& members = members_of(item);
+        std::copy_if(members.begin(), members.end(), std::back_inserter(numbers),
+                     [&](std::uint32_t number) { return !scene.is_hidden(number); });
+      }
+      scene.find_exact_sums(numbers);
+    }
     std::vector<std::uint8_t> is_open(count);
     in_parallel(open.size(), [&](std::size_t k) {
       const std::uint32_t item = open[k];
@@ -325,11 +336,13 @@ std::vector<LitArea> measure(const TriangleSource& triangles, LightKind kind,
   SeenScene scene(triangles, kind, cameras, light, options.cull);
   const LightAreas areas(kind, light, options);
   if (options.groups.empty() && count > 0) {
-    return rounded_areas(scene, count, options.exact, [&](std::uint32_t number, Rounding& round) {
-      const SeenTriangle seen = scene.triangle(number);
-      round.include(seen);
-      return areas.of(seen, round);
-    });
+    return rounded_areas(
+        scene, count, options.exact, [](std::uint32_t number) { return std::array{number}; },
+        [&](std::uint32_t number, Rounding& round) {
+          const SeenTriangle seen = scene.triangle(number);
+          round.include(seen);
+          return areas.of(seen, round);
+        });
   }
   const auto members = members_of(options);
   const bool alone = options.alone && kind != LightKind::point;
@@ -337,7 +350,9 @@ std::vector<LitArea> measure(const TriangleSource& triangles, LightKind kind,
   in_parallel(areas_alone.size(),
               [&](std::size_t group) { areas_alone[group] = scene.alone(members[group]); });
   return rounded_areas(
-      scene, options.group_count, options.exact, [&](std::uint32_t group, Rounding& round) {
+      scene, options.group_count,
+      options.exact, [&](std::uint32_t group) -> const auto& { return members[group]; },
+      [&](std::uint32_t group, Rounding& round) {
         const std::vector<SeenTriangle> seen = seen_among(scene, members[group], round);
         const AreaWords words = areas.words_of(seen);
         LitArea area = areas.of(seen, words, round);

@@ -174,6 +174,13 @@ Ratio third(const Ratio& x) {
   return {x.numerator, x.denominator * Dyadic(3.0)};
 }
 
+/// The numbers of all triangles.
+std::vector<std::uint32_t> numbers_of(const ProjectedScene& scene) {
+  std::vector<std::uint32_t> numbers(scene.count());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
 /// Whether the image is mirrored, so that front sides look like back sides. A pose and a projection
 /// may each mirror it; both together do not.
 bool shows_mirror_image(const Camera& camera) {
@@ -208,9 +215,9 @@ SurfaceSums in_order(const ProjectedScene& scene, std::uint32_t number, SurfaceS
 
 /// Calls visit(number, terms, sums) for each triangle of the mesh that is not hidden for certain.
 template <class Visit>
-void visit_seen(const PlaneMesh& mesh, const WantedTerms& wanted, const Visit& visit) {
+void visit_seen(const PlaneMesh& mesh, PlaneAreas& areas, const WantedTerms& wanted,
+                const Visit& visit) {
   const ProjectedScene& scene = mesh.scene();
-  const PlaneAreas areas(mesh, wanted);
   for (std::uint32_t i = 0; i < mesh.size(); ++i) {
     const std::uint32_t number = mesh.number(i);
     if (areas.visibility(i) == Visibility::hidden) continue;
@@ -225,7 +232,7 @@ void visit_seen(const PlaneMesh& mesh, const WantedTerms& wanted, const Visit& v
       visit(number, terms, sums);
     } else {
       const SurfaceSums sums = wanted.sums ? in_order(scene, number, areas.sums(i)) : SurfaceSums();
-      visit(number, in_order(scene, number, areas.terms(i)), sums);
+      visit(number, in_order(scene, number, areas.take_terms(i)), sums);
     }
   }
 }
@@ -244,7 +251,8 @@ SeenScene::SeenScene(const TriangleSource& triangles, LightKind kind,
       kind_(kind),
       light_(light),
       sums_(triangles.count()),
-      terms_(triangles.count()) {
+      terms_(triangles.count()),
+      has_exact_sums_(triangles.count()) {
   if (kind == LightKind::camera) {
     unoccluded_.resize(triangles.count());
     facings_.resize(triangles.count());
@@ -254,28 +262,41 @@ SeenScene::SeenScene(const TriangleSource& triangles, LightKind kind,
     Progress progress(no_report, 1);
     const ProjectedScene& scene =
         scenes_.emplace_back(CoverageFrame{triangles, camera, cull}, progress);
-    add(scene, {.image = kind == LightKind::camera, .sums = true});
+    const WantedTerms wanted{.image = kind == LightKind::camera, .sums = true};
+    add(views_.emplace_back(scene, wanted), wanted);
     if (kind == LightKind::camera) add_image(scene, shows_mirror_image(camera));
   }
 }
 
-void SeenScene::find_exact_sums() {
-  if (has_exact_sums_) return;
-  for (SurfaceTerms& terms : terms_) {
-    for (Terms* some : {&terms.share, &terms.beta, &terms.gamma}) some->clear();
+SeenScene::View::View(const ProjectedScene& scene, const WantedTerms& wanted)
+    : mesh(scene, numbers_of(scene)), areas(mesh, wanted) {}
+
+// A triangle with terms of its share is visible as a whole: in one view, and in no other.
+void SeenScene::find_exact_sums(std::span<const std::uint32_t> numbers) {
+  std::vector<bool> is_open(triangles_.count());
+  for (const std::uint32_t number : numbers) is_open[number] = terms_[number].share.empty();
+  for (View& view : views_) {
+    std::vector<bool> open_in_view(view.mesh.size());
+    for (std::uint32_t i = 0; i < view.mesh.size(); ++i) {
+      open_in_view[i] = is_open[view.mesh.number(i)];
+    }
+    view.areas.find_terms({.image = false, .share = true, .moments = true}, open_in_view);
+    for (std::uint32_t i = 0; i < view.mesh.size(); ++i) {
+      if (!open_in_view[i]) continue;
+      const std::uint32_t number = view.mesh.number(i);
+      append(terms_[number], in_order(view.mesh.scene(), number, view.areas.take_terms(i)));
+    }
   }
-  for (const ProjectedScene& scene : scenes_) {
-    add(scene, {.image = false, .share = true, .moments = true});
-  }
-  has_exact_sums_ = true;
+  for (const std::uint32_t number : numbers) has_exact_sums_[number] = true;
 }
 
 SeenTriangle SeenScene::triangle(std::uint32_t number) const {
   SeenTriangle seen = placed(number);
   seen.sums = sums_[number];
   seen.terms = &terms_[number];
-  // Only triangles that are visible as a whole have terms before find_exact_sums().
-  seen.has_exact_sums = has_exact_sums_ || !seen.terms->share.empty();
+  // Triangles that are visible as a whole have terms before find_exact_sums(). Those of hidden
+  // triangles are empty.
+  seen.has_exact_sums = has_exact_sums_[number] || is_hidden(number) || !seen.terms->share.empty();
   if (kind_ == LightKind::camera) seen.unoccluded = unoccluded_[number];
   return seen;
 }
@@ -292,7 +313,9 @@ Terms SeenScene::alone(std::span<const std::uint32_t> numbers) const {
   Terms areas;
   const PlaneMesh mesh(scenes_.front(), numbers);
   const bool in_pixels = kind_ == LightKind::camera;
-  visit_seen(mesh, {.image = in_pixels, .share = !in_pixels},
+  const WantedTerms wanted{.image = in_pixels, .share = !in_pixels};
+  PlaneAreas measured(mesh, wanted);
+  visit_seen(mesh, measured, wanted,
              [&](std::uint32_t number, const SurfaceTerms& terms, const SurfaceSums&) {
                Ratio area = in_pixels ? sum_of(terms.image)
                                       : sum_of(terms.share) * Ratio(placed(number).facing);
@@ -301,10 +324,8 @@ Terms SeenScene::alone(std::span<const std::uint32_t> numbers) const {
   return areas;
 }
 
-void SeenScene::add(const ProjectedScene& scene, const WantedTerms& wanted) {
-  std::vector<std::uint32_t> numbers(scene.count());
-  std::iota(numbers.begin(), numbers.end(), 0);
-  visit_seen(PlaneMesh(scene, numbers), wanted,
+void SeenScene::add(View& view, const WantedTerms& wanted) {
+  visit_seen(view.mesh, view.areas, wanted,
              [&](std::uint32_t number, const SurfaceTerms& terms, const SurfaceSums& sums) {
                append(terms_[number], SurfaceTerms(terms));
                if (wanted.sums) sums_[number] += sums;

@@ -68,8 +68,8 @@ class SeenScene {
     return is_exact_zero(sums_[number].share);
   }
   [[nodiscard]] SeenTriangle triangle(std::uint32_t number) const;
-  /// Computes the exact terms of all sums, which takes about as long as the scene did.
-  void find_exact_sums();
+  /// Computes the exact terms of the sums of some triangles.
+  void find_exact_sums(std::span<const std::uint32_t> numbers);
 
   /// From a camera, terms whose sum is the area of the image in which something is visible.
   [[nodiscard]] Terms image_terms() const;
@@ -79,7 +79,13 @@ class SeenScene {
   [[nodiscard]] Terms alone(std::span<const std::uint32_t> numbers) const;
 
  private:
-  void add(const ProjectedScene& scene, const WantedTerms& wanted);
+  /// Triangles as a camera sees them.
+  struct View {
+    View(const ProjectedScene& scene, const WantedTerms& wanted);
+    PlaneMesh mesh;
+    PlaneAreas areas;
+  };
+  void add(View& view, const WantedTerms& wanted);
   void add_image(const ProjectedScene& scene, bool is_mirrored);
   /// The triangle's place and facing; nothing that depends on other triangles.
   [[nodiscard]] SeenTriangle placed(std::uint32_t number) const;
@@ -89,9 +95,10 @@ class SeenScene {
   LightKind kind_;
   std::array<double, 3> light_;
   std::deque<ProjectedScene> scenes_;
+  std::deque<View> views_;
   std::vector<SurfaceSums> sums_;
   std::vector<SurfaceTerms> terms_;
-  bool has_exact_sums_ = false;
+  std::vector<bool> has_exact_sums_;
   /// From a camera.
   std::vector<Ratio> unoccluded_;
   /// The sign of n·d.

@@ -34,6 +34,7 @@ void LineSweep::add_piece(std::uint32_t triangle) {
   piece.triangle = triangle;
   const ProjectedScene& scene = mesh_.scene();
   if (mesh_.is_regular(triangle)) {
+    piece.box = mesh_.box(triangle);
     const CornerIndices& corners = mesh_.corners(triangle);
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t from = corners[k], to = corners[(k + 1) % 3];
@@ -76,9 +77,10 @@ void LineSweep::find_orders() {
   changes_.erase(std::unique(changes_.begin(), changes_.end()), changes_.end());
 }
 
-/// Whether the triangles certainly have no point in common on the image.
+/// Whether the pieces certainly have no point in common on the image.
 bool LineSweep::are_apart(std::uint32_t a, std::uint32_t b) const {
-  return mesh_.is_regular(a) && mesh_.is_regular(b) && mesh_.box(a).misses(mesh_.box(b));
+  const std::optional<PlaneBox>&box = pieces_[a].box, &other = pieces_[b].box;
+  return box && other && box->misses(*other);
 }
 
 const DepthPlane& LineSweep::depth_plane(std::uint32_t piece) {
@@ -97,8 +99,18 @@ bool LineSweep::meet_at_corner(std::uint32_t a, std::uint32_t b, std::uint32_t e
          std::ranges::find(of_b, *vertex) != of_b.end();
 }
 
-/// The signs of in_front() where edges k and k + 1 of a polygon meet, as long as bounds or a common
-/// corner, where the sign is zero, settle all of them; otherwise nothing.
+/// Whether the line is that of a common edge of both triangles, along which they are equally deep:
+/// the form of in_front() is affine, and zero at both ends of the edge. The triangles are regular,
+/// so that their corners are different places of the image and two corners determine the line.
+bool LineSweep::meet_on_line(std::uint32_t a, std::uint32_t b, std::uint32_t line) const {
+  const CornerIndices &of_a = mesh_.corners(a), &of_b = mesh_.corners(b);
+  return std::ranges::count_if(of_a, [&](std::uint32_t vertex) {
+           return std::ranges::find(of_b, vertex) != of_b.end() && lines_.has(line, vertex);
+         }) == 2;
+}
+
+/// The signs of in_front() where edges k and k + 1 of a polygon meet, as long as bounds, a common
+/// corner or a common edge, where the sign is zero, settle all of them; otherwise nothing.
 std::vector<Sign> LineSweep::certain_signs(std::uint32_t s, std::uint32_t t,
                                            const LinePolygon& common) {
   const std::uint32_t a = pieces_[s].triangle, b = pieces_[t].triangle;
@@ -112,7 +124,7 @@ std::vector<Sign> LineSweep::certain_signs(std::uint32_t s, std::uint32_t t,
     signs.push_back(comparison.sign_at(approximate_crossing(lines_[e], lines_[f])));
     if (signs.back() != Sign::zero) {
       settles_order = true;
-    } else if (!meet_at_corner(a, b, e, f)) {
+    } else if (!meet_on_line(a, b, e) && !meet_on_line(a, b, f) && !meet_at_corner(a, b, e, f)) {
       return {};
     }
   }
@@ -128,7 +140,7 @@ ExactVector3 LineSweep::in_front_here(std::uint32_t s, std::uint32_t t) {
 // The form of in_front() is affine; where the pieces overlap, its signs at the corners decide.
 LineSweep::Order LineSweep::order_of(std::uint32_t s, std::uint32_t t) {
   const Piece &a = pieces_[s], &b = pieces_[t];
-  if (a.polygon.empty() || b.polygon.empty() || are_apart(a.triangle, b.triangle)) return {};
+  if (a.polygon.empty() || b.polygon.empty() || are_apart(s, t)) return {};
   if (a.depths.upper < b.depths.lower) return {Sign::positive, {}};
   if (b.depths.upper < a.depths.lower) return {Sign::negative, {}};
   if (are_mates(a.triangle, b.triangle)) return {};
@@ -330,9 +342,30 @@ std::vector<LineSweep::Span> LineSweep::spans() {
   return spans;
 }
 
-std::vector<Boundary> LineSweep::boundaries() {
+// The lines divide the piece's polygon P in the part, which is convex, into faces, and the piece is
+// visible in all of a face or in nothing of it. Between a visible face and a hidden face there is a
+// span of the piece, inside P: no edge of the piece and no side of the part passes there
+// (Walk::extent_of() sets `edge` on every line of the piece's half-planes). So if all spans of the
+// piece lie on such lines, all faces are visible or none is, and if there is such a span, all are.
+std::vector<bool> LineSweep::hidden_somewhere(const std::vector<Span>& spans) const {
+  std::vector<bool> has_span(pieces_.size()), is_hidden(pieces_.size());
+  for (const Span& span : spans) {
+    const bool on_side = std::ranges::find(sides_, span.along, &OrientedLine::line) != sides_.end();
+    for (const Side& side : {span.left, span.right}) {
+      if (side.piece == none) continue;
+      has_span[side.piece] = true;
+      if (side.edge == none && !on_side) is_hidden[side.piece] = true;
+    }
+  }
+  for (std::size_t k = 0; k < pieces_.size(); ++k) {
+    if (!has_span[k] && !pieces_[k].polygon.empty()) is_hidden[k] = true;
+  }
+  return is_hidden;
+}
+
+std::vector<Boundary> LineSweep::boundaries(const std::vector<Span>& spans) const {
   std::vector<Boundary> boundaries(pieces_.size());
-  for (const Span& span : spans()) {
+  for (const Span& span : spans) {
     const HalfPlane &e = lines_[span.along], &from = lines_[span.from], &to = lines_[span.to];
     if (span.left.piece != none) boundaries[span.left.piece].push_back({&e, &from, &to, false});
     if (span.right.piece != none) boundaries[span.right.piece].push_back({&e, &from, &to, true});

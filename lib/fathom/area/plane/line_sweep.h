@@ -47,6 +47,9 @@ class LineSweep {
   };
   /// All spans of all lines. Outside the part nothing is visible.
   [[nodiscard]] std::vector<Span> spans();
+  /// Of each triangle of the list, whether something of it is hidden in the part. False also if it
+  /// has no area in the part.
+  [[nodiscard]] std::vector<bool> hidden_somewhere(const std::vector<Span>& spans) const;
   [[nodiscard]] const PartLines& lines() const { return lines_; }
   /// The lines u = 0, v = 0, u = width and v = height of the part.
   [[nodiscard]] const LinePolygon& sides() const { return sides_; }
@@ -55,7 +58,7 @@ class LineSweep {
   [[nodiscard]] bool pieces_meet_at_side(std::size_t side) const { return meets_at_side_[side]; }
   /// The boundaries of the visible part of each triangle, in the coordinates of the part, which
   /// begin at its top left corner. Their lines do not move during the lifetime of this object.
-  [[nodiscard]] std::vector<Boundary> boundaries();
+  [[nodiscard]] std::vector<Boundary> boundaries(const std::vector<Span>& spans) const;
   /// The exact forms of a triangle of the list.
   [[nodiscard]] const SurfaceRegion& surface(std::size_t piece);
   [[nodiscard]] const TierCounts& decisions() const { return lines_.decisions(); }
@@ -63,6 +66,8 @@ class LineSweep {
  private:
   struct Piece {
     std::uint32_t triangle;
+    /// Of a regular triangle.
+    std::optional<PlaneBox> box;
     /// Its half-planes, and its polygon within the part; no edges if there is no area.
     std::vector<OrientedLine> region;
     LinePolygon polygon;
@@ -93,6 +98,7 @@ class LineSweep {
   [[nodiscard]] Order order_of(std::uint32_t s, std::uint32_t t);
   [[nodiscard]] bool meet_at_corner(std::uint32_t a, std::uint32_t b, std::uint32_t e,
                                     std::uint32_t f) const;
+  [[nodiscard]] bool meet_on_line(std::uint32_t a, std::uint32_t b, std::uint32_t line) const;
   [[nodiscard]] std::vector<Sign> certain_signs(std::uint32_t s, std::uint32_t t,
                                                 const LinePolygon& common);
   [[nodiscard]] ExactVector3 in_front_here(std::uint32_t s, std::uint32_t t);

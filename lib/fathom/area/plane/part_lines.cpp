@@ -38,11 +38,11 @@ std::optional<std::uint32_t> PartLines::common_vertex(std::uint32_t a, std::uint
   return found == its.end() ? std::nullopt : std::optional(*found);
 }
 
+bool PartLines::has(std::uint32_t line, std::uint32_t vertex) const {
+  return std::ranges::find(vertices_[line], vertex) != vertices_[line].end();
+}
+
 bool PartLines::share_vertex(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-  const auto has = [&](std::uint32_t line, std::uint32_t vertex) {
-    const auto& its = vertices_[line];
-    return std::find(its.begin(), its.end(), vertex) != its.end();
-  };
   return std::any_of(vertices_[a].begin(), vertices_[a].end(),
                      [&](std::uint32_t vertex) { return has(b, vertex) && has(c, vertex); });
 }

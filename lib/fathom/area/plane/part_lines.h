@@ -58,6 +58,8 @@ class PartLines {
   [[nodiscard]] Sign determinant(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
   /// A known vertex through which both lines pass.
   [[nodiscard]] std::optional<std::uint32_t> common_vertex(std::uint32_t a, std::uint32_t b) const;
+  /// Whether a line is known to pass through a vertex.
+  [[nodiscard]] bool has(std::uint32_t line, std::uint32_t vertex) const;
   /// Whether the lines pass through one known vertex.
   [[nodiscard]] bool share_vertex(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 

@@ -180,6 +180,8 @@ PlaneAreas::PlaneAreas(const PlaneMesh& mesh, const WantedTerms& wanted,
       wanted_(wanted),
       resolved_(resolve(mesh, mesh.scene().image())),
       visibility_(mesh.size(), Visibility::hidden),
+      of_(mesh.size(), true),
+      is_hidden_(mesh.size(), 0),
       place_(mesh.size(), 0) {
   std::uint32_t places = 0;
   for (std::uint32_t i = 0; i < mesh.size(); ++i) {
@@ -191,7 +193,12 @@ PlaneAreas::PlaneAreas(const PlaneMesh& mesh, const WantedTerms& wanted,
   }
   terms_.resize(places);
   if (wanted.sums) sums_.resize(places);
-  // Pieces of about equal size, in reported steps.
+  add_parts(part_done);
+  find_whole();
+}
+
+// Pieces of about equal size, in reported steps.
+void PlaneAreas::add_parts(const std::function<void()>& part_done) {
   const std::size_t crowded = resolved_.crowded.size(), all = crowded + resolved_.clips.size();
   for (std::size_t step = 0; step < parts; ++step) {
     const std::size_t first = all * step / parts, end = all * (step + 1) / parts;
@@ -207,9 +214,37 @@ PlaneAreas::PlaneAreas(const PlaneMesh& mesh, const WantedTerms& wanted,
   }
 }
 
+// The parts cover the image, so a triangle inside the image (PlaneBox::is_inside()) is the union of
+// its pieces in the parts that it does not certainly miss. In a simple part it is visible wherever
+// it is. Where resolve() finds it behind a sheet, it sets is_hidden_somewhere. All other parts are
+// crowded: sweep() and divide_crowd() set is_hidden_ unless the piece is visible wherever it is.
+void PlaneAreas::find_whole() {
+  for (std::uint32_t i = 0; i < mesh_.size(); ++i) {
+    if (visibility_[i] != Visibility::partly || is_hidden_[i] != 0) continue;
+    if ((resolved_.flags[i] & is_hidden_somewhere) != 0 || !mesh_.is_regular(i)) continue;
+    if (!mesh_.box(i).is_inside(mesh_.scene().image())) continue;
+    visibility_[i] = Visibility::whole;
+    terms_[place_[i]] = {};
+  }
+}
+
+void PlaneAreas::find_terms(const WantedTerms& terms, std::vector<bool> wanted) {
+  wanted_ = terms;
+  of_ = std::move(wanted);
+  for (std::uint32_t i = 0; i < mesh_.size(); ++i) {
+    if (of_[i] && visibility_[i] == Visibility::partly) terms_[place_[i]] = {};
+  }
+  add_parts([] {});
+}
+
 const SurfaceTerms& PlaneAreas::terms(std::uint32_t i) const {
   static const SurfaceTerms none;
   return visibility_[i] == Visibility::partly ? terms_[place_[i]] : none;
+}
+
+SurfaceTerms PlaneAreas::take_terms(std::uint32_t i) {
+  if (visibility_[i] != Visibility::partly) return {};
+  return std::exchange(terms_[place_[i]], {});
 }
 
 void PlaneAreas::add(std::uint32_t i, SurfaceTerms&& terms, const SurfaceSums& sums) {
@@ -218,11 +253,12 @@ void PlaneAreas::add(std::uint32_t i, SurfaceTerms&& terms, const SurfaceSums& s
   if (wanted_.sums) sums_[place_[i]] += sums;
 }
 
-void PlaneAreas::add_terms(std::uint32_t i, const Boundary& boundary, const SurfaceOnPart& on) {
+void PlaneAreas::add_terms(std::uint32_t i, const Boundary& boundary, const SurfaceOnPart& on,
+                           const WantedTerms& wanted) {
   SurfaceTerms terms;
-  area::add_terms(terms, boundary, on, wanted_);
+  area::add_terms(terms, boundary, on, wanted);
   SurfaceSums sums;
-  if (wanted_.sums) {
+  if (wanted.sums) {
     SurfaceTerms summed;
     area::add_terms(summed, boundary, on, all_on_surface);
     sums = SurfaceSums(summed);
@@ -230,9 +266,19 @@ void PlaneAreas::add_terms(std::uint32_t i, const Boundary& boundary, const Surf
   add(i, std::move(terms), sums);
 }
 
-void PlaneAreas::add_sums(const CrowdedPart& crowded, LineSweep& swept) {
-  SweptSums sums(mesh_, crowded, swept.lines());
-  for (const LineSweep::Span& span : swept.spans()) sums.add(span);
+void PlaneAreas::note_hidden(std::uint32_t i) {
+  const std::lock_guard lock(mutexes_[i % mutexes_.size()]);
+  is_hidden_[i] = 1;
+}
+
+bool PlaneAreas::is_wanted(const std::vector<std::uint32_t>& triangles) const {
+  return std::ranges::any_of(triangles, [&](std::uint32_t i) { return of_[i]; });
+}
+
+void PlaneAreas::add_sums(const CrowdedPart& crowded, const PartLines& lines,
+                          const std::vector<LineSweep::Span>& spans) {
+  SweptSums sums(mesh_, crowded, lines);
+  for (const LineSweep::Span& span : spans) sums.add(span);
   for (std::size_t piece = 0; piece < crowded.triangles.size(); ++piece) {
     const SurfaceSums& its = sums.sums(piece);
     if (!is_exact_zero(its.share)) add(crowded.triangles[piece], {}, its);
@@ -241,27 +287,36 @@ void PlaneAreas::add_sums(const CrowdedPart& crowded, LineSweep& swept) {
 
 void PlaneAreas::add_crowded(const CrowdedPart& crowded) {
   check_interruption();
+  if (!is_wanted(crowded.triangles)) return;
   if (crowded.triangles.size() > LineSweep::most_lines || !sweep(crowded)) divide_crowd(crowded);
 }
 
 bool PlaneAreas::sweep(const CrowdedPart& crowded) {
   LineSweep swept(mesh_, crowded.part, crowded.triangles);
   if (!swept.is_simple()) return false;
-  const bool only_sums = wanted_.sums && !wanted_.image && !wanted_.on_surface();
-  if (only_sums && std::ranges::all_of(crowded.triangles,
-                                       [&](std::uint32_t i) { return mesh_.is_regular(i); })) {
-    add_sums(crowded, swept);
-    return true;
+  const std::vector<LineSweep::Span> spans = swept.spans();
+  const std::vector<bool> is_hidden = swept.hidden_somewhere(spans);
+  for (std::size_t piece = 0; piece < is_hidden.size(); ++piece) {
+    if (is_hidden[piece]) note_hidden(crowded.triangles[piece]);
   }
-  const std::vector<Boundary> boundaries = swept.boundaries();
+  WantedTerms wanted = wanted_;
+  if (wanted.sums && std::ranges::all_of(crowded.triangles,
+                                         [&](std::uint32_t i) { return mesh_.is_regular(i); })) {
+    add_sums(crowded, swept.lines(), spans);
+    wanted.sums = false;
+  }
+  if (!wanted.image && !wanted.on_surface() && !wanted.sums) return true;
+  const std::vector<Boundary> boundaries = swept.boundaries(spans);
   for (std::size_t piece = 0; piece < boundaries.size(); ++piece) {
-    if (boundaries[piece].empty()) continue;
-    add_terms(crowded.triangles[piece], boundaries[piece], {swept.surface(piece), crowded.part});
+    const std::uint32_t i = crowded.triangles[piece];
+    if (boundaries[piece].empty() || !of_[i]) continue;
+    add_terms(i, boundaries[piece], {swept.surface(piece), crowded.part}, wanted);
   }
   return true;
 }
 
 void PlaneAreas::divide_crowd(const CrowdedPart& crowded) {
+  for (const std::uint32_t i : crowded.triangles) note_hidden(i);
   std::vector<SurfaceRegion> surfaces;
   std::vector<const SurfaceRegion*> pointers;
   surfaces.reserve(crowded.triangles.size());
@@ -278,19 +333,20 @@ void PlaneAreas::divide_crowd(const CrowdedPart& crowded) {
       const Boundary boundary = part.visible(piece);
       if (boundary.empty()) continue;
       const SurfaceRegion& surface = part.surface(piece);
-      add_terms(crowded.triangles[static_cast<std::size_t>(&surface - surfaces.data())], boundary,
-                {surface, crowded.part});
+      const std::uint32_t i =
+          crowded.triangles[static_cast<std::size_t>(&surface - surfaces.data())];
+      if (of_[i]) add_terms(i, boundary, {surface, crowded.part}, wanted_);
     }
   });
 }
 
 void PlaneAreas::add_clip(const VisibleClip& clip) {
-  if (visibility_[clip.triangle] != Visibility::partly) return;
+  if (visibility_[clip.triangle] != Visibility::partly || !of_[clip.triangle]) return;
   const SurfaceRegion surface = mesh_.scene().surface(mesh_.number(clip.triangle));
   ImageCell cell = cell_of(clip.part);
   TierCounts counts;
   if (const auto piece = cell.clip(surface.region, counts)) {
-    add_terms(clip.triangle, boundary_of(piece->polygon), {surface, clip.part});
+    add_terms(clip.triangle, boundary_of(piece->polygon), {surface, clip.part}, wanted_);
   }
 }
 

@@ -73,7 +73,8 @@ void add_surface_terms(SurfaceTerms& terms, const Boundary& boundary, const Surf
 enum class Visibility : std::uint8_t { hidden, whole, partly };
 
 /// The visible parts of the triangles of a mesh within the image, exactly. Combinatorics by parts
-/// find the visibility of each triangle; triangles that are partly visible have terms of areas.
+/// find the visibility of each triangle; triangles that are partly visible have terms of areas. A
+/// triangle that is visible wherever it is in all parts is visible as a whole, without arithmetic.
 class PlaneAreas {
  public:
   /// The number of calls of `part_done`.
@@ -87,25 +88,40 @@ class PlaneAreas {
   [[nodiscard]] Visibility visibility(std::uint32_t i) const { return visibility_[i]; }
   /// The terms of the visible part of triangle i; empty if it is wholly visible or hidden.
   [[nodiscard]] const SurfaceTerms& terms(std::uint32_t i) const;
+  /// The same, which are forgotten.
+  [[nodiscard]] SurfaceTerms take_terms(std::uint32_t i);
   /// The sums of the visible part of triangle i, if it is partly visible.
   [[nodiscard]] const SurfaceSums& sums(std::uint32_t i) const { return sums_[place_[i]]; }
   [[nodiscard]] const ResolvedParts& resolved() const { return resolved_; }
+  /// Replaces the terms of the partly visible triangles i with wanted[i] by other terms. Looks only
+  /// at the parts in which these triangles are.
+  void find_terms(const WantedTerms& terms, std::vector<bool> wanted);
 
  private:
+  void add_parts(const std::function<void()>& part_done);
+  void find_whole();
   void add_crowded(const CrowdedPart& crowded);
   /// Returns false, and does nothing, if there are too many lines.
   bool sweep(const CrowdedPart& crowded);
   /// Along edges, as long as that separates triangles.
   void divide_crowd(const CrowdedPart& crowded);
   void add_clip(const VisibleClip& clip);
-  void add_sums(const CrowdedPart& crowded, LineSweep& swept);
-  void add_terms(std::uint32_t i, const Boundary& boundary, const SurfaceOnPart& on);
+  void add_sums(const CrowdedPart& crowded, const PartLines& lines,
+                const std::vector<LineSweep::Span>& spans);
+  void add_terms(std::uint32_t i, const Boundary& boundary, const SurfaceOnPart& on,
+                 const WantedTerms& wanted);
+  void note_hidden(std::uint32_t i);
+  [[nodiscard]] bool is_wanted(const std::vector<std::uint32_t>& triangles) const;
   void add(std::uint32_t i, SurfaceTerms&& terms, const SurfaceSums& sums);
 
   const PlaneMesh& mesh_;
   WantedTerms wanted_;
   ResolvedParts resolved_;
   std::vector<Visibility> visibility_;
+  /// The triangles to measure.
+  std::vector<bool> of_;
+  /// Whether something of a triangle may be hidden in some crowded part.
+  std::vector<std::uint8_t> is_hidden_;
   std::vector<SurfaceTerms> terms_;
   std::vector<SurfaceSums> sums_;
   /// Where the terms and sums of a triangle are.
