@@ -188,19 +188,18 @@ void LineSweep::find_meetings(const LinePolygon& common, const std::vector<Sign>
   }
 }
 
-/// The walk along one line.
+/// The walk along one line, and then along others in the same memory.
 class LineSweep::Walk {
  public:
-  Walk(LineSweep& sweep, std::uint32_t along)
-      : sweep_(sweep),
-        lines_(sweep.lines_),
-        along_(along),
-        order_(sweep.lines_, along, sweep.sides_) {}
+  explicit Walk(LineSweep& sweep) : sweep_(sweep), lines_(sweep.lines_) {}
 
-  void add_spans(std::vector<Span>& spans) {
+  void add_spans(std::uint32_t along, std::vector<Span>& spans) {
+    along_ = along;
+    order_.find(lines_, along, sweep_.sides_);
+    extents_.clear();
     const auto part = extent_of(0, sweep_.sides_, 0, order_.end());
     if (!part) return;
-    std::vector<std::uint32_t> ends{part->from, part->to};
+    ends_.assign({part->from, part->to});
     for (std::uint32_t k = 0; k < sweep_.pieces_.size(); ++k) {
       const Piece& piece = sweep_.pieces_[k];
       if (piece.polygon.empty()) continue;
@@ -209,17 +208,17 @@ class LineSweep::Walk {
       extent->left &= part->left;
       extent->right &= part->right;
       extents_.push_back(*extent);
-      ends.push_back(extent->from);
-      ends.push_back(extent->to);
+      ends_.push_back(extent->from);
+      ends_.push_back(extent->to);
     }
     for (const std::uint32_t change : sweep_.changes_) {
       if (lines_.turn(along_, change) == Sign::zero) continue;
       const std::uint32_t rank = order_.rank(change);
-      if (part->from < rank && rank < part->to) ends.push_back(rank);
+      if (part->from < rank && rank < part->to) ends_.push_back(rank);
     }
-    std::sort(ends.begin(), ends.end());
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-    add_between(ends, spans);
+    std::sort(ends_.begin(), ends_.end());
+    ends_.erase(std::unique(ends_.begin(), ends_.end()), ends_.end());
+    add_between(ends_, spans);
   }
 
  private:
@@ -316,9 +315,10 @@ class LineSweep::Walk {
 
   LineSweep& sweep_;
   const PartLines& lines_;
-  std::uint32_t along_;
+  std::uint32_t along_ = 0;
   LineOrder order_;
   std::vector<Extent> extents_;
+  std::vector<std::uint32_t> ends_;
 };
 
 /// Whether the part is not strictly on one side of a line.
@@ -336,8 +336,9 @@ bool LineSweep::meets_part(std::uint32_t line) const {
 
 std::vector<LineSweep::Span> LineSweep::spans() {
   std::vector<Span> spans;
+  Walk walk(*this);
   for (std::uint32_t along = 0; along < lines_.size(); ++along) {
-    if (meets_part(along)) Walk(*this, along).add_spans(spans);
+    if (meets_part(along)) walk.add_spans(along, spans);
   }
   return spans;
 }

@@ -6,8 +6,14 @@
 namespace fathom::area {
 namespace {
 
-/// Whether parallel lines are one.
+/// Whether parallel lines are one: l_k·m_w = l_w·m_k for k = u, v.
 bool are_same_line(const HalfPlane& a, const HalfPlane& b) {
+  for (const std::size_t k : {0, 1}) {
+    const auto product = [k](const HalfPlane& l, const HalfPlane& m) {
+      return approximate_coefficient(l, k) * approximate_coefficient(m, 2);
+    };
+    if (certain_sign(product(a, b) - product(b, a)) != Sign::zero) return false;
+  }
   const ExactVector3 &l = a.exact(), &m = b.exact();
   return l[0] * m[2] == l[2] * m[0] && l[1] * m[2] == l[2] * m[1];
 }
@@ -147,24 +153,25 @@ LineOrder::Ends LineOrder::ends_in(const PartLines& lines, std::uint32_t along,
   return ends;
 }
 
-LineOrder::LineOrder(const PartLines& lines, std::uint32_t along, const LinePolygon& within)
-    : ranks_(lines.size(), 0) {
-  std::vector<Place> places;
-  places.reserve(lines.size());
+void LineOrder::find(const PartLines& lines, std::uint32_t along, const LinePolygon& within) {
+  ranks_.assign(lines.size(), 0);
+  first_of_rank_.clear();
+  places_.clear();
   const HalfPlane& e = lines[along];
   const Foot foot(e);
   for (std::uint32_t line = 0; line < lines.size(); ++line) {
     if (lines.turn(along, line) == Sign::zero) continue;
     const HalfPlane& m = lines[line];
-    places.push_back(place_of(foot.value(m), approximate_turn(e, m), line));
+    places_.push_back(place_of(foot.value(m), approximate_turn(e, m), line));
   }
-  const Ends ends = ends_in(lines, along, within, places);
-  std::vector<std::uint32_t> before, after;
-  for (const Place& each : places) {
-    if (each.high < ends.least_low) before.push_back(each.line);
-    if (each.low > ends.greatest_high) after.push_back(each.line);
+  const Ends ends = ends_in(lines, along, within, places_);
+  before_.clear();
+  after_.clear();
+  for (const Place& each : places_) {
+    if (each.high < ends.least_low) before_.push_back(each.line);
+    if (each.low > ends.greatest_high) after_.push_back(each.line);
   }
-  std::erase_if(places, [&](const Place& each) {
+  std::erase_if(places_, [&](const Place& each) {
     return each.high < ends.least_low || each.low > ends.greatest_high;
   });
   // As compare_crossings().
@@ -175,15 +182,15 @@ LineOrder::LineOrder(const PartLines& lines, std::uint32_t along, const LinePoly
     return -lines.determinant(along, a.line, b.line) * lines.turn(along, a.line) *
            lines.turn(along, b.line);
   };
-  std::sort(places.begin(), places.end(),
+  std::sort(places_.begin(), places_.end(),
             [&](const Place& a, const Place& b) { return compare(a, b) == Sign::negative; });
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const bool is_new = k == 0 || compare(places[k - 1], places[k]) != Sign::zero;
-    if (is_new) first_of_rank_.push_back(places[k].line);
-    ranks_[places[k].line] = end() - 1;
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const bool is_new = k == 0 || compare(places_[k - 1], places_[k]) != Sign::zero;
+    if (is_new) first_of_rank_.push_back(places_[k].line);
+    ranks_[places_[k].line] = end() - 1;
   }
-  for (const std::uint32_t line : before) ranks_[line] = 0;
-  for (const std::uint32_t line : after) ranks_[line] = end() - 1;
+  for (const std::uint32_t line : before_) ranks_[line] = 0;
+  for (const std::uint32_t line : after_) ranks_[line] = end() - 1;
 }
 
 }  // namespace fathom::area

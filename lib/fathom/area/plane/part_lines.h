@@ -101,7 +101,12 @@ class LineOrder {
  public:
   /// If a polygon `within` is given, places that lie certainly outside it have the rank of the
   /// nearer end of the line's part in it. That saves most comparisons of coinciding places.
-  LineOrder(const PartLines& lines, std::uint32_t along, const LinePolygon& within = {});
+  LineOrder(const PartLines& lines, std::uint32_t along, const LinePolygon& within = {}) {
+    find(lines, along, within);
+  }
+  LineOrder() = default;
+  /// Becomes LineOrder(lines, along, within), in the same memory.
+  void find(const PartLines& lines, std::uint32_t along, const LinePolygon& within);
 
   /// The rank, from 0, of the place where a line that is not parallel crosses; equal places have
   /// the same rank.
@@ -129,6 +134,9 @@ class LineOrder {
                                     const LinePolygon& within, const std::vector<Place>& places);
 
   std::vector<std::uint32_t> ranks_, first_of_rank_;
+  // Kept for the next line.
+  std::vector<Place> places_;
+  std::vector<std::uint32_t> before_, after_;
 };
 
 }  // namespace fathom::area

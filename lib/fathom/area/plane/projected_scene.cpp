@@ -142,6 +142,12 @@ ExactVector3 ProjectedScene::homogeneous(std::uint32_t vertex) const {
   return {v.U, v.V, is_perspective_ ? v.depth : Dyadic(1.0)};
 }
 
+ExactVector3 ProjectedScene::line_through(std::uint32_t from, std::uint32_t to) const {
+  if (is_perspective_) return cross(homogeneous(from), homogeneous(to));
+  const ExactVertex &p = vertices_[from], &q = vertices_[to];
+  return {p.V - q.V, q.U - p.U, p.U * q.V - p.V * q.U};
+}
+
 Sign ProjectedScene::orientation(std::uint32_t number) const {
   if (kinds_[number] != TriangleKind::absent) return orientations_[number];
   const CornerIndices& its = corners_[number];

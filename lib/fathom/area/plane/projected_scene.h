@@ -54,9 +54,7 @@ class ProjectedScene {
   [[nodiscard]] SurfaceRegion surface(std::uint32_t number) const;
   /// The line through two vertices with W > 0, with the inside on the left of the way from the
   /// first to the second.
-  [[nodiscard]] ExactVector3 line_through(std::uint32_t from, std::uint32_t to) const {
-    return cross(homogeneous(from), homogeneous(to));
-  }
+  [[nodiscard]] ExactVector3 line_through(std::uint32_t from, std::uint32_t to) const;
   /// The surface of a triangle of kind by_forms, which is kept.
   [[nodiscard]] const SurfaceRegion& kept_surface(std::uint32_t number) const {
     return by_forms_.at(number);
