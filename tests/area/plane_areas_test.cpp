@@ -244,5 +244,28 @@ TEST(PlaneAreas, MostOfASphereIsSettledByItsSheets) {
   EXPECT_LT(areas.resolved().triangles_in_parts, 30 * mesh.size());
 }
 
+/// A grid of squares with gaps, of which cuts in the middle of parts meet many.
+TEST(ResolvedParts, CutsThroughGapsMeetFewTriangles) {
+  std::vector<MeshPoint> vertices;
+  std::vector<CornerIndices> triangles;
+  for (int k = 0; k < 13 * 13; ++k) {
+    const double u = 0.5 + k % 13, v = 0.5 + k / 13;
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    vertices.insert(vertices.end(),
+                    {{u, v, 1}, {u + 0.75, v, 1}, {u + 0.75, v + 0.75, 1}, {u, v + 0.75, 1}});
+    triangles.push_back({first, first + 1, first + 2});
+    triangles.push_back({first, first + 2, first + 3});
+  }
+  const Scene scene = testing::scene_of(vertices, triangles);
+  const MeshOnImage image(scene, testing::plain_camera(14, 14));
+  const auto pieces = [&](PartCuts cuts) {
+    std::size_t count = 0;
+    const ResolvedParts parts = resolve(image.mesh, image.projected.image(), cuts);
+    for (const CrowdedPart& part : parts.crowded) count += part.triangles.size();
+    return count;
+  };
+  EXPECT_LT(5 * pieces(PartCuts::through_few), 4 * pieces(PartCuts::in_middle));
+}
+
 }  // namespace
 }  // namespace fathom

@@ -46,7 +46,9 @@ std::vector<VisibleEdge> edges_on_sides(const PlaneMesh& mesh, const EdgeRule& r
 class PartEdges {
  public:
   PartEdges(const PlaneMesh& mesh, const EdgeRule& rule)
-      : mesh_(mesh), rule_(rule), resolved_(resolve(mesh, mesh.scene().image())) {}
+      : mesh_(mesh),
+        rule_(rule),
+        resolved_(resolve(mesh, mesh.scene().image(), PartCuts::in_middle)) {}
 
   /// Finds the edges that are not visible as a whole by whole_edges().
   [[nodiscard]] std::vector<VisibleEdge> partial_edges();

@@ -178,7 +178,7 @@ PlaneAreas::PlaneAreas(const PlaneMesh& mesh, const WantedTerms& wanted,
                        const std::function<void()>& part_done)
     : mesh_(mesh),
       wanted_(wanted),
-      resolved_(resolve(mesh, mesh.scene().image())),
+      resolved_(resolve(mesh, mesh.scene().image(), PartCuts::through_few)),
       visibility_(mesh.size(), Visibility::hidden),
       of_(mesh.size(), true),
       is_hidden_(mesh.size(), 0),

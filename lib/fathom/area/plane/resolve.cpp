@@ -18,6 +18,10 @@ constexpr std::size_t few = 32;
 constexpr int most_cuts = 48;
 /// A cut is in vain if the halves have many more triangles together than the part.
 constexpr int cuts_in_vain = 4;
+/// Cuts of parts with more triangles are in the middle: to compare cuts takes longer than it saves.
+constexpr std::size_t most_to_compare = 256;
+/// Cuts to compare lie at these 32nds of a side.
+constexpr int least_place = 12, greatest_place = 20;
 /// Parts of so few triangles are one task of a thread.
 constexpr std::size_t triangles_of_task = 4096;
 
@@ -36,9 +40,21 @@ std::optional<double> exact_middle(double from, double to) {
   return middle;
 }
 
+using TwoParts = std::optional<std::pair<PlanePart, PlanePart>>;
+
+/// The parts on the two sides of a cut, across or upright, if it lies inside.
+TwoParts parts_at(const PlanePart& part, bool across, double at) {
+  PlanePart first = part, second = part;
+  (across ? first.right : first.bottom) = at;
+  (across ? second.left : second.top) = at;
+  const bool is_inside =
+      across ? part.left < at && at < part.right : part.top < at && at < part.bottom;
+  return is_inside ? TwoParts(std::pair(first, second)) : std::nullopt;
+}
+
 class Resolver {
  public:
-  explicit Resolver(const PlaneMesh& mesh) : mesh_(mesh), finder_(mesh) {
+  Resolver(const PlaneMesh& mesh, PartCuts cuts) : mesh_(mesh), cuts_(cuts), finder_(mesh) {
     result_.flags.resize(mesh.size());
   }
 
@@ -100,9 +116,37 @@ class Resolver {
     result_.clips.push_back({i, part});
   }
 
+  /// Of the cuts near the middle, the cheapest for sweeps, whose time grows with the square of the
+  /// number of triangles in a part.
+  [[nodiscard]] TwoParts best_cut(const Work& work) const {
+    std::vector<PlaneBox> boxes;
+    boxes.reserve(work.triangles.size());
+    for (const std::uint32_t i : work.triangles) boxes.push_back(mesh_.box(i));
+    const auto triangles_in = [&](const PlanePart& part) {
+      return std::ranges::count_if(boxes, [&](const PlaneBox& box) { return !box.misses(part); });
+    };
+    TwoParts best = halves(work.part);
+    std::ptrdiff_t least = std::numeric_limits<std::ptrdiff_t>::max();
+    const auto& [left, top, right, bottom] = work.part;
+    for (const bool across : {right - left >= bottom - top, right - left < bottom - top}) {
+      for (int place = least_place; place <= greatest_place; ++place) {
+        const double from = across ? left : top, to = across ? right : bottom;
+        const TwoParts parts = parts_at(work.part, across, from + (to - from) * (place / 32.0));
+        if (!parts) continue;
+        const auto first = triangles_in(parts->first), second = triangles_in(parts->second);
+        if (first * first + second * second >= least) continue;
+        least = first * first + second * second;
+        best = parts;
+      }
+    }
+    return best;
+  }
+
   bool cut(const Work& work, std::vector<Work>& rest) {
     if (work.cuts == 0) return false;
-    const auto parts = halves(work.part);
+    const bool compares =
+        cuts_ == PartCuts::through_few && work.triangles.size() <= most_to_compare;
+    const TwoParts parts = compares ? best_cut(work) : halves(work.part);
     if (!parts) return false;
     Work first{parts->first, {}, work.cuts - 1, work.in_vain};
     Work second{parts->second, {}, work.cuts - 1, work.in_vain};
@@ -121,6 +165,7 @@ class Resolver {
   }
 
   const PlaneMesh& mesh_;
+  PartCuts cuts_;
   SheetFinder finder_;
   ResolvedParts result_;
 };
@@ -136,23 +181,19 @@ void add(ResolvedParts& all, const ResolvedParts& some) {
 }  // namespace
 
 std::optional<std::pair<PlanePart, PlanePart>> halves(const PlanePart& part) {
-  PlanePart first = part, second = part;
   const bool across = part.right - part.left >= part.bottom - part.top;
   const auto middle =
       across ? exact_middle(part.left, part.right) : exact_middle(part.top, part.bottom);
-  if (!middle) return std::nullopt;
-  (across ? first.right : first.bottom) = *middle;
-  (across ? second.left : second.top) = *middle;
-  return std::pair(first, second);
+  return middle ? parts_at(part, across, *middle) : std::nullopt;
 }
 
-ResolvedParts resolve(const PlaneMesh& mesh, const PlanePart& whole) {
+ResolvedParts resolve(const PlaneMesh& mesh, const PlanePart& whole, PartCuts cuts) {
   Work all{whole, {}};
   for (std::uint32_t i = 0; i < mesh.size(); ++i) {
     if (!misses(mesh, i, whole)) all.triangles.push_back(i);
   }
   // Large parts first, one after another; then small parts at the same time.
-  Resolver of_large(mesh);
+  Resolver of_large(mesh, cuts);
   std::vector<Work> large, small;
   large.push_back(std::move(all));
   while (!large.empty()) {
@@ -164,7 +205,7 @@ ResolvedParts resolve(const PlaneMesh& mesh, const PlanePart& whole) {
       of_large.resolve(std::move(work), large);
     }
   }
-  PerThread<Resolver> of_small([&] { return Resolver(mesh); });
+  PerThread<Resolver> of_small([&] { return Resolver(mesh, cuts); });
   in_parallel(small.size(), [&](std::size_t k) {
     Resolver& resolver = of_small.local();
     std::vector<Work> rest;

@@ -45,9 +45,12 @@ inline bool is_wholly_visible(const PlaneMesh& mesh, const ResolvedParts& parts,
          mesh.box(i).is_inside(mesh.scene().image());
 }
 
+/// Where parts are cut: in the middle, or near it, where the cut meets the fewest triangles.
+enum class PartCuts : std::uint8_t { in_middle, through_few };
+
 /// Divides the part of the mesh within `whole`. Each part ends as empty, as simple, where every
 /// triangle left is visible, or as crowded.
 /// Cost     n log n in practice: a part in which a sheet hides the rest is not cut any further.
-ResolvedParts resolve(const PlaneMesh& mesh, const PlanePart& whole);
+ResolvedParts resolve(const PlaneMesh& mesh, const PlanePart& whole, PartCuts cuts);
 
 }  // namespace fathom::area
