@@ -56,14 +56,14 @@ struct Method {
 
 ShownMap by_fixed_point(const LensView& view, int steps) {
   return map_by_inverse(view, [steps](const auto& stage, const PlanePoint& y) {
-    return std::optional(invert_by_fixed_point(stage, y, steps));
+    return std::optional(lens::invert_by_fixed_point(stage, y, steps));
   });
 }
 
 constexpr Method methods[] = {
-    {"opencv-5", [](const LensView& view) { return by_fixed_point(view, steps_of_opencv); }},
+    {"opencv-5", [](const LensView& view) { return by_fixed_point(view, lens::steps_of_opencv); }},
     {"opencv-20", [](const LensView& view) { return by_fixed_point(view, 20); }},
-    {"colmap", [](const LensView& view) { return map_by_inverse(view, invert_by_newton); }},
+    {"colmap", [](const LensView& view) { return map_by_inverse(view, lens::invert_as_colmap); }},
     {"nearest", [](const LensView& view) { return map_by_lookup(view, Lookup::nearest); }},
     {"bilinear", [](const LensView& view) { return map_by_lookup(view, Lookup::bilinear); }}};
 

@@ -5,14 +5,16 @@
 #include <optional>
 #include <vector>
 
-#include "apps/study/lens/inverses.h"
 #include "apps/study/lens/lens_scene.h"
 #include "fathom/camera/direction_table.h"
 #include "fathom/image/depth_map.h"
+#include "fathom/lens/iterated_inverses.h"
 
 /// Maps of a scene through a lens: the exact one, and those of methods that approximate the lens.
 /// All are drawn by the exact engine, so that they differ by the method alone.
 namespace fathom::studies {
+
+using lens::PlanePoint;
 
 /// What a map shows at each pixel, row by row.
 struct ShownMap {

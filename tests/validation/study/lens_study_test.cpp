@@ -13,14 +13,17 @@
 #include <string>
 #include <vector>
 
-#include "apps/study/lens/inverses.h"
 #include "apps/study/lens/lens_maps.h"
 #include "apps/study/lens/lens_scene.h"
 #include "fathom/failures/errors.h"
+#include "fathom/lens/iterated_inverses.h"
 #include "tests/places.h"
 
 namespace fathom::studies {
 namespace {
+
+using lens::invert_as_colmap;
+using lens::invert_by_fixed_point;
 
 /// The corridor with a camera of fewer pixels.
 SceneView small_corridor() {
@@ -67,7 +70,7 @@ TEST(LensStudy, TheStepsAreOpenCVs) {
     ASSERT_EQ(n.size(), 18U);
     const auto stage = stage_of(LensModel::opencv_14, std::span(n).first(12));
     const PlanePoint y{n[12], n[13]};
-    EXPECT_EQ(invert_by_fixed_point(stage, y, steps_of_opencv), (PlanePoint{n[14], n[15]}));
+    EXPECT_EQ(invert_by_fixed_point(stage, y, lens::steps_of_opencv), (PlanePoint{n[14], n[15]}));
     EXPECT_EQ(invert_by_fixed_point(stage, y, 20), (PlanePoint{n[16], n[17]}));
   }
 }
@@ -80,7 +83,7 @@ TEST(LensStudy, NewtonsStepsAreCOLMAPs) {
   for (const auto& n : lines) {
     ASSERT_EQ(n.size(), 9U);
     const auto found =
-        invert_by_newton(stage_of(LensModel::opencv, std::span(n).first(4)), {n[4], n[5]});
+        invert_as_colmap(stage_of(LensModel::opencv, std::span(n).first(4)), {n[4], n[5]});
     ASSERT_EQ(found.has_value(), n[6] == 1);
     without_ray += found ? 0 : 1;
     if (!found) continue;
@@ -96,7 +99,7 @@ TEST(LensStudy, NewtonFindsTheExactRays) {
   for (const char* name : {"barrel", "pincushion", "decentred", "rational"}) {
     const LensView view(scene, lens_called(name, scene.pinhole, 0.8));
     for (std::size_t i = 0; i < view.exact().rays.size(); ++i) {
-      const auto found = invert_by_newton(view.stage(), view.distorted_point(i));
+      const auto found = invert_as_colmap(view.stage(), view.distorted_point(i));
       ASSERT_TRUE(found) << name;
       EXPECT_NEAR((*found)[0], view.exact().rays[i][0], 1e-9) << name;
       EXPECT_NEAR((*found)[1], view.exact().rays[i][1], 1e-9) << name;
@@ -107,8 +110,8 @@ TEST(LensStudy, NewtonFindsTheExactRays) {
 /// Beyond the fold r + k·r³ = 1, where no ray is: the steps go to and fro about r = 1.5.
 TEST(LensStudy, NewtonFindsNothingBeyondTheFold) {
   const auto stage = stage_of(LensModel::simple_radial, std::array{-4.0 / 27});
-  EXPECT_TRUE(invert_by_newton(stage, {0.999, 0}));
-  EXPECT_FALSE(invert_by_newton(stage, {1.001, 0}));
+  EXPECT_TRUE(invert_as_colmap(stage, {0.999, 0}));
+  EXPECT_FALSE(invert_as_colmap(stage, {1.001, 0}));
   // OpenCV's steps end somewhere.
   EXPECT_GT(invert_by_fixed_point(stage, {1.001, 0}, 20)[0], 1.3);
 }
