@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
@@ -14,6 +16,7 @@
 #include "fathom/attribution/faults/depth_relation.h"
 #include "fathom/attribution/faults/deviation_fit.h"
 #include "fathom/attribution/faults/hypotheses.h"
+#include "fathom/attribution/faults/interpolated_lookup.h"
 #include "fathom/attribution/faults/local_faults.h"
 #include "fathom/attribution/faults/storage.h"
 #include "fathom/attribution/model/window_depth.h"
@@ -121,32 +124,54 @@ std::vector<std::uint8_t> explained_by(const Attribution& found) {
   return explained;
 }
 
-/// A hypothesis that explains nine tenths; `explained` has 1 for each explained pixel.
-struct Trial {
-  std::uint64_t left = 0;
-  std::vector<std::uint8_t> explained;
-};
-
-Trial tried(const Truth& truth, const Hypothesis& h, std::uint64_t before) {
-  const Attribution found = attribute(h.truth ? *h.truth : truth, h.map, h.model);
-  Trial trial{found.count(PixelClass::unexplained), {}};
-  if (trial.left * 10 > before) return trial;
-  trial.explained = explained_by(found);
-  return trial;
+/// Whether so many pixels are too many for a hypothesis to leave unexplained.
+bool leaves_too_many(std::uint64_t left, std::uint64_t before) {
+  return left * 10 > before;
 }
 
-/// The first trial that leaves no pixel unexplained, otherwise the trial that leaves the fewest.
+/// The bands with the most unexplained pixels, as few as hold a fifth of them: a hypothesis that
+/// leaves more than half of these is refuted without a look at the rest of the image.
+std::vector<std::uint32_t> telling_bands(const Attribution& found, std::uint32_t width) {
+  const std::size_t size = std::size_t{width} * rows_per_band;
+  std::vector<std::uint64_t> open((found.classes.size() + size - 1) / size);
+  for (std::size_t i = 0; i < found.classes.size(); ++i)
+    open[i / size] += found.classes[i] == PixelClass::unexplained ? 1 : 0;
+  std::vector<std::uint32_t> bands(open.size());
+  std::iota(bands.begin(), bands.end(), 0U);
+  std::stable_sort(bands.begin(), bands.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return open[a] > open[b]; });
+  std::uint64_t held = 0;
+  std::size_t count = 0;
+  while (count < bands.size() && held * 5 < found.count(PixelClass::unexplained))
+    held += open[bands[count++]];
+  bands.resize(count);
+  return bands;
+}
+
+/// The first trial that leaves no pixel unexplained, otherwise the trial that leaves the fewest; of
+/// hypotheses that explain nine tenths.
 class BestTrial {
  public:
-  BestTrial(const Truth& truth, std::uint64_t unexplained)
-      : truth_(truth), unexplained_(unexplained), fewest_(unexplained + 1) {}
+  /// `searched`: what the hypotheses are to explain.
+  BestTrial(const Truth& truth, const Attribution& searched)
+      : truth_(truth),
+        unexplained_(searched.count(PixelClass::unexplained)),
+        fewest_(unexplained_ + 1),
+        bands_(telling_bands(searched, truth.camera.width)) {}
 
   void add(const Hypothesis& h) {
     if (is_perfect()) return;
-    Trial trial = tried(truth_, h, unexplained_);
-    if (trial.explained.empty() || trial.left >= fewest_) return;
-    fewest_ = trial.left;
-    explained_ = std::move(trial.explained);
+    const Truth& truth = h.truth ? *h.truth : truth_;
+    const auto left_in = [](const Attribution& found) {
+      return found.count(PixelClass::unexplained);
+    };
+    if (leaves_too_many(left_in(attribute_bands(truth, h.map, h.model, bands_)), unexplained_))
+      return;
+    const Attribution found = attribute(truth, h.map, h.model);
+    const std::uint64_t left = left_in(found);
+    if (leaves_too_many(left, unexplained_) || left >= fewest_) return;
+    fewest_ = left;
+    explained_ = explained_by(found);
     best_ = h;
   }
   [[nodiscard]] bool is_perfect() const { return fewest_ == 0; }
@@ -161,6 +186,7 @@ class BestTrial {
  private:
   const Truth& truth_;
   std::uint64_t unexplained_, fewest_;
+  std::vector<std::uint32_t> bands_;
   std::vector<std::uint8_t> explained_;
   std::optional<Hypothesis> best_;
 };
@@ -181,6 +207,7 @@ class Search {
   bool by_stored_planes();
   bool by_triangles();
   bool by_hypotheses();
+  bool by_lookup();
   bool by_relations(bool gross);
   bool by_deviation();
   bool by_pixels();
@@ -261,7 +288,7 @@ bool Search::by_stored_planes() {
   Camera camera = truth_.camera;
   camera.near = planes->near;
   camera.far = planes->far;
-  BestTrial best(truth_, unexplained());
+  BestTrial best(truth_, searched_);
   best.add(
       {.kind = "clip-planes",
        .text = fmt::format("near and far of the map are {:.9g} and {:.9g}, those of the camera "
@@ -287,7 +314,7 @@ bool Search::by_triangles() {
 }
 
 bool Search::by_hypotheses() {
-  BestTrial best(truth_, unexplained());
+  BestTrial best(truth_, searched_);
   for (const MakeHypothesis& make : hypotheses(truth_, other_, model_, searched_)) {
     if (best.is_perfect()) break;
     if (const std::optional<Hypothesis> h = make()) best.add(*h);
@@ -295,6 +322,14 @@ bool Search::by_hypotheses() {
   if (!best.has_one()) return false;
   name(best);
   return true;
+}
+
+/// Of a map of a pinhole, between its pixels.
+bool Search::by_lookup() {
+  if (!truth_.lens) return false;
+  const auto some = interpolated_lookup(truth_, other_, model_, searched_);
+  if (some) name(some->finding, some->explained);
+  return some.has_value();
 }
 
 /// Computed on first use.
@@ -305,7 +340,7 @@ const std::vector<DepthRelation>& Search::relations() {
 
 /// A gross relation has at most one constant: then the camera is not in doubt.
 bool Search::by_relations(bool gross) {
-  BestTrial best(truth_, unexplained());
+  BestTrial best(truth_, searched_);
   for (const DepthRelation& relation : relations()) {
     if (best.has_one()) break;
     if (gross && !(relation.is_gross && relation.parameters <= 1)) continue;
@@ -345,7 +380,7 @@ void Search::add_drawn_planes(BestTrial& best) const {
 /// If a fitted deviation leaves pixels open, the planes of the renderer compete with it.
 bool Search::by_deviation() {
   if (truth_.lens) return false;  // the derivatives are those of a pinhole
-  BestTrial best(truth_, unexplained());
+  BestTrial best(truth_, searched_);
   const std::optional<FittedDeviation> fit = fitted_deviation(truth_, other_, model_, searched_);
   if (fit) best.add(deviation_hypothesis(truth_, other_, model_, *fit));
   add_drawn_planes(best);
@@ -388,8 +423,8 @@ void Search::run() {
   }
   name_storage();
   if (unexplained() == 0) return;
-  by_stored_planes() || by_triangles() || by_hypotheses() || by_relations(true) || by_deviation() ||
-      by_relations(false) || by_pixels();
+  by_stored_planes() || by_triangles() || by_hypotheses() || by_lookup() || by_relations(true) ||
+      by_deviation() || by_relations(false) || by_pixels();
 }
 
 }  // namespace

@@ -31,10 +31,16 @@ std::vector<MakeHypothesis> hypotheses(const Truth& truth, const OtherMap& other
                                        const RendererModel& model, const Attribution& found);
 
 /// The hypotheses for a camera with a lens: the lens is left out, only the vertices are bent by it,
-/// the map of a camera without it is looked up, the samples lie half a pixel off. The arguments
-/// outlive them.
+/// the map of a camera without it is looked up, the samples lie half a pixel off; then those of
+/// lens_convention_hypotheses(). The arguments outlive them.
 /// Needs    a truth with a lens.
 std::vector<MakeHypothesis> lens_hypotheses(const Truth& truth, const OtherMap& other,
                                             const RendererModel& model);
+
+/// A part of these: the numbers of the lens are read by another convention or applied in the wrong
+/// direction, or its inverse stops early. The arguments outlive them.
+/// Needs    a truth with a lens.
+std::vector<MakeHypothesis> lens_convention_hypotheses(const Truth& truth, const OtherMap& other,
+                                                       const RendererModel& model);
 
 }  // namespace fathom::attribution

@@ -34,13 +34,12 @@ std::optional<Hypothesis> ignored(const Truth& truth, const OtherMap& other,
 }
 
 std::optional<Hypothesis> remapped(const Truth& truth, const OtherMap& other,
-                                   const RendererModel& model) {
+                                   const RendererModel& model, LensSamples::Places places) {
   Hypothesis h{"remapped",
                "the map of a pinhole camera was looked up at the nearest pixel: the lens " +
                    name_of_lens(truth) + " was applied to an image",
                model, other};
-  h.model.sample.lens = std::make_shared<LensSamples>(whole_camera(truth), 0.5, 0.5,
-                                                      LensSamples::Places::at_pixel_centres);
+  h.model.sample.lens = std::make_shared<LensSamples>(whole_camera(truth), 0.5, 0.5, places);
   return h;
 }
 
@@ -171,8 +170,12 @@ std::optional<Hypothesis> straight_edges(const Truth& truth, const OtherMap& oth
 std::vector<MakeHypothesis> lens_hypotheses(const Truth& truth, const OtherMap& other,
                                             const RendererModel& model) {
   std::vector<MakeHypothesis> list;
-  for (const auto make : {ignored, straight_edges, remapped})
+  for (const auto make : {ignored, straight_edges})
     list.emplace_back([&truth, &other, &model, make] { return make(truth, other, model); });
+  for (const auto places :
+       {LensSamples::Places::at_pixel_centres, LensSamples::Places::at_centres_of_endless})
+    list.emplace_back(
+        [&truth, &other, &model, places] { return remapped(truth, other, model, places); });
   for (const double y : {-0.5, 0.0, 0.5}) {
     for (const double x : {-0.5, 0.0, 0.5}) {
       if (x == 0 && y == 0) continue;
@@ -181,6 +184,8 @@ std::vector<MakeHypothesis> lens_hypotheses(const Truth& truth, const OtherMap& 
       });
     }
   }
+  for (MakeHypothesis& make : lens_convention_hypotheses(truth, other, model))
+    list.push_back(std::move(make));
   return list;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "fathom/failures/errors.h"
 #include "fathom/lens/preimages.h"
@@ -39,6 +40,12 @@ Camera without_lens(Camera camera) {
   return camera;
 }
 
+LensSamples::LensSamples(const Camera& camera, std::vector<std::array<double, 2>> points)
+    : camera_(camera), points_(std::move(points)), squares_(camera), boxes_(squares_.count()) {
+  require_planar_depths(camera);
+  find_boxes();
+}
+
 LensSamples::LensSamples(const Camera& camera, double x, double y, Places places)
     : camera_(camera),
       points_(std::size_t{camera.width} * camera.height),
@@ -63,18 +70,27 @@ LensSamples::LensSamples(const Camera& camera, double x, double y, Places places
     for (double& u : point) u = std::floor(u) + 0.5;
     const bool is_in_image =
         point[0] > 0 && point[1] > 0 && point[0] < camera.width && point[1] < camera.height;
-    return is_in_image ? point : std::array<double, 2>{none, none};
+    return is_in_image || places == Places::at_centres_of_endless
+               ? point
+               : std::array<double, 2>{none, none};
   };
-  parallel_for(std::size_t{0}, squares_.count(), [&](std::size_t square) {
+  parallel_for(std::uint32_t{0}, camera.height, [&](std::uint32_t row) {
+    for (std::uint32_t column = 0; column < camera.width; ++column)
+      points_[std::size_t{row} * camera.width + column] = point_of(column, row);
+  });
+  find_boxes();
+}
+
+void LensSamples::find_boxes() {
+  for (std::size_t square = 0; square < squares_.count(); ++square) {
     const PixelBox pixels = squares_.pixels(square);
     for (std::uint32_t row = pixels.first_row; row <= pixels.last_row; ++row) {
       for (std::uint32_t column = pixels.first_column; column <= pixels.last_column; ++column) {
-        const auto point = point_of(column, row);
-        points_[std::size_t{row} * camera.width + column] = point;
-        if (!std::isnan(point[0])) boxes_[square].add(point[0], point[1], 0, 0);
+        const auto& [u, v] = at(column, row);
+        if (!std::isnan(u)) boxes_[square].add(u, v, 0, 0);
       }
     }
-  });
+  }
 }
 
 PixelBox LensSamples::pixels_of(const ImageBox& box) const {
