@@ -179,8 +179,8 @@ TEST(PlaneAreas, SumsContainTheExactSums) {
 TEST(PlaneAreas, TermsOfSomeTrianglesAreThoseOfAll) {
   constexpr WantedTerms on_surface{.image = false, .share = true, .moments = true};
   int partly = 0;
-  testing::for_each_adversary(40, [&](std::uint64_t seed) {
-    const Case c = testing::adversarial_case(testing::all_families[0], seed);
+  checks::for_each_adversary(40, [&](std::uint64_t seed) {
+    const Case c = checks::adversarial_case(checks::all_families[0], seed);
     const MeshOnImage image(c.scene, c.camera);
     const PlaneAreas all(image.mesh, on_surface);
     PlaneAreas some(image.mesh, {.image = false, .sums = true});
@@ -208,8 +208,8 @@ TEST(PlaneAreas, OfTrianglesThatNothingHidesTakeNoArithmetic) {
                                         {2.5, 2.5, 3},   {3.5, 2.5, 1},   {2.5, 3.5, 2},
                                         {0.25, 0.25, 2}, {2.25, 0.25, 2}, {0.25, 2.25, 2},
                                         {0.6, 0.6, 3},   {0.8, 0.6, 3},   {0.6, 0.8, 3}};
-  const Scene scene = testing::scene_of(vertices, {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}});
-  const MeshOnImage image(scene, testing::plain_camera(4, 4));
+  const Scene scene = checks::scene_of(vertices, {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}});
+  const MeshOnImage image(scene, checks::plain_camera(4, 4));
   for (const WantedTerms& wanted : {WantedTerms{}, WantedTerms{.image = false, .sums = true}}) {
     const PlaneAreas areas(image.mesh, wanted);
     ASSERT_EQ(areas.resolved().crowded.size(), 1);
@@ -256,8 +256,8 @@ TEST(ResolvedParts, CutsThroughGapsMeetFewTriangles) {
     triangles.push_back({first, first + 1, first + 2});
     triangles.push_back({first, first + 2, first + 3});
   }
-  const Scene scene = testing::scene_of(vertices, triangles);
-  const MeshOnImage image(scene, testing::plain_camera(14, 14));
+  const Scene scene = checks::scene_of(vertices, triangles);
+  const MeshOnImage image(scene, checks::plain_camera(14, 14));
   const auto pieces = [&](PartCuts cuts) {
     std::size_t count = 0;
     const ResolvedParts parts = resolve(image.mesh, image.projected.image(), cuts);

@@ -16,7 +16,7 @@
 #include "fathom/render.h"
 #include "validation/scenes/shapes.h"
 
-namespace fathom::attribution {
+namespace fathom::attribution::interpolated_lookup {
 namespace {
 
 using testing::HasSubstr;
@@ -153,4 +153,4 @@ TEST(InterpolatedLookup, AFilteredMapIsNotTakenForOne) {
 }
 
 }  // namespace
-}  // namespace fathom::attribution
+}  // namespace fathom::attribution::interpolated_lookup

@@ -17,7 +17,7 @@
 #include "fathom/render.h"
 #include "validation/scenes/shapes.h"
 
-namespace fathom::attribution {
+namespace fathom::attribution::lens_conventions {
 namespace {
 
 using testing::HasSubstr;
@@ -236,4 +236,4 @@ TEST(LensInverses, OneThatHasConvergedIsRight) {
 }
 
 }  // namespace
-}  // namespace fathom::attribution
+}  // namespace fathom::attribution::lens_conventions
