@@ -124,7 +124,7 @@ def test_a_png_holds_the_depths_unless_another_channel_is_named(map, tmp_path):
     both.write(file, scale=200)
     assert fathom.read_map(file).scale == 200
     with pytest.raises(fathom.UsageError, match="name the one to write"):
-        both.write(tmp_path / "x.pfm")
+        fathom.Map({"A": both["A"], "id": map["id"]}).write(file)
 
 
 def test_names_of_contents_are_those_of_the_program(spot, camera):
@@ -164,8 +164,8 @@ def test_single_channels(map, tmp_path, suffix):
     assert list(again.values())[0].tobytes() == map["Z"].tobytes()
     if suffix == "npy":
         assert np.array_equal(np.load(file), map["Z"])
-    with pytest.raises(fathom.UsageError, match="channel"):
-        map.write(file)
+    with pytest.raises(fathom.UsageError, match="name the one to write"):
+        fathom.Map({"A": map["A"], "id": map["id"]}).write(file)
 
 
 def test_maps_of_colmaps(spot, camera, tmp_path):
@@ -258,7 +258,7 @@ def test_compare(map):
     assert found.only_truth == (map.mask() & (holes == 0)).sum() > 0
     with pytest.raises(fathom.InputError, match="size"):
         fathom.compare(map, map["Z"][:, 1:])
-    with pytest.raises(ValueError, match="other: expected an H×W array or a Map, found shape"):
+    with pytest.raises(ValueError, match="other: expected an H×W array, a Map or the name of its file, found shape"):
         fathom.compare(map, np.zeros(3))
 
 
@@ -302,6 +302,47 @@ def test_points_are_on_the_surface(map, camera, tmp_path):
     assert f"element vertex {len(exact)}".encode() in header and b"property double x" in header
 
 
+def test_arrays_that_are_no_channels_of_a_map_are_refused(camera):
+    depths = np.ones((60, 80), np.float32)
+    with pytest.raises(TypeError, match="channels: expected a dict such as {'Z': array}, found ndarray"):
+        fathom.Map(depths, camera)
+    with pytest.raises(ValueError, match="channels: Z has 80×50 pixels, but the camera has 80×60"):
+        fathom.Map({"Z": depths[:50]}, camera)
+    with pytest.raises(ValueError, match=r"map: channel Z: expected shape H×W, found \(60, 80, 3\)"):
+        fathom.Map({"Z": np.zeros((60, 80, 3), np.uint8)})
+    assert fathom.Map({"Z": depths, "N": np.zeros((60, 80, 3), np.float32)}, camera).camera == camera
+
+
+def test_formats_with_one_channel_hold_depths_by_default(spot, camera, tmp_path, run_program):
+    seen = spot.render(camera, channels="N,Z,id")
+    seen.write(tmp_path / "m.exr")
+    for suffix in ("npy", "pfm", "png"):
+        seen.write(tmp_path / f"python.{suffix}")
+        run_program("convert", tmp_path / "m.exr", "-o", tmp_path / f"program.{suffix}")
+        ours, theirs = (fathom.read_map(tmp_path / f"{by}.{suffix}") for by in ("python", "program"))
+        assert np.array_equal(ours["Z"], theirs["Z"]) and ours["Z"].shape == (60, 80)
+
+
+def test_errors_of_codes_name_the_file(spot, camera, tmp_path):
+    with pytest.raises(fathom.OutputError, match=r"m.png: pixel \(.*does not fit the codes 1 to 65535"):
+        spot.render(camera).write(tmp_path / "m.png", scale=1e6)
+
+
+def test_clouds_are_ply_files(map, tmp_path):
+    for name in ("p.pcd", "p.xyz", "p"):
+        with pytest.raises(ValueError, match="file: a point cloud is a PLY: expected a name that ends in .ply, found "):
+            map.write_points(tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_maps_may_be_names_of_files(map, spot, camera, tmp_path):
+    map.write(tmp_path / "m.exr")
+    assert fathom.compare(tmp_path / "m.exr", str(tmp_path / "m.exr")).within_tolerance
+    assert fathom.validate(tmp_path / "m.exr", spot, camera, "float32-ray", channel="Z").is_good
+    with pytest.raises(fathom.InputError, match="none.exr: cannot be opened"):
+        fathom.compare(map, "none.exr")
+
+
 def test_points_of_orthographic_cameras_and_codes(spot):
     camera = fathom.Camera.frame(spot, size=(40, 30), projection="orthographic")
     codes = spot.render(camera, dtype=np.uint16, scale=10000)
@@ -315,7 +356,7 @@ def test_points_of_orthographic_cameras_and_codes(spot):
     ({"Z": np.zeros((0, 3), np.float32)}, ValueError, "expected shape H×W"),
     ({"Z": np.zeros((2, 2), np.float32), "A": np.zeros((2, 3), np.float32)}, ValueError, "channels Z and A differ"),
     ({"Z": np.zeros((2, 2), np.int8)}, TypeError, "channel Z: expected float32, float64, uint16 or uint32, found int8"),
-    ({"Z": np.zeros((2, 2), np.float64)}, OSError, "EXR"),
+    ({"Z": np.zeros((2, 2), np.float64)}, ValueError, r"channel Z: an EXR does not hold float64 numbers; stored_as\('float32'"),
 ])
 def test_maps_that_cannot_be_written(channels, error, words, tmp_path):
     with pytest.raises(error, match=words):

@@ -231,6 +231,7 @@ def test_bad(name, assert_depth):
     ({"model": 5}, TypeError, "model: expected a name"),
     ({"map": np.ones((3, 7), np.float32)}, ValueError, "map: has 7x3 pixels, the camera 80x60; expected the camera"),
     ({"map": np.zeros((60, 80), np.uint8)}, TypeError, "expected float32"),
+    ({"map": np.ones((60, 80), np.uint16)}, ValueError, r"map: codes of uint16 need a scale: fathom.Map\({'Z': codes}, scale=1000\)"),
     ({"channel": "Y"}, ValueError, "Y"),
     ({"channel": None}, TypeError, "channel: expected a name, found None"),
     ({"scene": None}, TypeError, "scene: expected a Scene"),

@@ -134,7 +134,7 @@ def several_cameras(name: str, cameras: object) -> list[Camera]:
     """The elements of a sequence of cameras."""
     if isinstance(cameras, Mapping):
         raise TypeError(f"{name}: expected a Camera or a sequence of them, found a dict: "
-                        "take its values()")
+                        "take list(cameras.values())")
     if isinstance(cameras, (str, os.PathLike)) or not isinstance(cameras, Iterable):
         raise no_camera(name, "a Camera or a sequence of them", cameras)
     return list(cameras)

@@ -68,8 +68,8 @@ class MapComparison:
 
 
 def compare(
-    truth: Map | npt.ArrayLike,
-    other: Map | npt.ArrayLike,
+    truth: Map | npt.ArrayLike | Path,
+    other: Map | npt.ArrayLike | Path,
     *,
     channel: str = "",
     other_channel: str = "",
@@ -82,7 +82,7 @@ def compare(
 ) -> MapComparison:
     """Compares two maps of the same view, channel by channel: pixels that show a surface in only
     one map, and the absolute, relative and ulp differences of the other pixels. An array is taken
-    as Z.
+    as Z; a map may be the name of its file.
 
     tolerance_ulp, tolerance_absolute, tolerance_relative  two numbers agree if one of the three
              tolerances allows it

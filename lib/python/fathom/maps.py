@@ -87,7 +87,11 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         scale: float | None = None,
         background: float | None = None,
     ) -> None:
+        if channels is not None and not isinstance(channels, Mapping):
+            raise TypeError(f"channels: expected a dict such as {{'Z': array}}, found {type(channels).__name__}")
         super().__init__(channels or {})
+        if _description is None and _views is None:
+            self._require_shapes(camera)
         self.camera = camera
         self._views = _views
         self._description = _core.Map() if _description is None else _description
@@ -98,6 +102,17 @@ class Map(dict[str, "npt.NDArray[Any]"]):
             if value == -np.inf:
                 raise ValueError("background: expected inf, nan or a number, found -inf")
             self._description.texts = {**self._description.texts, _core.background_text: repr(value)}
+
+    def _require_shapes(self, camera: Camera | None) -> None:
+        """Raises ValueError for a channel that is no image, or not of the camera's size."""
+        if camera is not None:
+            camera_handle(camera)
+        for name, plane in _planes(self):
+            _require_image(name, plane)
+            if camera is not None and plane.shape != camera.size[::-1]:
+                found = in_pixels(plane.shape[::-1])
+                raise ValueError(f"channels: {name} has {found} pixels, but the camera has {in_pixels(camera.size)}; "
+                                 "camera.scaled(size=…) is the same view in another size")
 
     def copy(self) -> Map:
         """A map with the same arrays, not copies of them."""
@@ -154,9 +169,9 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         """Writes the map; the suffix of the file selects the format. Creates missing folders.
 
         .exr, .npz        all channels, with camera and metadata
-        .npy, .pfm, .png  one channel, selected by `channel` if the map has several. .npy: also
-                          channels with several parts; .png: depths as codes of uint16 (Z, if the
-                          map has it), identifiers, and normals (N, Nc, Ns) as RGB
+        .npy, .pfm, .png  one channel: `channel`, or else Z or the only channel. .npy: also channels
+                          with several parts; .png: depths as codes of uint16, identifiers, and
+                          normals (N, Nc, Ns) as RGB
         .bin              a dense map of COLMAP: Z, or Nc if `channel` is Nc; 0 without a surface
         .tif              a GeoTIFF for other programs, a band per channel. The camera must be
                           orthographic and look straight along the world's z axis
@@ -179,20 +194,38 @@ class Map(dict[str, "npt.NDArray[Any]"]):
             raise ValueError(f"channel: the map has no channel '{asked}', only {', '.join(self)}")
         compressed = as_text("compression", compression)
         handle = self._handle()
-        if os.fsdecode(path_of("file", file)).lower().endswith(".png"):
+        name = os.fsdecode(path_of("file", file))
+        suffix = os.path.splitext(name)[1].lower()
+        if suffix in (".npy", ".pfm", ".png"):
             asked = asked or ("Z" if "Z" in self else "")
-            if scale is None and self._needs_codes(asked):
-                scale = _core.png_scale
+        if suffix == ".png" and scale is None and self._needs_codes(asked):
+            scale = _core.png_scale
+        if suffix == ".exr":
+            self._require_narrow()
         if scale is not None:
-            if not os.fsdecode(path_of("file", file)).lower().endswith(".png"):
+            if suffix != ".png":
                 raise ValueError("scale: only .png holds codes; stored_as('uint16', scale=…) makes them for other formats")
-            handle = self.stored_as("uint16", channel=asked, scale=scale)._handle()
+            handle = self._codes(name, asked, scale)._handle()
             asked = ""
         _core.require_map_name(path_of("file", file))
         make_folder_of(file)
         _core.write_map(handle, path_of("file", file), asked, compressed,
                         as_threads(threads), others, None if self.camera is None else camera_handle(self.camera),
                         as_count("normal_bits", normal_bits, 8, 16), one_of("normal_axes", normal_axes, normal_axes_names))
+
+    def _codes(self, file: str, channel: str, scale: float) -> Map:
+        """stored_as("uint16"), for a file that an error names."""
+        try:
+            return self.stored_as("uint16", channel=channel, scale=scale)
+        except OutputError as error:
+            raise OutputError(f"{file}: {error}") from None
+
+    def _require_narrow(self) -> None:
+        """Raises ValueError for numbers that an EXR does not hold."""
+        wide = next((name for name, array in self.items() if np.asarray(array).dtype == np.float64), None)
+        if wide is not None:
+            raise ValueError(f"map: channel {wide}: an EXR does not hold float64 numbers; stored_as('float32', "
+                             f"channel='{wide}') rounds them, and .npz keeps them")
 
     def _needs_codes(self, channel: str) -> bool:
         """Whether the channel, "" for the only one, holds depths that are no codes."""
@@ -306,8 +339,7 @@ class Map(dict[str, "npt.NDArray[Any]"]):
             raise ValueError("map: it has no channels")
         shape = planes[0][1].shape
         for name, plane in planes:
-            if plane.ndim != 2 or plane.size == 0:
-                raise ValueError(f"map: channel {name}: expected shape H×W, found {plane.shape}")
+            _require_image(name, plane)
             if plane.shape != shape:
                 raise ValueError(f"map: channels {planes[0][0]} and {name} differ in shape: {shape}, {plane.shape}")
         return self._description.with_channels(shape[0], shape[1], planes)
@@ -373,6 +405,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
         Of a stack, it writes one cloud of all views in the world, with the number of each point's view
         as `view`. A point that several views show is there several times."""
         path = path_of("file", file)
+        if not os.fsdecode(path).lower().endswith(".ply"):
+            raise ValueError(f"file: a point cloud is a PLY: expected a name that ends in .ply, found {path!r}")
         name = one_of("dtype", np.dtype(dtype).name, ("float32", "float64"))
         one_of("frame", frame, point_frames)
         if self._views is None:
@@ -605,18 +639,25 @@ def _planes(channels: dict[str, npt.NDArray[Any]]) -> list[tuple[str, npt.NDArra
     return planes
 
 
+def _require_image(name: str, plane: npt.NDArray[Any]) -> None:
+    if plane.ndim != 2 or plane.size == 0:
+        raise ValueError(f"map: channel {name}: expected shape H×W, found {plane.shape}")
+
+
 def read_map(file: Path) -> Map:
     """Reads a map: the same as Map.read()."""
     return Map.read(file)
 
 
 def as_map(name: str, value: object) -> Map:
-    """A Map from a Map, a dict of arrays, or a single array, which is taken as Z."""
+    """A Map from a Map, the name of its file, a dict of arrays, or a single array, which is taken as Z."""
     if isinstance(value, Map):
         return value
+    if isinstance(value, (str, os.PathLike)):
+        return read_map(path_of(name, value))
     if isinstance(value, dict):
         return Map(value)
     array = as_array(name, value)
     if array.ndim != 2:
-        raise ValueError(f"{name}: expected an H×W array or a Map, found shape {array.shape}")
+        raise ValueError(f"{name}: expected an H×W array, a Map or the name of its file, found shape {array.shape}")
     return Map({"Z": array})

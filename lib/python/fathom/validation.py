@@ -15,6 +15,7 @@ from .maps import Map, as_map
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from ._files import Path
     from .names import Model
     from .scene import Scene
 
@@ -97,7 +98,7 @@ class Validation:
 
 
 def validate(
-    map: Map | npt.ArrayLike,
+    map: Map | npt.ArrayLike | Path,
     scene: Scene,
     camera: Camera,
     model: Model = "auto",
@@ -106,7 +107,7 @@ def validate(
 ) -> Validation:
     """Explains how another renderer's map of a scene differs from the exact map.
 
-    map      a Map, or an H×W array of planar depths in scene units; its background value is detected. If its size is not
+    map      a Map, the name of its file, or an H×W array of planar depths in scene units; its background value is detected. If its size is not
              the camera's, the reason is found: rows and columns exchanged, up to eight of them missing or added, the
              whole view larger or smaller
     camera   the renderer's camera; with the renderer's near and far if it has a depth buffer. It may have a lens if all of its
@@ -129,9 +130,12 @@ def validate(
     'mirrored'
     """
     handles = scene_handle(scene), camera_handle(camera)
-    theirs = as_map("map", map)._handle()
     if not isinstance(model, str):
         raise TypeError(f"model: expected a name, found {model!r}")
     if not isinstance(channel, str):
         raise TypeError(f"channel: expected a name, found {channel!r}")
-    return Validation(_core.validate(theirs, channel, *handles, model))
+    theirs = as_map("map", map)
+    judged = theirs.get(channel or "Z")
+    if theirs.scale is None and judged is not None and np.asarray(judged).dtype == np.uint16:
+        raise ValueError("map: codes of uint16 need a scale: fathom.Map({'Z': codes}, scale=1000) has 1000 codes per unit")
+    return Validation(_core.validate(theirs._handle(), channel, *handles, model))
