@@ -92,6 +92,25 @@ def test_what_is_no_stored_value_is_neither_decoded_nor_a_value(storage, bits):
             read(np.array([0, bits], np.uint64))
 
 
+@pytest.mark.parametrize("storage", ["float16", "float32", "float64"])
+def test_numbers_of_a_float_storage_are_its_stored_values(storage):
+    format = fathom.DepthFormat("standard", storage, near=0.1, far=100)
+    bits = format.encode([0.1, 1, 7, 100])
+    numbers = np.array(format.values(bits), storage)
+    assert format.decode(numbers.reshape(2, 2)).tolist() == format.decode(bits.reshape(2, 2)).tolist()
+    with pytest.raises(fathom.InputError, match="stored: expected values from 0"):
+        format.decode(np.array([1.5], storage))
+
+
+def test_numbers_of_codes_become_codes_as_the_message_says():
+    format = fathom.DepthFormat("standard", "unorm24", near=0.1, far=100)
+    codes = format.encode([0.1, 1, 7, 100])
+    numbers = format.values(codes).astype(np.float32)
+    with pytest.raises(TypeError, match="found float32 for unorm24; np.rint(.*) makes codes of numbers"):
+        format.decode(numbers)
+    assert np.rint(numbers * np.float64(format.greatest)).astype(int).tolist() == codes.tolist()
+
+
 def test_the_documentation_has_the_names():
     for name in MAPPINGS + STORAGES:
         assert f'"{name}"' in fathom.DepthFormat.__doc__

@@ -55,14 +55,15 @@ class DepthFormat:
         return self._handle.encode(as_numbers("depths", depths), bool(clamp))
 
     def decode(self, stored: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """The depths of stored values, exact, rounded once; inf for an infinite depth.
+        """The depths of stored values, exact, rounded once; inf for an infinite depth. Numbers of the type of a float
+        storage, as glReadPixels() returns them, are taken as their bits.
 
         Raises InputError for values above `greatest`: the bits of floats beyond 1, of negative floats, of NaN."""
-        return self._handle.decode(_stored(stored))
+        return self._handle.decode(self._stored(stored))
 
     def values(self, stored: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """The numbers in [0, 1] of stored values, rounded once. Raises InputError like decode()."""
-        return self._handle.values(_stored(stored))
+        return self._handle.values(self._stored(stored))
 
     def resolution(self, depths: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """For the stored value of each depth, the distances from its depth to the depths of the next nearer and the next
@@ -82,14 +83,23 @@ class DepthFormat:
         """The number of different stored values of the depths between these two."""
         return self._handle.codes_between(as_number("nearest", nearest), as_number("farthest", farthest))
 
+    def _stored(self, value: Any) -> npt.NDArray[np.uint64]:
+        array = as_array("stored", value)
+        if array.dtype.kind == "f":
+            if array.dtype.name != self.storage:
+                raise TypeError(f"stored: expected integers or, for a float storage, numbers of its type, found {array.dtype} "
+                                f"for {self.storage}" + self._remedy())
+            array = np.ascontiguousarray(array, self.storage).view(f"uint{8 * array.dtype.itemsize}")
+        if array.dtype.kind not in "iu":
+            raise TypeError(f"stored: expected integers, found {array.dtype}")
+        if (array < 0).any():
+            raise ValueError("stored: expected values from 0 on")
+        return np.asarray(array, dtype=np.uint64, order="C")
+
+    def _remedy(self) -> str:
+        """How numbers in [0, 1] become the codes that they were."""
+        is_code = self.storage.startswith("unorm")
+        return "; np.rint(stored * np.float64(format.greatest)).astype(int) makes codes of numbers" if is_code else ""
+
     def __repr__(self) -> str:
         return f"DepthFormat({self.mapping!r}, {self.storage!r}, near={self.near:g}, far={self.far:g})"
-
-
-def _stored(value: Any) -> npt.NDArray[np.uint64]:
-    array = as_array("stored", value)
-    if array.dtype.kind not in "iu":
-        raise TypeError(f"stored: expected integers, found {array.dtype}")
-    if (array < 0).any():
-        raise ValueError("stored: expected values from 0 on")
-    return np.asarray(array, dtype=np.uint64, order="C")
