@@ -490,6 +490,9 @@ def test_python_has_the_figures_and_the_command(tmp_path, monkeypatch):
                          [f"corrected/depth/view{i}.exr" for i in range(len(files))]).is_good
     with pytest.raises(ValueError, match="a depth image for each of 5 cameras, found 4"):
         fathom.doctor(data.mesh, "cameras.json", files[1:])
+    with pytest.raises(ValueError, match="5 cameras, found 1; patterns are for the program: list the names of the files"):
+        fathom.doctor(data.mesh, cameras, "depth/view{index}.png")
+    assert str(by_array) == by_array.report().rstrip() and "ray-distance: the depths are distances" in str(by_array)
     with pytest.raises(fathom.InputError, match="no pixel has a depth"):
         fathom.doctor(data.mesh, cameras[0], np.zeros(size[::-1]))
 

@@ -12,7 +12,7 @@ from ._arguments import as_count, as_number, as_threads, camera_handle, scene_ha
 from ._files import path_of
 from ._render import several_cameras
 from .camera import Camera, read_cameras
-from .maps import Map, as_map, read_map
+from .maps import Map, as_map
 from .scene import Scene
 
 if TYPE_CHECKING:
@@ -104,13 +104,16 @@ class Diagnosis:
         Raises ValueError if the faults are not certain."""
         if self.verdict not in ("well", "faulty"):
             raise ValueError(f"correct: the faults are not certain: the verdict is {self.verdict!r}")
-        given = camera_handle(camera), _map_of("depths", depths)._handle()
+        given = camera_handle(camera), as_map("depths", depths)._handle()
         return (Camera._of(self._found.corrected_camera(*given)),
                 Map._of(self._found.corrected_map(*given, self._png_scale)))
 
     def report(self) -> str:
         """The whole result as text, as the command prints it."""
         return self._found.text(self._command)
+
+    def __str__(self) -> str:
+        return self.report().rstrip()
 
     def __repr__(self) -> str:
         return f"Diagnosis({self.report().splitlines()[0]})"
@@ -148,17 +151,22 @@ def doctor(scene: Scene | Path, cameras: Camera | Iterable[Camera] | Path, depth
     command = _command_of(scene, cameras, listed, png_scale)
     views = _cameras_of(cameras)
     if len(views) != len(listed) or not listed:
-        raise ValueError(f"depths: expected a depth image for each of {len(views)} cameras, found {len(listed)}")
+        hint = "; patterns are for the program: list the names of the files" if _is_pattern(depths) else ""
+        raise ValueError(f"depths: expected a depth image for each of {len(views)} cameras, found {len(listed)}{hint}")
     count = min(len(listed), as_count("images", images, 1, 2**32 - 1))
     chosen = [i * len(listed) // count for i in range(count)]
     found = _doctor.examine(scene_handle(_scene_of(scene)),
                             [camera_handle(views[i]) for i in chosen],
-                            [_map_of(f"depths[{i}]", listed[i])._handle() for i in chosen], scale, as_threads(threads))
+                            [as_map(f"depths[{i}]", listed[i])._handle() for i in chosen], scale, as_threads(threads))
     return Diagnosis(found, command, scale)
 
 
 def _is_file(value: object) -> bool:
     return isinstance(value, (str, os.PathLike))
+
+
+def _is_pattern(value: object) -> bool:
+    return _is_file(value) and "{" in os.fspath(value)  # type: ignore[call-overload]
 
 
 def _scene_of(scene: Scene | Path) -> Scene:
@@ -168,10 +176,6 @@ def _scene_of(scene: Scene | Path) -> Scene:
 def _is_one(depths: object) -> bool:
     """Whether it is a single depth image; a dict or an array of two dimensions is one."""
     return _is_file(depths) or isinstance(depths, dict) or getattr(depths, "ndim", 0) == 2
-
-
-def _map_of(name: str, depths: object) -> Map:
-    return read_map(path_of(name, depths)) if _is_file(depths) else as_map(name, depths)  # type: ignore[arg-type]
 
 
 def _cameras_of(cameras: object) -> list[Camera]:
