@@ -37,6 +37,7 @@ cases = [
     ({"faces": np.array([(0, 1, 3)], np.uint32)}, IndexError, "faces: row 0 has vertex 3"),
     ({"faces": np.array([(0, 1, 2**40)])}, IndexError, "faces: row 0 has vertex 1099511627776"),
     ({"faces": np.zeros((0, 3), int)}, ValueError, "faces: a mesh needs at least one triangle"),
+    ({"faces": []}, ValueError, "faces: a mesh needs at least one triangle"),
     ({"vertices": np.zeros((0, 3))}, IndexError, "there are 0 vertices"),
     ({"faces": [(0, 1), (0, 1, 2)]}, TypeError, "faces: expected an array of numbers"),
     ({"K": np.eye(2)}, ValueError, "K: expected shape 3×3, found 2×2"),

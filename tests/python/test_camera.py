@@ -112,6 +112,7 @@ def test_json_keeps_every_bit(tmp_path):
     fathom.write_cameras(tmp_path / "path.json", [camera, camera.with_size(9, 9)])
     path = fathom.read_cameras(tmp_path / "path.json")
     assert path == [camera, camera.with_size(9, 9)] and path[0] != path[1]
+    assert camera.with_size((9, 7)) == camera.with_size(9, 7)
     assert isinstance(json.loads((tmp_path / "path.json").read_text()), list)
     with pytest.raises(ValueError, match="expected one camera, found 2"):
         fathom.Camera.read(tmp_path / "path.json")
@@ -414,7 +415,7 @@ def test_errors_of_camera_files_name_them(tmp_path):
     with pytest.raises(fathom.InputError, match="cannot be opened: Is a directory"):
         fathom.Camera.read(tmp_path)
     (tmp_path / "binary").write_bytes(b"\xff\xfe\x00\x80")
-    with pytest.raises(fathom.InputError, match="binary: is not text, expected a camera file"):
+    with pytest.raises(fathom.InputError, match=r"binary: is not text, expected a camera file \(JSON\); fathom.read_map\('.*'\).camera is"):
         fathom.read_cameras(tmp_path / "binary")
     for place, words in ((tmp_path, "Is a directory"), ("/dev/full", "/dev/full: No space left on device")):
         with pytest.raises(fathom.OutputError, match=words):

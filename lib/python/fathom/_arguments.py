@@ -194,12 +194,12 @@ def vertices_of(value: object, name: str = "vertices") -> Numbers:
 def faces_of(value: object, vertex_count: int) -> npt.NDArray[np.uint32]:
     """M×3 32-bit integers in C order, without a copy if possible."""
     array = as_array("faces", value)
+    if array.size == 0:
+        raise ValueError("faces: a mesh needs at least one triangle")
     if array.dtype.kind not in "iu":
         raise TypeError(f"faces: expected integers, found {array.dtype}")
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"faces: expected shape M×3 (triangles), found {in_words(array.shape)}")
-    if len(array) == 0:
-        raise ValueError("faces: a mesh needs at least one triangle")
     if len(array) > most_rows:
         raise ValueError(f"faces: {len(array)} rows are more than {most_rows}")
     if array.dtype.itemsize == 4 and array.dtype.isnative:

@@ -618,9 +618,10 @@ class Camera:
             raise ValueError(f"factor: expected a positive number, found {number!r}")
         return Camera._of(_core.scaled(self._handle, number))
 
-    def with_size(self, width: int, height: int) -> Camera:
-        """The same camera with another image size and the same principal point in pixels."""
-        size = as_size((width, height))
+    def with_size(self, width: int | Size, height: int | None = None) -> Camera:
+        """The same camera with another image size, (width, height) or two numbers, and the same principal point in
+        pixels."""
+        size = as_size(width if height is None else (width, height))
         if self.model == "TABLE":
             raise ValueError("with_size: a table has directions for its own pixels only; make a table of the other size")
         return Camera._of(_core.with_size(self._handle, *size))
@@ -757,7 +758,8 @@ def read_cameras(file: Path) -> list[Camera]:
     except OSError as error:
         raise InputError(f"{name}: cannot be opened: {error.strerror}") from None
     except UnicodeDecodeError:
-        raise InputError(f"{name}: is not text, expected a camera file (JSON)") from None
+        raise InputError(f"{name}: is not text, expected a camera file (JSON); fathom.read_map({name!r}).camera is the camera "
+                         "of a map") from None
     return _cameras_of(text, name, is_file=True)
 
 
