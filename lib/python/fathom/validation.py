@@ -107,9 +107,9 @@ def validate(
 ) -> Validation:
     """Explains how another renderer's map of a scene differs from the exact map.
 
-    map      a Map, the name of its file, or an H×W array of planar depths in scene units; its background value is detected. If its size is not
-             the camera's, the reason is found: rows and columns exchanged, up to eight of them missing or added, the
-             whole view larger or smaller
+    map      a Map, the name of its file, or an H×W array of planar depths in scene units; its background value is detected.
+             If its size is not the camera's, the reason is found: rows and columns exchanged, up to eight of them missing
+             or added, the whole view larger or smaller
     camera   the renderer's camera; with the renderer's near and far if it has a depth buffer. It may have a lens if all of its
              rays go forwards
     model    the renderer's arithmetic, such as "gl-unorm24", "vtk-float32", "float32-ray" (`fathom validate --help` lists
