@@ -68,8 +68,8 @@ class Map(dict[str, "npt.NDArray[Any]"]):
     scale       codes per scene unit, for uint16 codes
     background  value of depth channels without a surface
 
-    Map({"Z": depths}, camera, background=0) makes a map from your own arrays; add scale=1000 for
-    uint16 codes. copy() and pickle keep everything. Channels are attributes, too: maps.Z is
+    Map({"Z": depths}, camera, background=0) makes a map from your own arrays, of the camera's size;
+    add scale=1000 for uint16 codes. copy() and pickle keep everything. Channels are attributes, too: maps.Z is
     maps["Z"]. The names of contents are found as well: maps["depth"] and maps.depth are maps["Z"],
     and maps["mask"] is mask().
 
