@@ -1,6 +1,7 @@
 """fathom doctor: data sets from exact depths, into which NumPy puts one fault or two; each fault is named, and the printed
 command makes cameras and depth images with which all is well. Right data sets, with noise and holes too, have no fault."""
 
+import copy
 import json
 import os
 import shlex
@@ -176,6 +177,15 @@ def half_pixel_of_columns(data):
         camera["cx"] += 0.5
 
 
+def every_second_pixel(data):
+    """As cv2.INTER_NEAREST halves an image: pixel (x, y) is pixel (2x, 2y)."""
+    halved = copy.deepcopy(data.cameras)
+    halved_size(data)
+    data.render()
+    data.depth = [d[::2, ::2].copy() for d in data.depth]
+    data.cameras = halved
+
+
 def mirrored(data):
     data.depth = [d[:, ::-1].copy() for d in data.depth]
 
@@ -220,7 +230,8 @@ def no_value(data):
 single = {
     camera_axes: "camera-axes", world_axes: "world-axes", camera_to_world: "camera-to-world",
     millimetre_positions: "units", units: "units", depth_scale: "depth-scale", ray_distance: "ray-distance",
-    half_pixel: "half-pixel", half_pixel_of_columns: "half-pixel", mirrored: "mirrored", upside_down: "mirrored",
+    half_pixel: "half-pixel", half_pixel_of_columns: "half-pixel",
+    every_second_pixel: "half-pixel", mirrored: "mirrored", upside_down: "mirrored",
     turned: "mirrored", halved_size: "image-size", middle: "image-size", truncated: "truncated-codes", clipped: "clipped",
 }
 
