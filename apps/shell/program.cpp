@@ -129,6 +129,18 @@ std::string missing_dash(const CLI::App& program, const std::vector<std::string>
   return "";
 }
 
+std::string missing_value(const CLI::App& program, const std::vector<std::string>& arguments) {
+  const CLI::App& command = command_named(program, arguments);
+  const std::vector<std::string> names = option_names(command);
+  for (std::size_t i = 0; i + 1 < arguments.size() && arguments[i] != "--"; ++i) {
+    if (std::ranges::count(names, arguments[i]) == 0) continue;
+    const bool takes_value = command.get_option(arguments[i])->get_items_expected_min() > 0;
+    if (takes_value && std::ranges::count(names, arguments[i + 1]) > 0)
+      return fmt::format("{} needs a value, found the option {}", arguments[i], arguments[i + 1]);
+  }
+  return "";
+}
+
 const CLI::App& command_named(const CLI::App& program, const std::vector<std::string>& arguments) {
   const CLI::App* command = &program;
   for (const std::string& argument : arguments) {
@@ -317,8 +329,9 @@ int run_arguments(const std::vector<std::string>& given, const std::vector<AddCo
     print(*help);
     return done;
   }
-  if (const std::string message = missing_dash(app, asked); !message.empty())
-    throw UsageError(message);
+  for (const auto find_mistake : {missing_dash, missing_value})
+    if (const std::string message = find_mistake(app, asked); !message.empty())
+      throw UsageError(message);
   std::vector<std::string> last_first(asked.rbegin(), asked.rend());
   try {
     app.parse(std::move(last_first));

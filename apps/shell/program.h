@@ -28,6 +28,10 @@ std::string unexpected_argument(const CLI::App& program);
 /// message if an argument is such an option, else an empty text.
 std::string missing_dash(const CLI::App& program, const std::vector<std::string>& arguments);
 
+/// An option that needs a value would take the next option as its value: "--size -o". Returns the
+/// message if the arguments contain such a pair, else an empty text.
+std::string missing_value(const CLI::App& program, const std::vector<std::string>& arguments);
+
 /// The innermost command that the arguments name. Options may stand between the names, but not
 /// options with values.
 const CLI::App& command_named(const CLI::App& program, const std::vector<std::string>& arguments);

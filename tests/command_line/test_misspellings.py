@@ -140,3 +140,16 @@ def test_of_values():
                 given = [wrong] if not option.startswith("-") else [option, wrong]
                 cases.append(([*path, *given, *needed_by(path, option)], word))
     expect_questions(cases, 300)
+
+
+def test_of_values_that_are_left_out():
+    for arguments, option, next_option in (
+            (("render", "a.obj", "--size", "-o", "a.exr"), "--size", "-o"),
+            (("render", "a.obj", "--png-scale", "--size", "9x9", "-o", "a.exr"), "--png-scale", "--size"),
+            (("compare", "a.exr", "b.exr", "--channel", "--json", "-"), "--channel", "--json")):
+        outcome = run(*arguments)
+        assert outcome.returncode == 2
+        assert outcome.stderr == f"fathom: error: {option} needs a value, found the option {next_option}\n"
+    # Negative numbers are values, and a name in one argument is one, too.
+    assert "needs a value" not in run("render", "none.obj", "--view", "-30,20", "-o", "a.exr").stderr
+    assert "needs a value" not in run("render", "none.obj", "--up", "-z", "-o", "a.exr").stderr
