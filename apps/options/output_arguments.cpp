@@ -233,7 +233,8 @@ std::vector<std::string> names_of_outputs(const char* option, const std::string&
     const std::string& name = cameras[i].name;
     if ((has_name || has_stem) && name.empty()) {
       throw InputError(fmt::format(
-          "camera {} has no name for '{}': camera files say it as \"name\"", i, pattern));
+          "camera {} has no name for '{}': use {{index:04}}, or add \"name\" to the camera file", i,
+          pattern));
     }
     // A stem alone does not depend on the folder of the image.
     const std::string where = fmt::format("camera {}", i);

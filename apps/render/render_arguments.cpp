@@ -293,7 +293,7 @@ void add_render(Command& program, const Render& by_exact_engine, const Render& b
       "  fathom render room.json --deep -o room.deep.exr\n"
       "  fathom render spot.obj --camera path.json -o 'view-{index:04}.exr'\n"
       "  fathom render spot.obj --camera path.json --scale 0.5 \\\n"
-      "    -o 'depth=z/{stem}.png' -o 'mask=m/{stem}.png' -o 'normal=n/{stem}.png'\n"
+      "    -o 'depth=z/{index:04}.png' -o 'mask=m/{index:04}.png'\n"
       "  fathom render spot.obj --near 0.1 --far 100 --depth-format unorm16 \\\n"
       "    --against-exact -o stored.exr\n"
       "  fathom render spot.obj --engine pipeline --shading phong --antialias msaa:4 \\\n"

@@ -68,10 +68,11 @@ TEST(OutputNames, PatternsThatDoNotFitAreRefused) {
               HasSubstr("a path of 2 cameras: -o needs a pattern such as maps/{index:04}.exr"));
   EXPECT_EQ(usage("m/{stem}.exr", {"a.jpg", "c.jpg", "b/a.png"}),
             "-o: cameras 0 and 2 would both be written as m/a.exr");
-  EXPECT_EQ(message_of<InputError>([&] {
-              outputs("{stem}.exr", {"a", ""});
-            }),
-            "camera 1 has no name for '{stem}.exr': camera files say it as \"name\"");
+  EXPECT_EQ(
+      message_of<InputError>([&] {
+        outputs("{stem}.exr", {"a", ""});
+      }),
+      "camera 1 has no name for '{stem}.exr': use {index:04}, or add \"name\" to the camera file");
 }
 
 TEST(OutputNames, UnknownFieldsAreRefusedWithThoseThereAre) {
