@@ -17,8 +17,8 @@ namespace fathom {
 namespace {
 
 constexpr std::string_view no_projection =
-    "points are projected and unprojected without a lens only; a table of directions has the rays "
-    "of its pixels";
+    "points are projected and unprojected without a lens only; 'fathom camera directions' (in "
+    "Python camera.directions()) computes the rays of the pixels";
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 

@@ -35,7 +35,8 @@ void read_aria_size(const AriaEntry& entry, const GivenLens& given, Camera& came
     camera.height = pixels_of(size[1]);
   } else {
     entry.camera.fail(
-        "has no image size: expected ConfigData or ImageSizes, or a size that is given (--size)");
+        "has no image size: expected ConfigData or ImageSizes, or a size that is given (--size, in "
+        "Python size=)");
   }
 }
 

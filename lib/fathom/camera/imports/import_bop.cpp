@@ -94,7 +94,7 @@ fs::path find_camera_json(const fs::path& folder) {
     if (fs::exists(place / "camera.json", ignored)) return place / "camera.json";
   throw InputError(start.string() +
                    ": the image size is unknown: there is no camera.json in this folder or the two "
-                   "above; give the size (--size)");
+                   "above; give the size (--size, in Python size=)");
 }
 
 }  // namespace

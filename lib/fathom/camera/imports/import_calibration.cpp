@@ -65,7 +65,8 @@ std::uint32_t size_of(const JsonValue& root, Keys keys, std::uint32_t given) {
   if (given != 0) return given;
   const auto size = find_first(root, keys);
   if (!size)
-    root.fail("has no image size: expected " + listed(keys) + ", or a size that is given (--size)");
+    root.fail("has no image size: expected " + listed(keys) +
+              ", or a size that is given (--size, in Python size=)");
   return pixels_of(*size);
 }
 
