@@ -2,8 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <utility>
+#include <variant>
 
 #include "apps/commands.h"
 #include "apps/options/camera_options.h"
@@ -60,7 +63,9 @@ std::optional<StereoRig> rig_of(const ConvertArguments& arguments) {
 /// fewer, maps find theirs by name.
 std::vector<Camera> cameras_in_file(const ConvertArguments& arguments, const Console& console) {
   if (arguments.camera.empty()) return {};
-  return cameras_of_maps(arguments.maps, read_camera_file(arguments.camera, console));
+  const std::string_view why =
+      ends_with_ply(arguments.output) ? points_need_no_lens : takes_no_lens;
+  return cameras_of_maps(arguments.maps, read_camera_file(arguments.camera, console, why));
 }
 
 /// The camera that a map carries.
@@ -79,9 +84,30 @@ Camera camera_for(const DepthMap& map, const ConvertArguments& arguments,
   return camera;
 }
 
-/// The only map, with the camera of the camera file if one is given.
-DepthMap read_only_map(const ConvertArguments& arguments, const Console& console) {
-  DepthMap map = read_map_argument(arguments.maps.front());
+bool holds_codes(const DepthMap& map) {
+  return std::ranges::any_of(map.channels, [](const ImageChannel& channel) {
+    return std::holds_alternative<Samples<std::uint16_t>>(channel.values);
+  });
+}
+
+/// The map of a file. Codes without a scale, as other programs write them, have the scale of
+/// --png-scale, which is then used up: `scale` becomes empty.
+DepthMap read_with_scale(const std::string& name, std::optional<double>& scale) {
+  DepthMap map = read_map_argument(name);
+  if (!map.png_scale && holds_codes(map)) std::swap(map.png_scale, scale);
+  return map;
+}
+
+/// Why a map does not take --png-scale.
+std::string why_no_scale(const DepthMap& map) {
+  return holds_codes(map) ? fmt::format(" carries its scale, {:g}", *map.png_scale)
+                          : std::string(" holds no codes, which the scale would be for");
+}
+
+/// The only map, with the camera of the camera file if one is given; uses --png-scale up if the map
+/// takes it.
+DepthMap read_only_map(ConvertArguments& arguments, const Console& console) {
+  DepthMap map = read_with_scale(arguments.maps.front(), arguments.storage.png_scale);
   const std::vector<Camera> in_file = cameras_in_file(arguments, console);
   if (!in_file.empty()) map.camera = camera_for(map, arguments, in_file, 0);
   return map;
@@ -92,9 +118,10 @@ int write_points(const ConvertArguments& arguments, const Console& console) {
   if (arguments.to || !arguments.channel.empty()) {
     throw UsageError("--to and --channel do not go with a point cloud");
   }
-  if (arguments.storage.compression || arguments.storage.has_png_options()) {
-    throw UsageError(
-        "--compression, --png-scale, --png-beyond and --png-sidecar do not go with a point cloud");
+  StorageOptions others = arguments.storage;
+  others.png_scale.reset();
+  if (others.compression || others.has_png_options()) {
+    throw UsageError("--compression, --png-beyond and --png-sidecar do not go with a point cloud");
   }
   if (arguments.storage.background || !arguments.storage.channel_names.empty()) {
     throw UsageError("--background and --channel-name do not go with a point cloud");
@@ -111,7 +138,9 @@ int write_points(const ConvertArguments& arguments, const Console& console) {
   Progress progress(console, "converting");
   const auto report = progress.reporter();
   for (std::size_t i = 0; i < maps; ++i) {
-    const DepthMap map = read_map_argument(arguments.maps[i]);
+    std::optional<double> scale = arguments.storage.png_scale;
+    const DepthMap map = read_with_scale(arguments.maps[i], scale);
+    if (scale) throw UsageError("--png-scale: " + arguments.maps[i] + why_no_scale(map));
     cloud.add(map, camera_for(map, arguments, in_file, i), arguments.maps[i]);
     if (report) report(static_cast<double>(i + 1) / static_cast<double>(maps));
   }
@@ -136,6 +165,7 @@ DepthMap converted(DepthMap map, const ConvertArguments& arguments) {
     return map;
   }
   const DepthQuantity from = arguments.from.value_or(DepthQuantity::planar_depth);
+  if (holds_codes(map)) map = with_storage(map, arguments.channel, StoredType::binary64);
   // PFM, PNG and NPY do not name their channel: the user names the quantity.
   if (map.channels.size() == 1 && map.texts.empty()) map.channels[0].name = name_of(from);
   return convert_quantity(map, from, *arguments.to, own_camera(map, arguments.maps.front()),
@@ -241,9 +271,17 @@ int run_convert(const ConvertArguments& given, const Console& console) {
   if (given.maps.size() > 1) {
     throw UsageError(given.output + ": several maps make a point cloud; expected .ply");
   }
-  const MapFormat format = given.storage.format_of(given.output);
-  DepthMap read = read_only_map(given, console);
+  if (!map_format_of(given.output) && !is_written_through(given.output)) {
+    throw UsageError(given.output + ": the suffix of a map is one of " + suffixes_of_maps() +
+                     ", the suffix of a point cloud is .ply");
+  }
   ConvertArguments arguments = given;
+  // --png-scale may be the scale of the map: the output is checked with it when the map is read.
+  arguments.storage.png_scale.reset();
+  const MapFormat format = arguments.storage.format_of(given.output);
+  arguments.storage.png_scale = given.storage.png_scale;
+  DepthMap read = read_only_map(arguments, console);
+  (void)arguments.storage.format_of(given.output);
   arguments.channel = own_channel_name(read, given.channel);
   if (arguments.channel == "mask" && read.find("mask") == nullptr) {
     return write_mask(read, arguments, format);

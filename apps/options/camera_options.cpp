@@ -56,10 +56,6 @@ Camera framing_camera(const Scene& scene, const View& view, const LensChoice& le
   }
 }
 
-constexpr std::string_view takes_no_lens =
-    "this command takes no lens; 'fathom render' and 'fathom probe' do, and so do info, preview "
-    "and view of maps";
-
 std::vector<Camera> cameras_of_map(std::span<const std::byte> bytes, const std::string& file) {
   const std::optional<Camera> camera = camera_of(read_map_argument(bytes, file), file);
   if (!camera) throw InputError(file + ": the map carries no camera, expected a camera file");
@@ -323,12 +319,13 @@ void require_size_of(const DepthMap& map, const Camera& camera, const std::strin
                                camera.width, camera.height, map.width, map.height));
 }
 
-std::vector<Camera> read_camera_file(const std::string& file, const Console& console) {
-  const auto refuse = [](const std::string&, auto, auto) -> std::shared_ptr<const DirectionTable> {
-    throw UsageError("the lens TABLE: " + std::string(takes_no_lens));
+std::vector<Camera> read_camera_file(const std::string& file, const Console& console,
+                                     std::string_view why) {
+  const auto refuse = [&](const std::string&, auto, auto) -> std::shared_ptr<const DirectionTable> {
+    throw UsageError("the lens TABLE: " + std::string(why));
   };
   std::vector<Camera> cameras = read_any_cameras(file, refuse, console);
-  for (const Camera& camera : cameras) require_straight(camera, takes_no_lens);
+  for (const Camera& camera : cameras) require_straight(camera, why);
   return cameras;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/options/scene_options.h"
@@ -79,10 +80,15 @@ class CameraOptions {
   std::vector<Option> options_;
 };
 
+inline constexpr std::string_view takes_no_lens =
+    "this command takes no lens; 'fathom render' and 'fathom probe' do, and so do info, preview "
+    "and view of maps";
+
 /// The cameras of a camera file, or the camera that a map carries, each without fault; warnings go
-/// to the console. Fails with InputError, and with UsageError for a lens that bends rays; opens no
-/// table of directions.
-std::vector<Camera> read_camera_file(const std::string& file, const Console& console);
+/// to the console. Fails with InputError, and with UsageError, which says `why`, for a lens that
+/// bends rays; opens no table of directions.
+std::vector<Camera> read_camera_file(const std::string& file, const Console& console,
+                                     std::string_view why = takes_no_lens);
 /// The same for a command that takes lenses, or calls functions that refuse them.
 std::vector<Camera> read_cameras_with_lenses(const std::string& file, const ReadLimits& limits,
                                              const Console& console);

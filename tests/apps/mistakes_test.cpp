@@ -124,12 +124,17 @@ TEST_F(Mistakes, CommandsWithoutLensesNameTheOnesThatTakeThem) {
   expect_done({"render", "square.obj", "--camera", "lens.json", "-o", "map.exr"});
   for (const auto& arguments : std::vector<std::vector<std::string>>{
            {"evaluate", "square.obj", "--truth", "square.obj", "--camera", "lens.json"},
-           {"convert", "map.exr", "--camera", "lens.json", "-o", "cloud.ply"}}) {
+           {"convert", "map.exr", "--camera", "lens.json", "-o", "map.npz"}}) {
     EXPECT_THAT(refusal(arguments, 2),
                 AllOf(StartsWith("the lens SIMPLE_RADIAL: this command takes no lens; 'fathom "
                                  "render' and 'fathom probe' do"),
                       EndsWith("--ignore-distortion' leaves the lens out; see docs/lenses.md)\n")));
   }
+  EXPECT_THAT(
+      refusal({"convert", "map.exr", "--camera", "lens.json", "-o", "cloud.ply"}, 2),
+      StartsWith("the lens SIMPLE_RADIAL: a map is not unprojected with it: render with channels Z "
+                 "and P ('fathom render --channels Z,P'), and make the points of that map (for "
+                 "undistorted images, "));
   EXPECT_THAT(refusal({"visible", "square.obj", "--camera", "lens.json"}, 2),
               EndsWith("--ignore-distortion' leaves the lens out; see docs/lenses.md)\n"));
   folder_.write("k1.json", R"({"width": 8, "height": 6, "fx": 9, "fy": 9, "cx": 4, "cy": 3,

@@ -343,6 +343,62 @@ def test_maps_may_be_names_of_files(map, spot, camera, tmp_path):
         fathom.compare(map, "none.exr")
 
 
+@pytest.fixture
+def raw_codes(spot, camera, tmp_path, monkeypatch):
+    """raw.png, codes of millimetres as other programs write them, without a scale, and m.exr, their map in metres."""
+    monkeypatch.chdir(tmp_path)
+    codes = spot.render(camera, dtype=np.uint16, scale=1000)
+    codes.stored_as("float32").write("m.exr")
+    fathom.Map({"Z": codes["Z"]}).write("raw.png")
+    fathom.write_cameras("camera.json", [camera])
+
+
+def refusal(*arguments):
+    ran = subprocess.run([os.environ["FATHOM_PROGRAM"], *arguments], capture_output=True, text=True)
+    assert ran.returncode in (2, 3) and ran.stderr.count("\n") == 1, ran
+    return ran.stderr
+
+
+def test_codes_of_other_programs_take_their_scale_from_the_option(raw_codes, camera, run_program):
+    assert fathom.read_map("raw.png").scale is None
+    for output in ("raw.exr", "raw.npy", "raw.png.npz", "scaled.png"):
+        run_program("convert", "raw.png", "--png-scale", 1000, "--camera", "camera.json", "-o", output)
+        found = fathom.read_map(output)
+        assert found.scale == (1000 if output == "scaled.png" else None)
+        depths = found.stored_as("float32")["Z"]
+        assert np.array_equal(depths, fathom.read_map("m.exr").stored_as("float32")["Z"])
+    run_program("convert", "raw.png", "--png-scale", 1000, "--camera", "camera.json", "-o", "raw.ply")
+    run_program("convert", "scaled.png", "-o", "scaled.ply")
+    assert pathlib.Path("raw.ply").read_bytes() == pathlib.Path("scaled.ply").read_bytes()
+    run_program("convert", "raw.png", "--png-scale", 1000, "--camera", "camera.json", "--to", "distance", "-o", "distance.exr")
+    distances = fathom.read_map("raw.exr").to_distance(camera)["distance"]
+    assert np.allclose(fathom.read_map("distance.exr")["distance"], distances, rtol=1e-6)
+    # A map with a scale of its own is written with the scale of the option, as always.
+    run_program("convert", "scaled.png", "--png-scale", 500, "-o", "coarse.png")
+    assert fathom.read_map("coarse.png").scale == 500
+
+
+def test_the_option_is_named_and_refused_without_such_codes(raw_codes):
+    assert "the codes carry no scale (fathom:scale), so their depth is not known; give 'fathom convert' one by --png-scale" in (
+        refusal("convert", "raw.png", "--camera", "camera.json", "-o", "raw.ply"))
+    to_cloud = ("--camera", "camera.json", "--png-scale", "5", "-o", "a.ply")
+    assert "--png-scale: m.exr holds no codes" in refusal("convert", "m.exr", *to_cloud)
+    fathom.Map({"Z": fathom.read_map("raw.png")["Z"]}, scale=1000).write("scaled.png")
+    assert "--png-scale: scaled.png carries its scale, 1000" in refusal("convert", "scaled.png", *to_cloud)
+    assert "--png-scale is for .png, not for a.npy" in refusal("convert", "m.exr", "--png-scale", "5", "-o", "a.npy")
+    assert "a.pcd: the suffix of a map is one of .exr, .pfm, .png, .npy, .npz, .bin or .tif, the suffix of a point cloud is .ply" in (
+        refusal("convert", "m.exr", "-o", "a.pcd"))
+
+
+def test_codes_without_a_scale_are_compared_with_a_note(raw_codes):
+    exact, codes = fathom.read_map("m.exr"), fathom.read_map("raw.png")["Z"]
+    notes = fathom.compare(exact, codes).channels[0].notes
+    assert any("other: the codes carry no scale and count as depths" in note for note in notes), notes
+    for others in (codes, fathom.Map({"Z": codes}, scale=1000)):
+        notes = fathom.compare(others, others).channels[0].notes
+        assert not any("no scale" in note for note in notes), notes
+
+
 def test_points_of_orthographic_cameras_and_codes(spot):
     camera = fathom.Camera.frame(spot, size=(40, 30), projection="orthographic")
     codes = spot.render(camera, dtype=np.uint16, scale=10000)

@@ -52,8 +52,8 @@ void require_straight(const Camera& camera, std::string_view why) {
   if (!bends_rays(camera.projection)) return;
   throw UsageError("the lens " + std::string(name_of(camera.projection.lens->model)) + ": " +
                    std::string(why) +
-                   " ('fathom camera import … --ignore-distortion' leaves the lens out; see "
-                   "docs/lenses.md)");
+                   " (for undistorted images, 'fathom camera import … --ignore-distortion' leaves "
+                   "the lens out; see docs/lenses.md)");
 }
 
 bool has_clip_planes(const Camera& camera) {

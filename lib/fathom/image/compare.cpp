@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "fathom/failures/errors.h"
 #include "fathom/image/channel_names.h"
@@ -141,10 +142,17 @@ struct Differences {
   }
 };
 
+constexpr const char* no_scale =
+    ": the codes carry no scale and count as depths; give 'fathom convert' one by --png-scale, "
+    "e.g. 1000, and compare its output (in Python fathom.Map({'Z': codes}, scale=1000))";
+
 void add_notes(ChannelComparison& result, const ChannelPair& pair) {
   if (!pair.truth_rule.note.empty()) result.notes.push_back("truth: " + pair.truth_rule.note);
   if (!pair.other_rule.note.empty()) result.notes.push_back("other: " + pair.other_rule.note);
   const Reading a(pair.truth, pair.truth_scale), b(pair.other, pair.other_scale);
+  for (const auto& [reading, name] : {std::pair(&a, "truth"), std::pair(&b, "other")})
+    if (reading->is_codes() && !reading->scale() && a.type() != b.type())
+      result.notes.push_back(std::string(name) + no_scale);
   if (a.type() != b.type())
     result.notes.emplace_back(
         "the channels are stored in different types: ulp differences count binary32 numbers");

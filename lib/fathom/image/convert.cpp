@@ -179,7 +179,9 @@ const ImageChannel& depth_channel(const DepthMap& map, const std::string& asked)
 template <class T>
 Samples<T> decode(const Samples<std::uint16_t>& codes, const std::optional<double>& scale) {
   if (!scale)
-    throw InputError("the codes carry no scale (fathom:scale), so their depth is not known");
+    throw InputError(
+        "the codes carry no scale (fathom:scale), so their depth is not known; give 'fathom "
+        "convert' one by --png-scale, e.g. 1000 (in Python fathom.Map({'Z': codes}, scale=1000))");
   std::vector<T> depth_of(65536);
   depth_of[0] = std::numeric_limits<T>::infinity();
   for (std::size_t code = 1; code < depth_of.size(); ++code) {

@@ -54,7 +54,7 @@ class Points {
     if (position_) {
       source_ = map.find("P.X");
     } else {
-      require_straight(camera, "a map is not unprojected with it; render the channel P instead");
+      require_straight(camera, points_need_no_lens);
       source_ = map.find("Z");
       if (!source_) {
         source_ = map.find("distance");

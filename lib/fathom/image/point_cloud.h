@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fathom/camera/pose.h"
@@ -21,6 +22,11 @@ namespace fathom {
 ///          or P.
 std::vector<std::array<double, 3>> points_of(const DepthMap& map, const Camera& camera,
                                              PointFrame frame);
+
+/// Why points_of() refuses a camera whose lens bends rays, unless the map has P.
+inline constexpr std::string_view points_need_no_lens =
+    "a map is not unprojected with it: render with channels Z and P ('fathom render --channels "
+    "Z,P'), and make the points of that map";
 
 struct PointCloudOptions {
   PointFrame frame = PointFrame::world;
