@@ -11,6 +11,7 @@
 #include "apps/options/output_arguments.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/values.h"
+#include "fathom/failures/errors.h"
 #include "fathom/image/png_files.h"
 #include "fathom/text/counted.h"
 
@@ -77,7 +78,14 @@ void add_maps_layout(Command& family) {
                  "suffix (default {stem}.exr, or {index:06}.exr if cameras have no names)");
   command.option(
       "--channels", "LIST",
-      [arguments](const std::string& text) { arguments->render.take(parse_contents(text)); },
+      [arguments](const std::string& text) {
+        const Contents contents = parse_channels_of_outputs(text);
+        if (contents.mask_beside)
+          throw UsageError(
+              "'mask' needs separate files: make them by another run with --channels mask, and "
+              "leave it out of the list");
+        arguments->render.take(contents);
+      },
       "Channels, as for render (default Z,A in EXR and NPZ, Z in other formats), or mask");
   arguments->render.storage.add_to(command);
   command.option("--background", "D", into(arguments->render.storage.background, parse_background),

@@ -153,3 +153,10 @@ def test_of_values_that_are_left_out():
     # Negative numbers are values, and a name in one argument is one, too.
     assert "needs a value" not in run("render", "none.obj", "--view", "-30,20", "-o", "a.exr").stderr
     assert "needs a value" not in run("render", "none.obj", "--up", "-z", "-o", "a.exr").stderr
+
+
+def test_a_mask_of_a_data_set_needs_a_run_of_its_own():
+    outcome = run("dataset", "maps", "none.json", "--mesh", "none.obj", "--channels", "Z,mask", "-o", "none")
+    assert outcome.returncode == 2
+    assert outcome.stderr == ("fathom: error: --channels: 'mask' needs separate files: make them by another run with "
+                              "--channels mask, and leave it out of the list\n")
