@@ -97,7 +97,7 @@ class WeilerAthertonRandom : public ::testing::TestWithParam<RandomPairs> {};
 TEST_P(WeilerAthertonRandom, IsAsCgal) {
   const RandomPairs& random = GetParam();
   PolygonMaker maker(random.seed);
-  for (int i = 0; i < random.pairs / checks::effort && !HasFatalFailure(); ++i) {
+  for (int i = 0; i < checks::cases_to_draw(random.pairs, 4) && !HasFatalFailure(); ++i) {
     const auto side = [&] {
       return maker.polygon(random.size, 3 + maker.below(random.corners - 2), cross_each_other);
     };
@@ -106,7 +106,7 @@ TEST_P(WeilerAthertonRandom, IsAsCgal) {
   }
 }
 
-// 21,000 pairs, each with all operations; a twentieth of them under sanitizers.
+// 21,000 pairs or a quarter of them, each with all operations; a twentieth under sanitizers.
 INSTANTIATE_TEST_SUITE_P(Grids, WeilerAthertonRandom,
                          ::testing::Values(RandomPairs{1, 6000, 3, 8}, RandomPairs{2, 5000, 4, 10},
                                            RandomPairs{3, 4000, 5, 8}, RandomPairs{4, 3000, 6, 12},

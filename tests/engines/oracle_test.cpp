@@ -52,21 +52,23 @@ TEST_P(Oracle, EveryChannelOfEveryPixelAgrees) {
   const auto [kind, part] = GetParam();
   CaseMaker maker(static_cast<std::uint64_t>(1000 * static_cast<int>(kind) + part), kind);
   Tally tally;
-  for (int i = 0; i < 1200 / checks::effort && !HasFailure(); ++i) {
+  const int scenes = checks::cases_to_draw(1200, 4);
+  for (int i = 0; i < scenes && !HasFailure(); ++i) {
     SCOPED_TRACE("scene " + std::to_string(i) + " of this seed");
     check(maker.make(), tally);
   }
   // The scenes are worth their time: the hard cases are among them, and every tier was reached
   // (samples on edges of few bits are settled by the filter: its interval is the point 0).
   if (checks::effort > 1) return;
-  EXPECT_GT(tally.hits, 5000);
-  EXPECT_GT(tally.on_edges, 400);
-  EXPECT_GT(tally.ties, 500);
-  EXPECT_GT(tally.statistics.visibility.exact, 500U);
-  EXPECT_GT(tally.statistics.edges.interval, kind == Kind::huge ? 0U : 10000U);
+  EXPECT_GT(tally.hits, 4 * scenes);
+  EXPECT_GT(tally.on_edges, scenes / 6);
+  EXPECT_GT(tally.ties, scenes * 2 / 5);
+  const auto count = static_cast<std::uint64_t>(scenes);
+  EXPECT_GT(tally.statistics.visibility.exact, count * 2 / 5);
+  EXPECT_GT(tally.statistics.edges.interval, kind == Kind::huge ? 0 : 8 * count);
   if (kind == Kind::neighbours || kind == Kind::huge) {
-    EXPECT_GT(tally.statistics.edges.exact, 1000U);
-    EXPECT_GT(tally.statistics.facing.exact, 1000U);
+    EXPECT_GT(tally.statistics.edges.exact, count * 4 / 5);
+    EXPECT_GT(tally.statistics.facing.exact, count * 4 / 5);
   }
 }
 
