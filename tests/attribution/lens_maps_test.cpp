@@ -22,7 +22,8 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr std::uint32_t width = 80, height = 60;
+constexpr std::uint32_t width = 40, height = 30;
+constexpr double focal = 27.5;
 
 Mesh quad(const MeshPoint& a, const MeshPoint& b, const MeshPoint& c, const MeshPoint& d) {
   Mesh mesh;
@@ -56,7 +57,7 @@ Camera camera_with(const Lens& lens) {
   Camera camera;
   camera.width = width;
   camera.height = height;
-  camera.projection = {.fx = 55, .fy = 55, .cx = 40, .cy = 30, .lens = lens};
+  camera.projection = {.fx = focal, .fy = focal, .cx = 20, .cy = 15, .lens = lens};
   camera.world_to_camera = {{{0, 0, 1, 0.25}, {0, 1, 0, -0.5}, {-1, 0, 0, 2}}};
   return camera;
 }
@@ -160,9 +161,10 @@ TEST_P(LensMaps, RemappedMapsOfAPinholeAreNamed) {
     for (std::uint32_t column = 0; column < width; ++column) {
       double& depth = map.depths[std::size_t{row} * width + column];
       depth = infinity;
-      const auto m = undistorted(GetParam(), {(column + 0.5 - 40) / 55, (row + 0.5 - 30) / 55});
+      const auto m =
+          undistorted(GetParam(), {(column + 0.5 - 20) / focal, (row + 0.5 - 15) / focal});
       if (!m) continue;
-      const double u = std::floor((*m)[0] * 55 + 40), v = std::floor((*m)[1] * 55 + 30);
+      const double u = std::floor((*m)[0] * focal + 20), v = std::floor((*m)[1] * focal + 15);
       if (u < 0 || v < 0 || u >= width || v >= height) continue;
       depth = straight.depths[static_cast<std::size_t>(v) * width + static_cast<std::size_t>(u)];
     }

@@ -15,7 +15,7 @@ namespace {
 using checks::NamedLens;
 using oracle::ArbBall;
 
-constexpr std::uint32_t width = 150, height = 90;
+constexpr std::uint32_t width = 110, height = 70;
 
 /// A camera that sees up to 100° from the axis of a fisheye without a stage.
 Camera wide_camera(const Lens& lens) {
