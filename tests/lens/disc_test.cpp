@@ -53,6 +53,18 @@ TEST(Disc, OfATangentialTermEndsAtTheNearestFold) {
   EXPECT_LT(q, 1);
 }
 
+// More lenses than a thread keeps the discs of, each of which differs from others in one number.
+TEST(Disc, OfAStageIsThatOfItsOwnNumbers) {
+  for (int round = 0; round < 2; ++round) {
+    for (int i = 0; i < 20; ++i) {
+      Lens lens{LensModel::opencv, {-0.25, 0.0625, 0.001, -0.002}};
+      lens.distortion[static_cast<std::size_t>(i % 4)] -= 0.001 * (1 + i / 4);
+      for (int again = 0; again < 2; ++again)
+        EXPECT_EQ(PolynomialStage(lens).disc, greatest_disc(stage_of(lens))) << i;
+    }
+  }
+}
+
 TEST(Disc, MayBeThePlane) {
   EXPECT_EQ(disc_of(LensModel::opencv, {0.5, 0.1, 0.001, 0.002}), infinity);
 }

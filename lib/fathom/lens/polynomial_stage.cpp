@@ -1,10 +1,12 @@
 #include "fathom/lens/polynomial_stage.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "fathom/lens/definiteness.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -136,8 +138,27 @@ double disc_of_root(double xi) {
   return greatest_before_positive_root(ExactPolynomial({Dyadic(1.0), -slope})).value_or(infinity);
 }
 
+class RecentDiscs {
+ public:
+  double of(const StageNumbers<double>& numbers) {
+    const auto found = std::ranges::find(entries_, numbers, &Entry::numbers);
+    if (found != entries_.end()) return found->disc;
+    Entry entry{numbers, greatest_disc(numbers)};
+    return (entries_[next_++ % entries_.size()] = std::move(entry)).disc;
+  }
+
+ private:
+  struct Entry {
+    StageNumbers<double> numbers;
+    double disc;
+  };
+  std::array<Entry, 16> entries_{};  // no stage is without a numerator
+  std::size_t next_ = 0;
+};
+thread_local RecentDiscs recent_discs;
+
 double disc_of(const Lens& lens, const StageNumbers<double>& stage) {
-  const double of_stage = greatest_disc(stage);
+  const double of_stage = recent_discs.of(stage);
   if (lens.model == LensModel::omni) return std::min(of_stage, disc_of_root(lens.distortion[0]));
   return is_plane(lens.model) ? of_stage : std::min(of_stage, end_of_angles);
 }

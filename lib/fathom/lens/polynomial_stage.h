@@ -22,7 +22,8 @@ double greatest_disc(const StageNumbers<double>& numbers);
 /// angle below π to the axis.
 inline constexpr double end_of_angles = 0x1.3bd3cc9be45dep3;
 
-/// A stage and the disc on which it is used, prepared for preimages.
+/// A stage and the disc on which it is used, prepared for preimages. Each thread keeps the discs of
+/// its last stages: renders with the same lens follow each other.
 struct PolynomialStage {
   /// Of a lens that has a stage.
   explicit PolynomialStage(const Lens& lens);

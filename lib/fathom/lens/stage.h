@@ -25,6 +25,8 @@ struct StageNumbers {
   /// N₁ of a first stage m ↦ m·N₁(|m|²); empty if there is none. N and D are 1 otherwise.
   std::vector<T> before{};
 
+  bool operator==(const StageNumbers&) const = default;
+
   /// Whether there are two stages.
   [[nodiscard]] bool is_double() const { return !before.empty(); }
 
