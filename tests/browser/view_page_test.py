@@ -52,6 +52,16 @@ COLOUR_AT_CENTRE = """
 const canvas = document.getElementById("picture");
 return Array.from(canvas.getContext("2d").getImageData(canvas.width >> 1, canvas.height >> 1, 1, 1).data).slice(0, 3);
 """
+# The sizes of the picture and of its box, when both have changed and before the browser shows the frame: observers
+# are called in the order in which they were made.
+SIZES_IN_THE_FRAME_OF_A_CHANGE = """
+const done = arguments[0], canvas = document.getElementById("picture");
+let calls = 0;
+new ResizeObserver(() => {
+  if (++calls === 1) canvas.parentElement.style.height = "200px";
+  else done([canvas.width, canvas.height, canvas.clientWidth, canvas.clientHeight]);
+}).observe(canvas);
+"""
 READY = "return document.documentElement.dataset.ready"
 
 
@@ -148,6 +158,12 @@ class ViewPage(PageCase):
                 self.expect_bits(number, f"N.{part}", maps["N"][:, :, k])
         _, mask = self.values(0, "N.X", "f4")
         numpy.testing.assert_array_equal(mask != 0, self.pair["object"] != 0xFFFFFFFF)
+
+    def test_no_frame_stretches_the_picture(self):
+        self.open()
+        width, height, box_width, box_height = self.driver.execute_async_script(SIZES_IN_THE_FRAME_OF_A_CHANGE)
+        self.assertEqual(box_height, 200)
+        self.assertEqual((width, height), (box_width, box_height))
 
     def test_every_bit_of_other_types_is_there(self):
         random = numpy.random.default_rng(51)

@@ -31,13 +31,16 @@ export class Picture {
 
   /// All of the map; small maps enlarged by a whole factor.
   fit() {
+    this.fitInto();
+    this.draw();
+  }
+  fitInto() {
     const { source } = this;
     if (!source || !this.width) return;
     const most = Math.min(this.width / source.width, this.height / source.height);
     this.isFitted = true;
     this.centre = [source.width / 2, source.height / 2];
     this.zoom = most > 1 ? Math.floor(Math.min(most, mostZoom)) : most;
-    this.draw();
   }
   look(x, y, zoom) {
     this.isFitted = false;
@@ -96,8 +99,10 @@ export class Picture {
     if (isWhole && !this.wasWhole) performance.mark("picture"); // for scripts/dev/measure-view
     this.wasWhole ||= isWhole;
   }
+  /// Draws in this frame. One later, the browser would have stretched the old picture to the new size.
   resized() {
-    if (this.isFitted) this.fit(); else this.draw();
+    if (this.isFitted) this.fitInto();
+    this.drawNow();
   }
 
   zoomAt(x, y, factor) {
