@@ -165,6 +165,15 @@ class ViewPage(PageCase):
         self.assertEqual(box_height, 200)
         self.assertEqual((width, height), (box_width, box_height))
 
+    def test_the_tools_are_in_one_row(self):
+        self.resize(1280, 720)
+        self.open(page=self.viewed("pair.exr"))
+        places = self.driver.execute_script(
+            "return [...document.querySelectorAll('header select, header button')].filter((e) => e.checkVisibility())"
+            ".map((e) => e.getBoundingClientRect()).map((box) => (box.top + box.bottom) / 2)")
+        self.assertGreater(len(places), 8)
+        self.assertLess(max(places) - min(places), 8)
+
     def test_every_bit_of_other_types_is_there(self):
         random = numpy.random.default_rng(51)
         fathom("render", DATA / "meshes/spot.obj", "--size", "600x20", "--dtype", "float64", "-o", self.folder / "double.npy")
