@@ -52,6 +52,9 @@ class ComparisonPage(PageCase):
                                 check=False, stdout=subprocess.DEVNULL).returncode
         if status != 1:  # something is worse
             raise RuntimeError(f"fathom-validate ended with {status}")
+        subprocess.run([*command, "--baseline", folder / "before/report.json", "--out", folder / "again"], check=True,
+                       stdout=subprocess.DEVNULL)
+        cls.unchanged = (folder / "again/comparison.html").as_uri()
         cls.driver = cls.enterClassContext(headless_chromium())
         cls.page = (folder / "now/comparison.html").as_uri()
 
@@ -63,6 +66,12 @@ class ComparisonPage(PageCase):
         self.assertEqual(self.texts("#counts .chip"), ["1 " + verdict for verdict in ORDER])
         self.assertEqual(self.text("#unchanged"), "1 of 7 results has the same counts and errors as before.")
         self.assertIn("1 not.", self.text("#kept"))
+
+    def test_a_run_without_changes_leaves_no_empty_table(self):
+        self.driver.get(self.unchanged)
+        self.assertEqual(self.text("#unchanged"), "6 of 6 results have the same counts and errors as before.")
+        self.assertFalse(self.one(".wide:has(> #changed)").is_displayed())
+        self.assertFalse(self.all(".wide #others, .wide:has(> p)"))
 
     def test_the_overview_shows_which_way_each_went(self):
         self.assertEqual([(g.get_attribute("textContent"), g.get_attribute("colspan"))

@@ -13,7 +13,7 @@ CUT_OFF = """
 return [...arguments[0].querySelectorAll("th, td")].filter((c) => c.scrollWidth > c.clientWidth)
   .map((c) => c.textContent);
 """
-# The visible texts whose contrast to what is behind them is less than 4.5 (WCAG 2.2, 1.4.3). Plots keep white paper.
+# The visible texts whose contrast to what is behind them is less than 4.5 (WCAG 2.2, 1.4.3). Plots are inverted by a filter.
 FAINT = """
 const linear = (v) => (v /= 255) <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
 const light = ([r, g, b]) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);

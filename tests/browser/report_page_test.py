@@ -105,6 +105,29 @@ class ReportPage(PageCase):
         self.show(0)
         self.expect_readable_in_the_dark()
 
+    def test_plots_and_pictures_are_dark_in_the_dark(self):
+        self.show(0)
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia",
+                                    {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
+        self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.setEmulatedMedia", {"features": []})
+        self.wait_for(lambda: self.colour(self.one("#maps-shown canvas"), 0, 0)[:3] == [23, 27, 33], "dark paper")
+        self.assertIn("invert", self.driver.execute_script(
+            "return getComputedStyle(document.querySelector('#formats svg')).filter"))
+
+    def test_shares_stay_in_one_line(self):
+        self.resize(1280, 900)
+        self.show(0)
+        shares = self.all("#classes td:nth-child(3)")
+        self.assertEqual({share.value_of_css_property("white-space") for share in shares}, {"nowrap"})
+
+    def test_tables_fade_where_they_go_on(self):
+        self.resize(400, 900)
+        place = self.one(".wide:has(> #all)")
+        is_faded = lambda: "more" in place.get_attribute("class").split()
+        self.wait_for(is_faded, "a table that goes on")
+        self.driver.execute_script("arguments[0].scrollLeft = arguments[0].scrollWidth", place)
+        self.wait_for(lambda: not is_faded(), "its end")
+
     # Maps that are judged as if somebody had brought them have depths alone.
     def test_z_fighting_is_unknown_without_triangle_numbers(self):
         self.show(next(k for k, r in enumerate(self.results) if r["scene"] == "sphere"))

@@ -43,6 +43,7 @@ const namesOf = (c) => [heading(c.scene, { scope: "row" }), element("td", label(
 function details() {
   const shown = verdicts.filter((v) => !["same", "new", "gone"].includes(v)).flatMap((v) => changes.map((c, k) => [c, k]).filter(([c]) => c.verdict == v));
   byId("unchanged").textContent = of("same").length + " of " + counted(changes.length, "result") + (of("same").length == 1 ? " has" : " have") + " the same counts and errors as before.";
+  byId("changed").closest(".wide").hidden = !shown.length;
   if (!shown.length) return;
   const both = (c) => c.verdict != "not comparable" && !c.before.failure && !c.after.failure;
   const moved = classNames.filter((name) => shown.some(([c]) => both(c) && c.before.pixels[name] != c.after.pixels[name]));
@@ -64,7 +65,7 @@ function findings() {
 }
 function newAndGone() {
   const table = byId("others"), shown = ["new", "gone"].flatMap((v) => changes.map((c, k) => [c, k]).filter(([c]) => c.verdict == v));
-  if (!shown.length) { table.replaceWith(element("p", "Both runs have the same scenes, renderers and variants.", { class: "dim" })); return; }
+  if (!shown.length) { table.closest(".wide").replaceWith(element("p", "Both runs have the same scenes, renderers and variants.", { class: "dim" })); return; }
   row(table.createTHead(), [heading("scene", { class: "corner" }), heading("renderer", { class: "text" }), heading("change", { class: "text" }), heading(term("equal")), heading(term("unexplained")), heading(term("finding", "findings"), { class: "text" })]);
   const body = table.createTBody();
   for (const [c, k] of shown) {
@@ -91,4 +92,5 @@ for (const v of verdicts) if (of(v).length) { const chip = element("span", of(v)
 explainWords(); details(); findings(); newAndGone(); versions();
 filterBy(changes, (c) => c.verdict != "same", "only what is not the same", showOnly);
 walkByArrows(byId("matrix"));
+fadeWhereMore();
 addEventListener("resize", () => keepClear(byId("matrix")));

@@ -86,6 +86,16 @@ function keepClear(table) {
   place.style.scrollPadding = table.tHead.offsetHeight + "px 0 0 " + corner.offsetWidth + "px";
 }
 
+/// Tables fade at the right where they go on, so that it shows that they scroll.
+function fadeWhereMore() {
+  for (const place of document.querySelectorAll(".wide")) {
+    const update = () => place.classList.toggle("more", place.scrollLeft + place.clientWidth < place.scrollWidth - 1);
+    place.addEventListener("scroll", update);
+    const sizes = new ResizeObserver(update);
+    for (const each of [place, ...place.children]) sizes.observe(each);
+  }
+}
+
 const steps = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0] };
 /// Arrow keys lead from cell to cell, over those that are empty.
 function walkByArrows(table) {

@@ -22,7 +22,9 @@ async function show(k) {
   let low = Infinity, high = -Infinity;
   for (const d of scene.depths) if (isFinite(d)) { low = Math.min(low, d); high = Math.max(high, d); }
   const log = high / low > 20, place = (d) => log ? Math.log(d / low) / Math.log(high / low) : (d - low) / (high - low || 1);
-  const depthColour = (d) => isFinite(d) ? depthColourAt(place(d)) : [255, 255, 255];
+  const nothing = getComputedStyle(document.body).backgroundColor.match(/\d+/g).slice(0, 3).map(Number);
+  const grey = nothing[0] < 128 ? [96, 104, 116] : nothing; // behind black and white
+  const depthColour = (d) => isFinite(d) ? depthColourAt(place(d)) : nothing;
   const relative = new Float64Array(n), sizes = [];
   for (let i = 0; i < n; ++i) {
     const t = scene.depths[i], o = map.depths[i];
@@ -34,7 +36,7 @@ async function show(k) {
   const differenceColour = (i) => {
     const t = scene.depths[i], o = map.depths[i];
     if (isFinite(t) != isFinite(o)) return isFinite(t) ? [20, 20, 20] : [120, 60, 160];
-    return isFinite(relative[i]) ? diverging(Math.max(-1, Math.min(1, relative[i] / most))) : [255, 255, 255];
+    return isFinite(t) && isFinite(relative[i]) ? diverging(Math.max(-1, Math.min(1, relative[i] / most))) : grey;
   };
   const key = element("div"); key.style.fontSize = ".8rem";
   classNames.forEach((name, c) => { if (!r.pixels[name]) return; const s = element("span"); s.style.marginRight = ".8em"; s.style.display = "inline-block"; s.append(colourKey(c), term(name)); key.append(s); });
@@ -56,7 +58,7 @@ async function show(k) {
     canvas.addEventListener("pointermove", at); canvas.addEventListener("pointerdown", at);
   }
   const classes = byId("classes"); row(classes, ["class", "pixels", "share", element("th", "meaning", { class: "text" })], "th");
-  classNames.forEach((name, c) => { const cell = element("td"); cell.append(colourKey(c), name); row(classes, [cell, pixelsText(r, name), shareText(r, name, n), element("td", meanings[name], { class: "text" })]); });
+  classNames.forEach((name, c) => { const cell = element("td"); cell.append(colourKey(c), name); row(classes, [cell, pixelsText(r, name), element("td", shareText(r, name, n), { class: "whole" }), element("td", meanings[name], { class: "text" })]); });
   const fights = r.z_fighting;
   const fightText = !fights.triangle_numbers ? "No triangle numbers were read: z-fighting shows only where depths reveal it. " : fights.by_format_alone === null ? "" : "Of the format alone, exact depths rounded once, " + counted(fights.by_format_alone, "pixel") + " would z-fight. ";
   byId("bounds").textContent = fightText + "Bounds: half of the depth intervals are narrower than " + short(r.bounds.median_relative_width, 3) + " of the depth (" + short(r.bounds.median_width_in_steps, 3) + " steps of the storage); " + (100 * r.bounds.may_share).toFixed(2) + " % of the pixels that triangles touch are undecided: a triangle may be drawn there or not. Errors: median " + short(r.errors.median_relative, 3) + ", greatest " + short(r.errors.greatest_relative, 3) + " of the depth.";

@@ -27,7 +27,7 @@ function allResults(shown) {
   for (const r of results) {
     if (!shown(r)) continue;
     const names = [heading(r.scene, { scope: "row" }), element("td", label(r), { class: "text" })];
-    row(body, r.failure ? [...names, element("td", r.failure, { colspan: 12, class: "text" })] : [...names, ...classNames.map((c) => pixelsText(r, c)), short(r.errors.median_relative, 2), short(r.errors.greatest_relative, 2), short(r.bounds.median_relative_width, 2), (100 * r.bounds.may_share).toFixed(2) + " %"]);
+    row(body, r.failure ? [...names, element("td", r.failure, { colspan: 12, class: "text" })] : [...names, ...classNames.map((c) => pixelsText(r, c)), short(r.errors.median_relative, 2), short(r.errors.greatest_relative, 2), short(r.bounds.median_relative_width, 2), element("td", (100 * r.bounds.may_share).toFixed(2) + " %", { class: "whole" })]);
   }
 }
 function versions() {
@@ -50,7 +50,9 @@ function start() {
   });
   walkByArrows(byId("matrix"));
   addEventListener("resize", () => keepClear(byId("matrix")));
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => show(current));
   versions();
+  fadeWhereMore();
   const linked = results.findIndex((r) => location.hash == linkTo(r)), first = results.findIndex((r) => faults(r)), any = results.findIndex((r) => !r.failure);
   if (results.length) show(linked >= 0 ? linked : first >= 0 ? first : Math.max(any, 0));
 }
