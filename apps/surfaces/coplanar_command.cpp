@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "apps/commands.h"
@@ -16,6 +18,7 @@
 #include "apps/shell/values.h"
 #include "fathom/area/coplanar.h"
 #include "fathom/failures/errors.h"
+#include "fathom/scene/bounds.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/printable.h"
 
@@ -87,6 +90,36 @@ void put_important_first(std::vector<CoplanarPair>& pairs) {
   });
 }
 
+/// A distance beyond which surfaces are apart on purpose, rounded to a digit: rounding the
+/// coordinates of a plane to 5 decimals moves it by less.
+double distance_of_roundings(const Scene& scene) {
+  const std::optional<WorldBounds> bounds = world_bounds(scene);
+  if (!bounds) return 0;
+  const auto &low = bounds->lower, &high = bounds->upper;
+  const double diagonal = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  if (!std::isfinite(diagonal)) return 0;
+  return parse_number(fmt::format("{:.0e}", 1e-5 * diagonal));
+}
+
+/// If no pair is within the distance: the nearest pair among surfaces that lie in one plane except
+/// for roundings, and the --within that finds it. Empty if there is none.
+std::string nearest_pair(const Scene& scene, const Camera& camera,
+                         const CoplanarArguments& arguments, const RenderOptions& options,
+                         const Console& console) {
+  // It takes as long as the first look.
+  constexpr std::uint64_t most_triangles = 100'000;
+  const double within = distance_of_roundings(scene);
+  if (within <= arguments.within || triangle_count(scene) > most_triangles) return "";
+  Progress progress(console, "looking farther");
+  const std::vector<CoplanarPair> pairs =
+      coplanar_pairs(scene, camera, within, options, progress.reporter());
+  if (pairs.empty()) return "";
+  const CoplanarPair& nearest = *std::ranges::min_element(pairs, {}, &CoplanarPair::separation);
+  return fmt::format("nearest pair: {} before {}, least distance {}; --within {} finds {}\n",
+                     in_words(scene, nearest.visible), in_words(scene, nearest.behind),
+                     nearest.separation, within, text::counted(pairs.size(), "pair"));
+}
+
 int run_coplanar(const CoplanarArguments& arguments, const Console& console) {
   RenderOptions options;
   options.cull = arguments.cull;
@@ -100,8 +133,13 @@ int run_coplanar(const CoplanarArguments& arguments, const Console& console) {
     pairs = coplanar_pairs(scene, camera, arguments.within, options, progress.reporter());
   }
   put_important_first(pairs);
-  print(arguments.json ? as_json(scene, pairs, arguments.within)
-                       : as_text(scene, pairs, arguments.within));
+  if (arguments.json) {
+    print(as_json(scene, pairs, arguments.within));
+    return done;
+  }
+  const std::string nearest =
+      pairs.empty() ? nearest_pair(scene, camera, arguments, options, console) : "";
+  print(as_text(scene, pairs, arguments.within) + nearest);
   return done;
 }
 

@@ -171,6 +171,14 @@ TEST_F(Surfaces, CoplanarTellsWhatLiesCloseBehind) {
     "world_to_camera": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]})");
   const std::vector<std::string> coplanar{"coplanar", "two.obj", "--camera", "camera.json"};
   EXPECT_EQ(answer(coplanar), "0 coplanar pairs within 0\n");
+  // Roundings of decimals move planes apart: the answer names the nearest pair.
+  folder_.write("decal.obj",
+                "v -1 -1 2\nv 1 -1 2\nv 1 1 2\nf 1 2 3\nv -1 -1 2.0000019073486328125\n"
+                "v 1 -1 2.0000019073486328125\nv 1 1 2.0000019073486328125\nf 4 5 6\n");
+  EXPECT_EQ(
+      answer({"coplanar", "decal.obj", "--camera", "camera.json"}),
+      "0 coplanar pairs within 0\nnearest pair: triangle 0 (face 0 of decal) before triangle 1 "
+      "(face 1 of decal), least distance 1.9073486328125e-06; --within 3e-05 finds 1 pair\n");
   std::vector<std::string> within = coplanar;
   within.insert(within.end(), {"--within", "0.25"});
   EXPECT_EQ(answer(within),
