@@ -55,6 +55,23 @@ void check(const Scene& scene, const Camera& camera, Cull cull, int& pairs) {
   }
 }
 
+// Making surfaces takes about as long as finding pairs among them, which reports every 8 triangles.
+TEST(SceneSurfaces, ReportsAsOftenAsItsUsers) {
+  std::mt19937_64 random(163);
+  const Scene scene = testing::soup(random, 1000, false);
+  const Camera camera = testing::camera_of(160, 140, 64);
+  double last = 0;
+  int reports = 0;
+  const std::function<void(double)> report = [&](double share) {
+    last = share;
+    ++reports;
+  };
+  Progress progress(report, SceneSurfaces::parts(1000));
+  const SceneSurfaces surfaces({scene, camera, Cull::none}, progress);
+  EXPECT_EQ(reports, 125);
+  EXPECT_EQ(last, 1);
+}
+
 TEST(SceneSurfaces, NeighboursAreThoseWhoseBoxesMeet) {
   int pairs = 0;
   CaseMaker maker(161, Kind::few_bits);

@@ -31,10 +31,6 @@ SurfaceParts::~SurfaceParts() {
   }
 }
 
-std::uint64_t SceneSurfaces::parts(std::uint32_t triangles) {
-  return triangles / SurfaceParts::triangles_per_part + 1;
-}
-
 SceneSurfaces::SceneSurfaces(const CoverageFrame& frame, Progress& progress)
     : columns_((frame.camera.width - 1) / side_of_tile + 1),
       boxes_(frame.triangles.count()),
@@ -43,8 +39,10 @@ SceneSurfaces::SceneSurfaces(const CoverageFrame& frame, Progress& progress)
       first_(count()),
       first_of_object_(count()) {
   parallel_for(std::uint32_t{0}, surfaces_.size(), [&](std::uint32_t part) {
-    surfaces_.make(part, [&](std::uint32_t number) { return surface_of(frame, number); });
-    progress.part_done();
+    surfaces_.make(part, [&](std::uint32_t number) {
+      if ((number + 1) % triangles_per_report == 0) progress.part_done();
+      return surface_of(frame, number);
+    });
   });
   find_equal_triangles(frame.triangles);
   for (std::uint32_t number = 0; number < count(); ++number) {

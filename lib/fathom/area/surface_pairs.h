@@ -51,8 +51,7 @@ class SceneSurfaces {
  public:
   /// Reports the parts() of its work to `progress`.
   SceneSurfaces(const CoverageFrame& frame, Progress& progress);
-  /// The number of parts in which the surfaces of so many triangles are made.
-  static std::uint64_t parts(std::uint32_t triangles);
+  static std::uint64_t parts(std::uint32_t triangles) { return triangles / triangles_per_report; }
 
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(boxes_.size()); }
   /// Null if the triangle covers nothing: seen edge on, culled, or outside the image.
@@ -75,6 +74,8 @@ class SceneSurfaces {
 
  private:
   static constexpr std::uint32_t side_of_tile = 16;
+  /// As many as users of the surfaces report at once: making a surface takes about as long.
+  static constexpr std::uint32_t triangles_per_report = 8;
 
   template <class Take>
   void for_each_near(std::uint32_t number, const Take& take) const;

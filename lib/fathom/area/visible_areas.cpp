@@ -18,6 +18,8 @@ using namespace area;
 namespace {
 
 constexpr std::uint32_t chunk = 64;
+/// Unoccluded areas are quick: so many chunks are one part of the progress.
+constexpr std::uint32_t chunks_per_report = 64;
 
 EnclosedSum enclosed_sum(const Terms& terms) {
   EnclosedSum sum;
@@ -130,8 +132,8 @@ class SceneAreas {
  private:
   static std::uint64_t parts(const TriangleSource& triangles) {
     const std::uint64_t runs = triangles.objects().size() > 1 ? triangles.objects().size() + 1 : 1;
-    return ProjectedScene::parts(triangles) + runs * PlaneAreas::parts + triangles.count() / chunk +
-           1;
+    return ProjectedScene::parts(triangles) + runs * PlaneAreas::parts +
+           triangles.count() / chunk / chunks_per_report + 1;
   }
 
   void add_unoccluded(VisibleAreas& result) {
@@ -142,7 +144,7 @@ class SceneAreas {
            ++number) {
         result.triangles[number] = rounded(Ratio(), unoccluded_area(scene_, number));
       }
-      done_.part_done();
+      if (k % chunks_per_report == 0) done_.part_done();
     });
   }
 

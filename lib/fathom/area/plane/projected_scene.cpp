@@ -60,8 +60,25 @@ class ProjectedScene::VertexNumbers {
   std::unordered_multimap<std::size_t, std::uint32_t> by_hash_;
 };
 
-std::uint64_t ProjectedScene::parts(const TriangleSource& triangles) {
+namespace {
+
+std::uint64_t chunks_of(const TriangleSource& triangles) {
   return triangles.count() / triangles_of_chunk + 1;
+}
+
+/// Reports the share of `steps` that piece number `piece` of `pieces` is.
+void report_piece(Progress& progress, std::uint64_t steps, std::uint64_t piece,
+                  std::uint64_t pieces) {
+  for (std::uint64_t k = steps * piece / pieces; k < steps * (piece + 1) / pieces; ++k) {
+    progress.part_done();
+  }
+}
+
+}  // namespace
+
+/// Transforming vertices, numbering them and classifying triangles take about as long.
+std::uint64_t ProjectedScene::parts(const TriangleSource& triangles) {
+  return 2 * (triangles.count() / triangles_of_chunk) + chunks_of(triangles);
 }
 
 ProjectedScene::ProjectedScene(const CoverageFrame& frame, Progress& progress)
@@ -74,10 +91,10 @@ ProjectedScene::ProjectedScene(const CoverageFrame& frame, Progress& progress)
   {
     VertexNumbers numbers(*this);
     frame.triangles.for_each_part(triangles_in_memory, [&](const TriangleSource::Part& part) {
-      add_part(frame, part, numbers);
+      add_part(frame, part, numbers, progress);
     });
   }
-  parallel_for(std::uint64_t{0}, parts(frame.triangles), [&](std::uint64_t k) {
+  parallel_for(std::uint64_t{0}, chunks_of(frame.triangles), [&](std::uint64_t k) {
     const auto end = std::min<std::uint64_t>(count(), (k + 1) * triangles_of_chunk);
     for (std::uint64_t number = k * triangles_of_chunk; number < end; ++number) {
       check_interruption();
@@ -107,13 +124,16 @@ ProjectedScene::ProjectedScene(const CoverageFrame& frame, Progress& progress)
 }
 
 void ProjectedScene::add_part(const CoverageFrame& frame, const TriangleSource::Part& part,
-                              VertexNumbers& numbers) {
+                              VertexNumbers& numbers, Progress& progress) {
   const std::size_t count = part.mesh.vertices.size();
+  const std::size_t chunks = count / triangles_of_chunk + 1;
+  const std::uint64_t end = part.first_number + part.mesh.triangles.size();
+  const std::uint64_t steps = end / triangles_of_chunk - part.first_number / triangles_of_chunk;
   std::vector<ExactVertex> exact(count);
   std::vector<BoundedPoint> points(count);
   std::vector<Interval> depths(count);
   const Camera& camera = frame.camera;
-  in_parallel(count / triangles_of_chunk + 1, [&](std::size_t k) {
+  in_parallel(chunks, [&](std::size_t k) {
     for (std::size_t i = k * triangles_of_chunk; i < std::min(count, (k + 1) * triangles_of_chunk);
          ++i) {
       check_interruption();
@@ -124,11 +144,13 @@ void ProjectedScene::add_part(const CoverageFrame& frame, const TriangleSource::
       points[i] = bounded_point(enclose(image.U), enclose(image.V), enclose(image.W));
       exact[i] = {std::move(image.U), std::move(image.V), std::move(p.z)};
     }
+    report_piece(progress, steps, k, chunks);
   });
   std::vector<std::uint32_t> number_of(count);
   for (std::size_t i = 0; i < count; ++i) {
     check_interruption();
     number_of[i] = numbers.of(std::move(exact[i]), points[i], depths[i]);
+    report_piece(progress, steps, i, count);
   }
   std::uint32_t number = part.first_number;
   for (const CornerIndices& triangle : part.mesh.triangles) {

@@ -30,7 +30,7 @@ enum class TriangleExtent : std::uint8_t { none, within_image, elsewhere };
 /// Does not store exact forms of regular triangles, which are computed on demand.
 class ProjectedScene {
  public:
-  /// Reports count() parts of its work to `progress`.
+  /// Reports the parts() of its work to `progress`.
   ProjectedScene(const CoverageFrame& frame, Progress& progress);
   static std::uint64_t parts(const TriangleSource& triangles);
 
@@ -76,7 +76,7 @@ class ProjectedScene {
   class VertexNumbers;
 
   void add_part(const CoverageFrame& frame, const TriangleSource::Part& part,
-                VertexNumbers& numbers);
+                VertexNumbers& numbers, Progress& progress);
   void classify(const CoverageFrame& frame, std::uint32_t number);
   [[nodiscard]] Sign orientation_of(const CornerIndices& corners) const;
 
