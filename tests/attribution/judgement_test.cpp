@@ -202,6 +202,23 @@ TEST(Judgement, AnotherSceneOfAnotherSizeHasTheSizes) {
               StartsWith("the map has 120x160 pixels, the camera 160x120; neither outlines nor"));
 }
 
+TEST(Judgement, AsksWhetherIntegersAreCodesOfADepthBuffer) {
+  const Scene scene = bench::as_scene({bench::sphere(128)}, "sphere");
+  OtherMap map{.width = 2, .height = 1, .depths = {9, 16777215}, .values = {9, 16777215}};
+  map.triangles = {9, 16777215};
+  const auto refusal = [&] {
+    try {
+      (void)judge_map("map", map, scene, Camera(), std::nullopt);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(refusal(), testing::HasSubstr("codes of a depth buffer? decode them"));
+  map.values[0] = map.depths[0] = 2.5;  // depths and triangles in two channels
+  EXPECT_THAT(refusal(), testing::EndsWith("expected the SCENE that it was drawn from"));
+}
+
 TEST(ForeignValues, OfCodesThereAreNoneInTheirOwnStorage) {
   const auto truth = sphere_seen_by(sphere_camera(0.1, 20));
   const Camera& camera = truth->camera;

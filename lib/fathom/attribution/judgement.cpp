@@ -85,14 +85,22 @@ void note_clip_planes(Judgement& judgement) {
        .pixels = unexplained(judgement)});
 }
 
+/// A map whose only channel holds integers shows them as depths and as triangles.
+std::string hint_of_codes(const OtherMap& other) {
+  const bool is_one_channel = std::ranges::equal(other.values, other.triangles);
+  return is_one_channel ? ", or a map of depths; codes of a depth buffer? decode them: in Python, "
+                          "fathom.DepthFormat(...).decode(codes)"
+                        : "";
+}
+
 /// Identifiers are indices of the scene's triangles from here on.
 void require_known_triangles(const std::string& name, const OtherMap& other, const Scene& scene) {
   const std::uint64_t count = triangle_count(scene);
   for (const std::uint32_t triangle : other.triangles) {
     if (triangle == no_surface || triangle < count) continue;
     throw InputError(fmt::format(
-        "{}: shows triangle {}, but the scene has {}; expected the SCENE that it was drawn from",
-        name, triangle, count));
+        "{}: shows triangle {}, but the scene has {}; expected the SCENE that it was drawn from{}",
+        name, triangle, count, hint_of_codes(other)));
   }
 }
 
