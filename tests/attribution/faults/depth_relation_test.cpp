@@ -39,6 +39,19 @@ TEST(DepthRelation, NamesTheFormula) {
   EXPECT_EQ(logarithm[0].kind, "decoding");
 }
 
+TEST(DepthRelation, WritesSignsAndLeavesOutLostTerms) {
+  const auto text = [](auto stored) {
+    const auto found = relations_of(stored);
+    return found.empty() ? "" : found[0].text;
+  };
+  EXPECT_THAT(text([](double d) { return 0.1001 / d - 0.001001; }),
+              testing::HasSubstr("stored = 0.1001/depth - 0.001001"));
+  EXPECT_THAT(text([](double d) { return 3 / d + 1e-12; }), testing::EndsWith("stored = 3/depth"));
+  EXPECT_THAT(text([](double d) { return 1 - 2e-16 * d; }),
+              testing::StartsWith("the channel hardly depends on depth: it is 1 nearly everywhere; "
+                                  "expected the channel of depths"));
+}
+
 TEST(DepthRelation, SaysWhatTheConstantsMean) {
   const double a = 20 / 19.5, b = -10 / 19.5;  // of near 0.5 and far 20
   const auto window = relations_of([&](double d) { return a + b / d; });

@@ -216,6 +216,36 @@ bool is_as_good(const std::vector<Pair>& pairs, const Line& line, const Line& fi
          std::max(1.5 * median_residual(pairs, fitted), step / 2 / typical);
 }
 
+/// Below this share of another term, a term is lost when binary32 stores the sum.
+constexpr double lost_share = unit_roundoff<float>;
+
+/// The line in words; a term that is lost beside the other is left out.
+std::string text_of(const Form& form, const Line& line, const std::vector<Pair>& pairs) {
+  double least = infinity, greatest = 0;
+  for (const Pair& p : pairs) {
+    least = std::min(least, std::abs(line.alpha * p.x));
+    greatest = std::max(greatest, std::abs(line.alpha * p.x));
+  }
+  std::string pattern = form.text;
+  const std::size_t sum = pattern.find(" + {");
+  if (sum != std::string::npos) {
+    if (greatest <= lost_share * std::abs(line.beta)) {
+      return fmt::format(
+          "the channel hardly depends on depth: it is {:.6g} nearly everywhere; "
+          "expected the channel of depths",
+          form.stored == DepthTerm::inverse     ? 1 / line.beta
+          : form.stored == DepthTerm::logarithm ? std::exp(line.beta)
+                                                : line.beta);
+    }
+    if (std::abs(line.beta) <= lost_share * least) {
+      pattern.erase(sum);
+    } else if (line.beta < 0) {
+      pattern[sum + 1] = '-';
+    }
+  }
+  return fmt::format(fmt::runtime(pattern), line.alpha, std::abs(line.beta));
+}
+
 std::optional<DepthRelation> related(const Truth& truth, const OtherMap& other, const Form& form) {
   const std::vector<Pair> pairs = pairs_of(truth, other, form);
   std::optional<Line> line = robust_fit(pairs, form);
@@ -244,8 +274,7 @@ std::optional<DepthRelation> related(const Truth& truth, const OtherMap& other, 
   if (static_cast<double>(relation.pixels) < agreeing_share * static_cast<double>(pairs.size())) {
     return std::nullopt;
   }
-  relation.text = fmt::format(fmt::runtime(form.text), line->alpha, line->beta) +
-                  meaning_of(form, *line, truth.camera);
+  relation.text = text_of(form, *line, pairs) + meaning_of(form, *line, truth.camera);
   if (relation.recorded.step > 0) {
     relation.text += relation.recorded.step == 1
                          ? ", in whole numbers"
