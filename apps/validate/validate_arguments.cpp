@@ -121,9 +121,11 @@ void ValidateArguments::add_to(Command& command) {
                     "Write report.json and report.html to this folder; with --colour, colours.json "
                     "and pictures; with --rays, rays.json; with --lenses, lenses.json; with "
                     "--render, the map to this file");
-  command.option("--baseline", "REPORT", baseline,
-                 "Compare with an earlier report.json; exit status 1 if a result became worse; "
-                 "with --output also writes comparison.html");
+  command.option(
+      "--baseline", "REPORT", baseline,
+      "Compare with an earlier report.json; exit status 1 only if a result became worse, "
+      "or is wrong and not in the earlier report; "
+      "with --output also writes comparison.html");
   command.option("--junit", "FILE", junit, "Also write a JUnit XML file for CI services");
   command.flag("--ctest", for_ctest,
                "Print the verdict of --map in the first line, with measurements and pictures for "

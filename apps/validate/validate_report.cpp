@@ -82,9 +82,13 @@ std::string lines_of(const std::vector<ValidationCase>& cases) {
 std::string lines_for_ctest(const ValidationCase& c, const std::string& cause,
                             const std::string& more, const std::string& folder) {
   const std::filesystem::path out(folder);
-  std::string text;
-  text += (cause.empty() ? validation::verdict_of(c) : cause) + "\n";
-  text += line_of(c, !c.is_good()) + more;
+  const std::string verdict = validation::verdict_of(c);
+  const bool is_accepted = cause.empty() && !c.is_good();
+  std::string text = (is_accepted     ? "no worse than the baseline: " + verdict
+                      : cause.empty() ? verdict
+                                      : cause) +
+                     "\n";
+  text += line_of(c, !c.is_good() && (is_accepted || cause == verdict)) + more;
   if (!cause.empty()) {
     constexpr std::size_t listed_pixels = 8;
     for (const std::size_t i :
@@ -110,9 +114,18 @@ void write_picture(const std::optional<OutputFile>& file, const RgbImage& pictur
   file->write([&](const std::filesystem::path& path) { write_png(picture, path); });
 }
 
+/// Whether case number i is wrong. If a baseline has it, only what changed counts.
+bool counts_as_wrong(const std::vector<ValidationCase>& cases, std::size_t i,
+                     const Comparison* comparison) {
+  if (!cases[i].is_done() || cases[i].is_good()) return false;
+  // A comparison begins with this run's results, in their order.
+  return comparison == nullptr || comparison->changes[i].verdict == Verdict::appeared;
+}
+
 int status_of(const std::vector<ValidationCase>& cases, const Comparison* comparison) {
-  const auto is_wrong = [](const ValidationCase& c) { return c.is_done() && !c.is_good(); };
-  if (std::any_of(cases.begin(), cases.end(), is_wrong)) return answer_is_no;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (counts_as_wrong(cases, i, comparison)) return answer_is_no;
+  }
   if (comparison != nullptr && comparison->count(Verdict::worse) > 0) return answer_is_no;
   const auto is_done = [](const ValidationCase& c) { return c.is_done(); };
   if (!std::all_of(cases.begin(), cases.end(), is_done)) return unusable_input;
@@ -182,8 +195,9 @@ int ValidationReport::finish(const std::vector<ValidationCase>& cases) {
     obstacle = obstacle_of(*comparison);
     if (!obstacle.empty()) changes += obstacle + "\n";
   }
-  std::string cause =
-      for_ctest_ && !cases.front().is_good() ? validation::verdict_of(cases.front()) : "";
+  std::string cause = for_ctest_ && counts_as_wrong(cases, 0, comparison)
+                          ? validation::verdict_of(cases.front())
+                          : "";
   if (cause.empty() && comparison != nullptr) cause = comparison->regression();
   if (cause.empty()) cause = obstacle;
   write_files(cases, comparison);

@@ -89,16 +89,17 @@ std::string details_of(const ValidationCase& c) {
 
 std::optional<Complaint> complaint_about(const ValidationCase& c, const ResultChange* change) {
   if (!c.is_done()) return Complaint{"error", "not drawn", cause_of(c), ""};
-  if (!c.is_good()) {
+  // Without a baseline, every result is new.
+  const Verdict verdict = change != nullptr ? change->verdict : Verdict::appeared;
+  if (verdict == Verdict::incomparable) {
+    return Complaint{"error", "not comparable", change->obstacle, ""};
+  }
+  if (!c.is_good() && (verdict == Verdict::appeared || verdict == Verdict::worse)) {
     const auto& findings = c.attribution.findings;
     return Complaint{"failure", findings.empty() ? "unexplained" : findings.front().kind,
                      verdict_of(c), details_of(c)};
   }
-  if (change == nullptr) return std::nullopt;
-  if (change->verdict == Verdict::incomparable) {
-    return Complaint{"error", "not comparable", change->obstacle, ""};
-  }
-  if (change->verdict != Verdict::worse) return std::nullopt;
+  if (verdict != Verdict::worse) return std::nullopt;
   std::string details;
   for (const std::string& clause : change->worse) details += clause + "\n";
   return Complaint{"failure", "worse", "worse than the baseline: " + change->worse.front(),

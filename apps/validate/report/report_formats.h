@@ -47,9 +47,9 @@ std::string to_html(const Comparison& comparison);
 
 /// A JUnit XML file for CI services: a test suite for each scene, and a test case for each renderer
 /// and variant, with the number of pixels of each class as properties and with its time if it was
-/// measured. Unexplained pixels and findings are a `failure` (message: verdict_of()), and so is a
-/// result that got worse than in the comparison. A map that was not drawn, or a result that cannot
-/// be compared, is an `error`.
+/// measured. A result with unexplained pixels or findings is a `failure` (message: verdict_of()),
+/// unless the comparison contains it and it is no worse; so is a result that got worse. A map that
+/// was not drawn, or a result that cannot be compared, is an `error`.
 /// Needs    the comparison, if there is one, to be of the same cases.
 std::string to_junit(const std::vector<ValidationCase>& cases, const Comparison* comparison);
 

@@ -206,6 +206,25 @@ TEST_F(ValidateProgram, HoldsARunAgainstAnEarlierOne) {
   EXPECT_THAT(worse.out, HasSubstr("worse than the baseline: cube, map gl-unorm24: "));
 }
 
+TEST_F(ValidateProgram, FailsWithABaselineOnlyWhereSomethingGotWorse) {
+  ASSERT_EQ(validate("aside.exr", {"--out", "bad"}).status, 1);
+  const Outcome same = validate("aside.exr", {"--baseline", "bad/report.json", "--junit", "j.xml"});
+  EXPECT_EQ(same.status, 0) << same.out;
+  EXPECT_THAT(same.out, testing::StartsWith("failed: the image is shifted by"));
+  EXPECT_THAT(same.out, HasSubstr("baseline: 0 worse, 0 better, 0 changed, 1 same"));
+  EXPECT_THAT(folder.read("j.xml"), testing::Not(HasSubstr("<failure")));
+  const Outcome test =
+      validate("aside.exr", {"--baseline", "bad/report.json", "--ctest", "--out", "test"});
+  EXPECT_EQ(test.status, 0);
+  EXPECT_THAT(test.out,
+              testing::StartsWith("no worse than the baseline: failed: the image is shifted by"));
+  // A result that the baseline lacks is judged alone.
+  nlohmann::json other = nlohmann::json::parse(folder.read("bad/report.json"));
+  other["results"][0]["scene"] = "another";
+  folder.write("other.json", other.dump());
+  EXPECT_EQ(validate("aside.exr", {"--baseline", "other.json"}).status, 1);
+}
+
 TEST_F(ValidateProgram, SaysAndShowsWhatChangedSinceABaseline) {
   ASSERT_EQ(validate("map.exr", {"--out", "good"}).status, 0);
   const Outcome worse = validate("aside.exr", {"--baseline", "good/report.json", "--out", "bad"});
