@@ -75,7 +75,7 @@ std::string html_paragraph(const std::string& text) {
 
 std::string html_plot(const std::string& name, const std::string& caption) {
   const std::string before_command = caption.ends_with('.') ? " " : ": ";
-  return "<figure><a href=\"" + name + ".svg\">" + image(name, caption) + "</a>" +
+  return "<figure class=\"plot\"><a href=\"" + name + ".svg\">" + image(name, caption) + "</a>" +
          text_element("figcaption", caption + before_command + "`gnuplot " + name + ".gp`") +
          "</figure>\n";
 }
@@ -115,7 +115,10 @@ std::string html_document(const std::string& title, const std::string& body) {
          "text-align:right}td:not(:first-child){white-space:nowrap}td:first-child,th:first-child{"
          "text-align:left}"
          "img{max-width:100%;background:#fff}@media(max-width:30em){td,th{padding:0.2em "
-         "0.3em}}</style></head>\n<body>\n" +
+         "0.3em}}"
+         // Plots keep a readable size on narrow screens, and get dark paper with each hue kept.
+         ".plot{overflow-x:auto}.plot img{min-width:50rem}@media(prefers-color-scheme:dark){"
+         ".plot img{filter:invert(.88) hue-rotate(180deg)}}</style></head>\n<body>\n" +
          body + "</body></html>\n";
 }
 

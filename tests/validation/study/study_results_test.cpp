@@ -110,7 +110,8 @@ TEST(StudyPage, BlocksAndPlaceholders) {
       html.substr(html.find("<body>\n")),
       "<body>\n<h1>The {{a}} &amp; b title</h1>\n"
       "<p>A paragraph of two lines, {{a}} &amp; b &lt; all.</p>\n<h2>Next</h2>\n"
-      "<figure><a href=\"drawn.svg\"><img src=\"drawn.png\" alt=\"Caption of {{a}} &amp; "
+      "<figure class=\"plot\"><a href=\"drawn.svg\">"
+      "<img src=\"drawn.png\" alt=\"Caption of {{a}} &amp; "
       "b\"></a><figcaption>Caption of {{a}} &amp; b: <code>gnuplot drawn.gp</code></figcaption>"
       "</figure>\n"
       "<figure class=\"small\"><img src=\"seen.png\" alt=\"Seen\"><figcaption>Seen: "
@@ -151,7 +152,7 @@ TEST(StudyPage, WhatIsThereDecides) {
   EXPECT_THAT(shown(true, false),
               HasSubstr("<figcaption>P: <code>gnuplot p.gp</code></figcaption>"));
   EXPECT_EQ(html_plot("p", "One. Two."),
-            "<figure><a href=\"p.svg\"><img src=\"p.png\" alt=\"One. Two.\"></a>"
+            "<figure class=\"plot\"><a href=\"p.svg\"><img src=\"p.png\" alt=\"One. Two.\"></a>"
             "<figcaption>One. Two. <code>gnuplot p.gp</code></figcaption></figure>\n");
   EXPECT_THAT(shown(true, false), Not(HasSubstr("Nothing.")));
   EXPECT_THAT(shown(false, true), HasSubstr("<p>Nothing.</p>\n<p>Always.</p>\n<p>7 left.</p>\n"));
