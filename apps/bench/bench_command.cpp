@@ -53,6 +53,9 @@ Peers parse_peers(const std::string& list) {
   return peers;
 }
 
+/// Names of `fathom validate` for scenes that have other names here.
+constexpr OtherName scenes_of_validate[] = {{"spot", "mesh"}};
+
 std::vector<std::string> parse_scenes(const std::string& list) {
   std::vector<std::string> names = parse_list(list);
   for (const std::string& name : names) {
@@ -60,9 +63,10 @@ std::vector<std::string> parse_scenes(const std::string& list) {
     if (!bench::is_made_scene(name) && !is_file) {
       std::vector<std::string> existing = bench::default_scene_names();
       existing.emplace_back("room-outside");
-      throw UnknownName(fmt::format("there is no scene '{}'; there are {}, sphere-N and mesh files",
-                                    name, joined(existing, ", ")),
-                        name, existing);
+      throw unknown_name(
+          fmt::format("there is no scene '{}'; there are {}, sphere-N and mesh files", name,
+                      joined(existing, ", ")),
+          name, existing, scenes_of_validate);
     }
   }
   return names;

@@ -1,4 +1,5 @@
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 
 #include "apps/commands.h"
 #include "apps/options/depth_format_options.h"
+#include "apps/shell/console.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
@@ -176,7 +178,10 @@ bool read_line(std::string& line) {
 }
 
 /// Reads one value per line from standard input and prints one answer per line, each at once.
-void answer_lines(const DepthFormat& format, const DepthArguments& arguments, Ask ask) {
+void answer_lines(const DepthFormat& format, const DepthArguments& arguments, Ask ask,
+                  const Console& console) {
+  if (!console.quiet && ::isatty(STDIN_FILENO) == 1)
+    console.note("reading VALUEs from standard input, one per line");
   std::string line;
   for (std::size_t number = 1; read_line(line); ++number) {
     const std::string text(text::trimmed(line));
@@ -191,10 +196,10 @@ void answer_lines(const DepthFormat& format, const DepthArguments& arguments, As
   }
 }
 
-int answer_all(const DepthArguments& arguments, Ask ask) {
+int answer_all(const DepthArguments& arguments, Ask ask, const Console& console) {
   const DepthFormat format = arguments.format.format();
   if (arguments.values.empty()) {
-    answer_lines(format, arguments, ask);
+    answer_lines(format, arguments, ask, console);
     return done;
   }
   std::string text;
@@ -214,8 +219,9 @@ void add_question(Command& depth, const DepthCommand& question) {
                "Print one JSON object per line with all details; null is infinity");
   command.arguments("VALUE", arguments->values, question.values);
   command.answers_on_standard_output();
-  command.runs(
-      [arguments, ask = question.ask](const Console&) { return answer_all(*arguments, ask); });
+  command.runs([arguments, ask = question.ask](const Console& console) {
+    return answer_all(*arguments, ask, console);
+  });
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "fathom/files/input_file.h"
 #include "fathom/image/directions.h"
 #include "fathom/image/map_files.h"
+#include "fathom/mesh_files/read_mesh.h"
 #include "fathom/scene/framing.h"
 #include "fathom/text/counted.h"
 #include "fathom/text/printable.h"
@@ -69,6 +70,15 @@ bool looks_like_nerf(std::string_view text) {
          has("\"transform_matrix\"");
 }
 
+/// Whether a file is a mesh that is not JSON, which a camera file may be.
+bool is_mesh(const files::InputFile& input, const std::string& file) {
+  const std::size_t first = input.text().find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos || input.text()[first] == '{' || input.text()[first] == '[') {
+    return false;
+  }
+  return !is_map(input.bytes()) && mesh_files::recognise_format(input.bytes(), file);
+}
+
 /// The cameras of a camera file or a map, without fault.
 std::vector<Camera> read_any_cameras(const std::string& file, const DirectionReader& directions,
                                      const Console& console) {
@@ -85,6 +95,10 @@ std::vector<Camera> read_any_cameras(const std::string& file, const DirectionRea
         "{0}: is a transforms.json of NeRF, expected a camera file; 'fathom camera import nerf {0} "
         "-o cameras.json' makes one",
         file));
+  }
+  if (is_mesh(input, file)) {
+    throw InputError(file +
+                     ": is a mesh, expected a camera file or a map that contains its camera");
   }
   Warnings warnings;
   std::vector<Camera> cameras = is_map(input.bytes())

@@ -1,5 +1,7 @@
 #include "apps/options/depth_format_options.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -38,6 +40,12 @@ DepthFormat DepthFormatOptions::format() const {
 }
 
 void require_constant_of(Mapping mapping, const std::optional<double>& c) {
+  if (c && !(*c > 0)) {
+    throw UsageError(
+        fmt::format("--c: {} is not positive; expected the constant C of --mapping log, "
+                    "e.g. 1",
+                    *c));
+  }
   if (!c || mapping == Mapping::log) return;
   throw UsageError("--c: mapping " + std::string(name_of(mapping)) +
                    " has no constant C; --c is only for --mapping log");

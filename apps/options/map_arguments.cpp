@@ -1,5 +1,7 @@
 #include "apps/options/map_arguments.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -32,6 +34,12 @@ MapMemory allowed_memory() {
 std::vector<Channel> parse_channels(const std::string& list) {
   return parse_distinct(list, [](const std::string& name) {
     if (const std::optional<Channel> channel = channel_named(name)) return *channel;
+    if (!meaning_of(name).empty()) {
+      throw UsageError(fmt::format(
+          "{} is a channel of a depth buffer: 'fathom render --depth-format NAME' adds Zwindow and "
+          "Zdecoded, with --against-exact also Zerror, Zwinner and Zfight",
+          name));
+    }
     throw unknown_channel(name);
   });
 }

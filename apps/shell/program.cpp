@@ -101,7 +101,9 @@ std::vector<std::string> commands_below(const CLI::App& command) {
 }
 
 std::string unknown_command(const std::string& name, const std::vector<std::string>& existing) {
-  const std::string suggestion = behind_name(nearest_names(name, existing));
+  std::vector<std::string> meant = nearest_names(name, existing);
+  if (name == "explain") meant = {"probe", "validate"};
+  const std::string suggestion = behind_name(meant);
   return fmt::format("there is no command '{}'{} {}", name,
                      suggestion.empty() ? "; the commands are" : suggestion + " The commands are",
                      joined(existing));
@@ -186,6 +188,15 @@ std::string names_above(const CLI::App& command) {
   return parent == nullptr ? "" : names_above(*parent) + parent->get_name() + " ";
 }
 
+/// What CLI11 says, in Fathom's words where its own are hard to understand.
+std::string said_by(const CLI::ParseError& error) {
+  const std::string message = error.what();
+  const std::size_t at = message.find(": At Most 1 required but received ");
+  if (at == std::string::npos) return message;
+  return message.substr(0, at) + " is given " + message.substr(message.rfind(' ') + 1) +
+         " times, expected once";
+}
+
 /// Reports misspelt arguments before missing ones.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = chosen_command(app);
@@ -195,7 +206,7 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
     message = "'" + names_above(command) + command.get_name() +
               "' needs a command: " + joined(below, " or ");
   }
-  return (message.empty() ? error.what() : message) + "; see '" + names_above(command) +
+  return (message.empty() ? said_by(error) : message) + "; see '" + names_above(command) +
          command.get_name() + " --help'";
 }
 

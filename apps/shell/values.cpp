@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -21,6 +22,21 @@ bool read_whole(std::string_view text, Number& value) {
   if (text.starts_with('+')) text.remove_prefix(1);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size();
+}
+
+/// If the text is a number and a unit, how to write it without the unit.
+std::string hint_of_unit(const std::string& text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || !std::isfinite(value)) return "";
+  const std::string_view unit(rest, static_cast<std::size_t>(end - rest));
+  if (unit == "%") return fmt::format("; {} is a fraction: {}", text, value / 100);
+  constexpr std::string_view units[] = {"mm", "cm",  "m",   "km", "in", "ft",
+                                        "px", "deg", "rad", "°",  "s",  "ms"};
+  if (std::ranges::find(units, unit) == std::end(units)) return "";
+  return fmt::format("; leave out '{}': lengths are in units of the scene, angles in degrees",
+                     unit);
 }
 
 template <std::size_t N>
@@ -47,8 +63,8 @@ std::array<std::uint32_t, 2> parse_two_counts(std::string_view text, char separa
 
 double parse_number(const std::string& text) {
   double value = 0;
-  if (!read_whole(text, value) || !std::isfinite(value)) refuse(text, "a finite number");
-  return value;
+  if (read_whole(text, value) && std::isfinite(value)) return value;
+  refuse(text, "a finite number" + hint_of_unit(text));
 }
 
 double parse_number_or(const std::string& text, Words<double> words) {

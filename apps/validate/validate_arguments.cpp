@@ -162,7 +162,10 @@ ValidationScene named_by_files(const ValidateArguments& arguments, const Console
 Camera read_camera(const ValidateArguments& arguments, const std::string& map,
                    const Console& console) {
   const std::string& file = arguments.camera;
-  if (file.empty()) throw UsageError("--camera FILE is missing");
+  if (file.empty()) {
+    throw UsageError(
+        fmt::format("--camera FILE is missing; if the map contains its camera: --camera {}", map));
+  }
   const std::vector<Camera> cameras = read_cameras_with_lenses(file, arguments.limits, console);
   if (cameras.size() > 1 && !map.empty()) return camera_called_as(map, cameras);
   if (cameras.size() != 1) {

@@ -57,6 +57,46 @@ TEST_F(Mistakes, AMapAsTheCameraGivesItsCamera) {
             "map.npy: the map carries no camera, expected a camera file\n");
 }
 
+TEST_F(Mistakes, AMeshAsTheCameraIsNamed) {
+  EXPECT_EQ(refusal({"render", "square.obj", "--camera", "square.obj", "-o", "no.exr"}, 3),
+            "square.obj: is a mesh, expected a camera file or a map that contains its camera\n");
+  folder_.write("bad.json", "{\"width\": 5,");
+  EXPECT_THAT(refusal({"render", "square.obj", "--camera", "bad.json", "-o", "no.exr"}, 3),
+              HasSubstr("bad.json: line 1: not JSON"));
+}
+
+TEST_F(Mistakes, UnitsAreLeftOut) {
+  const auto render = [&](const std::string& option, const std::string& value) {
+    return refusal({"render", "square.obj", option, value, "-o", "no.exr"}, 2);
+  };
+  EXPECT_EQ(render("--fov", "0.7rad"),
+            "--fov: '0.7rad' is not a finite number; leave out 'rad': lengths are in units of the "
+            "scene, angles in degrees\n");
+  EXPECT_THAT(render("--near", "10cm"), HasSubstr("leave out 'cm'"));
+  EXPECT_EQ(render("--near", "10x"), "--near: '10x' is not a finite number\n");
+  EXPECT_EQ(refusal({"compare", "a.exr", "b.exr", "--relative", "1%"}, 2),
+            "--relative: '1%' is not a finite number; 1% is a fraction: 0.01\n");
+}
+
+TEST_F(Mistakes, OptionsGivenTwiceAreCounted) {
+  EXPECT_EQ(refusal({"render", "square.obj", "--camera", "camera.json", "--camera", "camera.json",
+                     "-o", "no.exr"},
+                    2),
+            "--camera is given 2 times, expected once; see 'fathom render --help'\n");
+}
+
+TEST_F(Mistakes, NamesOfOtherPlacesLeadToFathoms) {
+  EXPECT_THAT(refusal({"explain"}, 2),
+              StartsWith("there is no command 'explain': did you mean 'probe' or 'validate'?"));
+  EXPECT_THAT(refusal({"render", "square.obj", "--channels", "Z,Zfight", "-o", "no.exr"}, 2),
+              AllOf(StartsWith("--channels: Zfight is a channel of a depth buffer: "),
+                    HasSubstr("--against-exact")));
+  EXPECT_EQ(refusal({"depth", "encode", "--near", "1", "--far", "9", "--storage", "unorm24",
+                     "--mapping", "log", "--c", "0", "5"},
+                    2),
+            "--c: 0 is not positive; expected the constant C of --mapping log, e.g. 1\n");
+}
+
 TEST_F(Mistakes, ConvertStoresTheCameraThatItIsGiven) {
   expect_done({"render", "square.obj", "--camera", "camera.json", "-o", "map.npy"});
   const Outcome truth =

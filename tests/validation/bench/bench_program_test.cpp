@@ -151,6 +151,7 @@ INSTANTIATE_TEST_SUITE_P(
     All, BenchRefuses,
     testing::Values(
         Refused{"Scene", small({"--scene", "sphere"}), 2, "there is no scene 'sphere'"},
+        Refused{"SceneOfValidate", small({"--scene", "spot"}), 2, "did you mean 'mesh'?"},
         Refused{"SphereOfNothing", small({"--scene", "sphere-0"}), 2, "sphere-0"},
         Refused{"Peer", {"bench", "--peers", "opengl"}, 2, "'opengl' is not one of"},
         Refused{"Size", {"bench", "--size", "40"}, 2, "--size"},

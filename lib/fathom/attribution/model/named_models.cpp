@@ -66,6 +66,20 @@ std::vector<std::string> models_with_storage(const std::string& name) {
   return names;
 }
 
+/// The models of the renderer and the bits of a name like "gl24" or "vtk-32".
+std::vector<std::string> models_in_short(const std::string& name) {
+  const std::size_t bits = name.find_first_of("0123456789");
+  std::string renderer = name.substr(0, bits);
+  if (renderer.ends_with('-')) renderer.pop_back();
+  std::vector<std::string> names;
+  if (bits == std::string::npos || renderer.empty()) return names;
+  for (const RendererModel& model : named_models()) {
+    const bool is_of_renderer = model.name.starts_with(renderer + "-");
+    if (is_of_renderer && model.name.ends_with(name.substr(bits))) names.push_back(model.name);
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<RendererModel> named_models() {
@@ -111,7 +125,8 @@ UnknownName unknown_model(const std::string& name, const std::vector<std::string
   std::string message = "there is no model '" + name + "'; there are " + model_names();
   for (const std::string& other : more) message += "; " + other;
   for (const RendererModel& model : named_models()) names.push_back(model.name);
-  const std::vector<std::string> meant = models_with_storage(name);
+  std::vector<std::string> meant = models_with_storage(name);
+  if (meant.empty()) meant = models_in_short(name);
   if (!meant.empty()) return {message + "; " + did_you_mean(meant), name, names};
   return unknown_name(message, name, names, renderer_names);
 }
