@@ -133,7 +133,7 @@ int validate_against(const ValidateArguments& arguments, const Console& console)
     cases = draw_all(scenes, peers, arguments.time_limit(), progress.reporter());
   }
   judge_all(cases, scenes, arguments.model, console);
-  return report.finish(cases);
+  return report.finish(cases, console);
 }
 
 namespace {

@@ -66,6 +66,11 @@ ValidationCase judge_brought(const ValidateArguments& arguments, const Console& 
   const Camera camera = read_camera(arguments, arguments.map, console);
   // Faults of the arguments are reported before the files are read.
   const std::string name = arguments.model.empty() ? any_model : arguments.model;
+  if (name == matching) {
+    throw UsageError(
+        "--model matching: judges each renderer of --against by its own model; expected a model "
+        "of the map's renderer, or auto");
+  }
   std::optional<attribution::RendererModel> model;
   if (name != any_model) model = attribution::model_for(name, camera);
   DepthMap map = read_map_argument(arguments.map);
@@ -91,7 +96,7 @@ int validate_map(const ValidateArguments& arguments, const Console& console) {
   Stopwatch watch;
   std::vector<ValidationCase> cases{judge_brought(arguments, console)};
   cases.front().seconds = watch.lap();
-  return report.finish(cases);
+  return report.finish(cases, console);
 }
 
 }  // namespace fathom::app

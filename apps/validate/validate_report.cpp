@@ -40,6 +40,9 @@ std::string line_of(const attribution::Finding& f, bool is_said) {
   return text;
 }
 
+/// More lines of evidence for a note are only counted.
+constexpr std::size_t most_evidence = 3;
+
 /// "spot, vtk unorm24: 70000 equal, 20 edge; median bound 3.1e-07 of the depth, 1.20 % of the
 /// pixels undecided". `after_verdict`: its first finding has been said.
 std::string line_of(const ValidationCase& c, bool after_verdict) {
@@ -64,7 +67,12 @@ std::string line_of(const ValidationCase& c, bool after_verdict) {
   }
   for (const attribution::Finding& f : a.notes) {
     text += "  note: " + attribution::finding_text(f) + "\n";
-    for (const std::string& line : f.evidence) text += "    " + line + "\n";
+    const std::size_t shown = std::min(f.evidence.size(), most_evidence);
+    for (std::size_t k = 0; k < shown; ++k) text += "    " + f.evidence[k] + "\n";
+    if (shown < f.evidence.size()) {
+      text += fmt::format("    and {} more, which -o DIR writes to DIR/report.json\n",
+                          f.evidence.size() - shown);
+    }
   }
   return text;
 }
@@ -105,6 +113,10 @@ std::string lines_for_ctest(const ValidationCase& c, const std::string& cause,
 }
 
 validation::Report read_baseline(const std::string& file) {
+  if (const std::filesystem::path inside = std::filesystem::path(file) / "report.json";
+      std::filesystem::exists(inside)) {
+    throw InputError(fmt::format("{}: is a folder, expected its file {}", file, inside.string()));
+  }
   note_input(file);
   return validation::read_report(file);
 }
@@ -185,7 +197,7 @@ std::string ValidationReport::obstacle_of(const Comparison& comparison) const {
                      baseline_name_, obstacle);
 }
 
-int ValidationReport::finish(const std::vector<ValidationCase>& cases) {
+int ValidationReport::finish(const std::vector<ValidationCase>& cases, const Console& console) {
   std::optional<Comparison> compared;
   if (baseline_) compared = validation::compare(*baseline_, validation::reported(cases));
   const Comparison* comparison = compared ? &*compared : nullptr;
@@ -209,6 +221,9 @@ int ValidationReport::finish(const std::vector<ValidationCase>& cases) {
                      : lines_of(cases) + changes);
   }
   commit();
+  if (folder_ && console.shows_progress()) {
+    console.note((std::filesystem::path(out_) / "report.html").string() + " is the page");
+  }
   return status_of(cases, comparison);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/shell/console.h"
 #include "apps/shell/output_file.h"
 #include "apps/validate/report/comparison.h"
 #include "apps/validate/report/validation_case.h"
@@ -42,9 +43,11 @@ class ValidationReport {
 
   /// Prints the verdict, a line for each case and its findings (with --junit - the JUnit XML
   /// instead), puts the files in their places, all or none, and returns the exit status:
-  /// answer_is_no where something is unexplained, wrong or worse than in the baseline,
-  /// unusable_input where a renderer did not draw or the baseline is of other scenes.
-  [[nodiscard]] int finish(const std::vector<validation::ValidationCase>& cases);
+  /// answer_is_no where a result is wrong or, if the baseline has it, worse than there;
+  /// unusable_input where a renderer did not draw or the baseline is of other scenes. On a terminal
+  /// `console` names the page.
+  [[nodiscard]] int finish(const std::vector<validation::ValidationCase>& cases,
+                           const Console& console);
 
  private:
   struct Folder {

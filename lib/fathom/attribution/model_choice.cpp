@@ -257,13 +257,18 @@ std::optional<ModelTrial> Candidates::at_fault() {
   return best;
 }
 
-/// In the order of the trials; a model that judged every pixel has the line of that trial.
+/// Models that judged every pixel come first, with the line of that trial.
 std::vector<std::string> Candidates::evidence() const {
-  std::vector<std::string> lines;
+  std::vector<std::string> lines, of_samples;
   for (const ModelSurvey& survey : surveys_) {
     const ModelTrial* const trial = trial_of(survey);
-    lines.push_back(trial == nullptr ? attribution::text_of(survey) : text_of(*trial));
+    if (trial != nullptr) {
+      lines.push_back(text_of(*trial));
+    } else {
+      of_samples.push_back(attribution::text_of(survey));
+    }
   }
+  lines.insert(lines.end(), of_samples.begin(), of_samples.end());
   return lines;
 }
 

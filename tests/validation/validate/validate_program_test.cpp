@@ -183,10 +183,11 @@ TEST_F(ValidateProgram, SaysWhatEachModelMakesOfTheMap) {
   std::istringstream text(outcome.out);
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) lines.push_back(line);
-  ASSERT_EQ(lines.size(), 10U) << outcome.out;
+  ASSERT_EQ(lines.size(), 7U) << outcome.out;
   EXPECT_EQ(lines[0], "every pixel is explained");
   EXPECT_EQ(lines[2], "  note: taken for float32-ray, the model that fits best (1200 pixels)");
-  EXPECT_THAT(std::vector(lines.begin() + 3, lines.end()),
+  EXPECT_EQ(lines[6], "    and 4 more, which -o DIR writes to DIR/report.json");
+  EXPECT_THAT(std::vector(lines.begin() + 3, lines.begin() + 6),
               testing::Each(testing::MatchesRegex(
                   "    [a-z0-9-]+: (every pixel is explained, bounds .*|a sample is explained, "
                   "bounds .*|[0-9]+ pixels? of a sample unexplained|[0-9]+ pixels? holds? what its "
@@ -390,7 +391,15 @@ TEST_F(ValidateProgram, RefusesInOneLine) {
   expect_refused(run({"--map", "map.exr", "--camera", "camera.json", "--model", "voxel", cube}), 2,
                  "--model: there is no model 'voxel'");
   expect_refused(run({"--map", "map.exr", "--model", "cycles", cube}), 2,
-                 "--camera FILE is missing");
+                 "--camera FILE is missing; if the map contains its camera: --camera map.exr");
+  expect_refused(run({"--map", "map.exr", "--camera", "camera.json", "--model", "gl24", cube}), 2,
+                 "did you mean 'gl-unorm24'?");
+  expect_refused(run({"--map", "map.exr", "--camera", "camera.json", "--model", "matching", cube}),
+                 2, "--model matching: judges each renderer of --against by its own model");
+  std::filesystem::create_directory(folder / "found");
+  folder.write("found/report.json", "");
+  expect_refused(validate("map.exr", {"--baseline", "found"}), 3,
+                 "found: is a folder, expected its file found/report.json");
   expect_refused(run({"--map", "map.exr", "--camera", "camera.json", "--model", "cycles"}), 2,
                  "SCENE is missing");
   expect_refused(validate("map.exr", {"--ctest"}), 2, "--ctest needs -o DIR");
