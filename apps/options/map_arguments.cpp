@@ -34,7 +34,7 @@ MapMemory allowed_memory() {
 std::vector<Channel> parse_channels(const std::string& list) {
   return parse_distinct(list, [](const std::string& name) {
     if (const std::optional<Channel> channel = channel_named(name)) return *channel;
-    if (!meaning_of(name).empty()) {
+    if (added_channel_named(name) != nullptr && name.starts_with('Z')) {
       throw UsageError(fmt::format(
           "{} is a channel of a depth buffer: 'fathom render --depth-format NAME' adds Zwindow and "
           "Zdecoded, with --against-exact also Zerror, Zwinner and Zfight",

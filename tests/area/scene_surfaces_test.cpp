@@ -58,8 +58,8 @@ void check(const Scene& scene, const Camera& camera, Cull cull, int& pairs) {
 // Making surfaces takes about as long as finding pairs among them, which reports every 8 triangles.
 TEST(SceneSurfaces, ReportsAsOftenAsItsUsers) {
   std::mt19937_64 random(163);
-  const Scene scene = testing::soup(random, 1000, false);
-  const Camera camera = testing::camera_of(160, 140, 64);
+  const Scene scene = checks::soup(random, 1000, false);
+  const Camera camera = checks::camera_of(160, 140, 64);
   double last = 0;
   int reports = 0;
   const std::function<void(double)> report = [&](double share) {
