@@ -12,6 +12,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
 #include "fathom/image/channel_names.h"
+#include "fathom/image/channel_table.h"
 #include "fathom/image/cryptomatte.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/map_files.h"
