@@ -1,7 +1,5 @@
 #include "apps/options/map_arguments.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -12,7 +10,6 @@
 #include "fathom/failures/errors.h"
 #include "fathom/files/input_file.h"
 #include "fathom/image/channel_names.h"
-#include "fathom/image/channel_table.h"
 #include "fathom/image/cryptomatte.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/map_files.h"
@@ -35,12 +32,6 @@ MapMemory allowed_memory() {
 std::vector<Channel> parse_channels(const std::string& list) {
   return parse_distinct(list, [](const std::string& name) {
     if (const std::optional<Channel> channel = channel_named(name)) return *channel;
-    if (added_channel_named(name) != nullptr && name.starts_with('Z')) {
-      throw UsageError(fmt::format(
-          "{} is a channel of a depth buffer: 'fathom render --depth-format NAME' adds Zwindow and "
-          "Zdecoded, with --against-exact also Zerror, Zwinner and Zfight",
-          name));
-    }
     throw unknown_channel(name);
   });
 }

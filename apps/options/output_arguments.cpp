@@ -11,6 +11,7 @@
 #include "fathom/failures/errors.h"
 #include "fathom/failures/unknown_name.h"
 #include "fathom/image/channel_names.h"
+#include "fathom/image/channel_table.h"
 #include "fathom/text/printable.h"
 
 namespace fathom::app {
@@ -27,6 +28,11 @@ Named parse_named(const std::string& name) {
   if (const ContentsName* const known = contents_named(name))
     return {known->channel, known->is_mask};
   if (const auto channel = channel_named(name)) return {*channel, false};
+  if (added_channel_named(name) != nullptr && name.starts_with('Z')) {
+    throw UsageError(name +
+                     " is a channel of a depth buffer: --depth-format NAME adds Zwindow and "
+                     "Zdecoded, with --against-exact also Zerror, Zwinner and Zfight");
+  }
   throw unknown_contents(name);
 }
 

@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"ConstantZero",
                 {"encode", "--mapping", "log", "--near", "1", "--far", "2", "--c", "0", "1"},
                 2,
-                "C = 0"},
+                "--c: 0 is not positive"},
         Refusal{"NoNumber", {"encode", "--near", "1", "--far", "2", "one"}, 2, "'one'"},
         Refusal{"TooNear", {"encode", "--near", "1", "--far", "2", "0.5"}, 3, "nearer than near"},
         Refusal{"TooFar", {"encode", "--near", "1", "--far", "2", "2.5"}, 3, "farther than far"},

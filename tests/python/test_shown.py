@@ -181,7 +181,7 @@ def test_a_stack_shows_its_first_map(spot):
 
 def test_nothing_to_draw_is_no_failure():
     assert fathom.Map()._repr_png_() is None and "without channels" in fathom.Map()._repr_html_()
-    assert repr(fathom.Map({"x": np.array(["a"])})) == "Map(shape (1,); x: <U1)"
+    assert repr(fathom.Map({"x": np.array([["a"]])})) == "Map(1×1 pixels; x: <U1)"
 
 
 def test_reprs_show_ranges_and_shares(triangle, K):
