@@ -196,7 +196,7 @@ Choice choose_coarse(DataSet& data, const Tried& given,
     if (!is_known) best.push_back(tried_on_all(data, t.hypothesis, Tolerance()));
   }
   std::ranges::stable_sort(best, std::ranges::greater(), &Tried::merit);
-  std::ranges::stable_partition(best, &Tried::explains);
+  std::stable_partition(best.begin(), best.end(), [](const Tried& t) { return t.explains(); });
   const bool is_noise = is_independent(best.front().noise) && !is_independent(given.noise);
   const bool is_gain = best.front().agreement.share >= given.agreement.share + least_gain;
   if (!best.front().explains() || (!is_gain && !is_noise)) return {given, {}, best.front()};

@@ -115,9 +115,12 @@ std::string nearest_pair(const Scene& scene, const Camera& camera,
       coplanar_pairs(scene, camera, within, options, progress.reporter());
   if (pairs.empty()) return "";
   const CoplanarPair& nearest = *std::ranges::min_element(pairs, {}, &CoplanarPair::separation);
-  return fmt::format("nearest pair: {} before {}, least distance {}; --within {} finds {}\n",
-                     in_words(scene, nearest.visible), in_words(scene, nearest.behind),
-                     nearest.separation, within, text::counted(pairs.size(), "pair"));
+  // Planes that are equal except for roundings may cross.
+  const std::string distance =
+      nearest.separation > 0 ? fmt::format(", least distance {}", nearest.separation) : "";
+  return fmt::format("nearest pair: {} before {}{}; --within {} finds {}\n",
+                     in_words(scene, nearest.visible), in_words(scene, nearest.behind), distance,
+                     within, text::counted(pairs.size(), "pair"));
 }
 
 int run_coplanar(const CoplanarArguments& arguments, const Console& console) {

@@ -70,8 +70,8 @@ std::string line_of(const ValidationCase& c, bool after_verdict) {
     const std::size_t shown = std::min(f.evidence.size(), most_evidence);
     for (std::size_t k = 0; k < shown; ++k) text += "    " + f.evidence[k] + "\n";
     if (shown < f.evidence.size()) {
-      text += fmt::format("    and {} more, which -o DIR writes to DIR/report.json\n",
-                          f.evidence.size() - shown);
+      text +=
+          fmt::format("    and {} more; report.json of -o has all\n", f.evidence.size() - shown);
     }
   }
   return text;

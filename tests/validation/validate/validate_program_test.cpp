@@ -186,7 +186,7 @@ TEST_F(ValidateProgram, SaysWhatEachModelMakesOfTheMap) {
   ASSERT_EQ(lines.size(), 7U) << outcome.out;
   EXPECT_EQ(lines[0], "every pixel is explained");
   EXPECT_EQ(lines[2], "  note: taken for float32-ray, the model that fits best (1200 pixels)");
-  EXPECT_EQ(lines[6], "    and 4 more, which -o DIR writes to DIR/report.json");
+  EXPECT_EQ(lines[6], "    and 4 more; report.json of -o has all");
   EXPECT_THAT(std::vector(lines.begin() + 3, lines.begin() + 6),
               testing::Each(testing::MatchesRegex(
                   "    [a-z0-9-]+: (every pixel is explained, bounds .*|a sample is explained, "

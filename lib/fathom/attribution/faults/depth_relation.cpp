@@ -180,9 +180,19 @@ std::string meaning_of(const Form& form, const Line& line, const Camera& c) {
   return "";
 }
 
+/// Whether binary32 stores one value for all pairs, though their depths differ.
+bool is_constant(const std::vector<Pair>& pairs) {
+  const Pair& first = pairs.front();
+  const double resolved = unit_roundoff<float> * std::abs(first.y);
+  return std::ranges::all_of(pairs,
+                             [&](const Pair& p) { return std::abs(p.y - first.y) <= resolved; }) &&
+         std::ranges::any_of(pairs, [&](const Pair& p) { return p.x != first.x; });
+}
+
 /// Codes that cover all recorded values: whole numbers, or multiples of 1/255, 1/1023, 1/4095 or
-/// 1/65535; codes are at least 16 times as far apart as binary32 resolves.
+/// 1/65535; codes are at least 16 times as far apart as binary32 resolves. A constant is no code.
 void set_codes(RecordedDepth& recorded, const std::vector<Pair>& pairs) {
+  if (is_constant(pairs)) return;
   for (const double step : {1.0, 1.0 / 255, 1.0 / 1023, 1.0 / 4095, 1.0 / 65535}) {
     const bool all = std::all_of(pairs.begin(), pairs.end(), [&](const Pair& p) {
       const double resolved = 4 * unit_roundoff<float> * std::abs(p.y);
