@@ -1,4 +1,5 @@
 """A page in a browser, as a test case, and the data within a report page."""
+import contextlib
 import json
 import re
 import unittest
@@ -34,6 +35,7 @@ while (texts.nextNode()) {
 }
 return faint;
 """
+LAST_DRAWN = "return Number(document.documentElement.dataset.ready ?? 0)"
 PAPER = "return getComputedStyle(document.body).backgroundColor"
 SIDEWAYS = "return arguments[0].scrollWidth - arguments[0].clientWidth"
 
@@ -59,6 +61,13 @@ class PageCase(unittest.TestCase):
 
     def wait_for(self, condition, what):
         WebDriverWait(self.driver, PATIENCE, poll_frequency=0.05).until(lambda _: condition(), what)
+
+    @contextlib.contextmanager
+    def redrawn(self):
+        """Waits until the page has drawn its pictures again because of what is done within."""
+        before = self.driver.execute_script(LAST_DRAWN)
+        yield
+        self.wait_for(lambda: self.driver.execute_script(LAST_DRAWN) > before, "pictures drawn again")
 
     def table(self, selector):
         """The texts of a table's cells that are shown, row by row."""
@@ -101,15 +110,21 @@ class PageCase(unittest.TestCase):
             self.assertEqual(link.get_attribute("title"), meanings[word])
 
 
-def expect_readable_in_the_dark(case, driver):
-    """The page follows the system's dark colours, and its texts stand out from them as from light ones."""
+def prefer(driver, scheme):
+    """As if the system's colours were "dark" or "light"; Chromium without a window is light."""
+    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
+
+
+def expect_readable_in_the_dark(case, driver, redrawn=contextlib.nullcontext):
+    """The page follows the system's dark colours, and its texts stand out from them as from light ones. `redrawn` waits for
+    a page that draws its pictures again."""
     papers = []
-    for scheme in ("light", "dark"):
-        driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
+    for scheme in ("dark", "light"):
+        with redrawn():
+            prefer(driver, scheme)
         case.assertEqual(driver.execute_script(FAINT), [], scheme)
         papers.append(driver.execute_script(PAPER))
-    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
-    case.assertEqual(papers, ["rgb(255, 255, 255)", "rgb(23, 27, 33)"])
+    case.assertEqual(papers, ["rgb(23, 27, 33)", "rgb(255, 255, 255)"])
 
 
 def data_of(page, name):

@@ -15,7 +15,7 @@ import unittest
 from selenium.webdriver.common.action_chains import ActionChains
 
 from headless_chromium import headless_chromium
-from page_case import PageCase
+from page_case import PageCase, expect_readable_in_the_dark, prefer
 
 WIDTH, HEIGHT = 64, 48
 PIXELS = 5  # of each result that are looked at
@@ -74,10 +74,9 @@ class ReportPage(PageCase):
     def show(self, number):
         """Clicks the cell of a result and waits for its pictures and plots."""
         result = self.results[number]
-        self.one(f'#matrix button[data-case="{number}"]').click()
-        title = f"{result['scene']}, {result['renderer']} {result['variant']}"
-        self.wait_for(lambda: self.text("#title") == title and self.all("#maps-shown canvas")
-                      and self.all("#formats svg"), title)
+        with self.redrawn():
+            self.one(f'#matrix button[data-case="{number}"]').click()
+        self.assertEqual(self.text("#title"), f"{result['scene']}, {result['renderer']} {result['variant']}")
         return result
 
     def point_at(self, canvas, x, y):
@@ -103,16 +102,18 @@ class ReportPage(PageCase):
 
     def test_it_is_readable_in_the_dark(self):
         self.show(0)
-        self.expect_readable_in_the_dark()
+        expect_readable_in_the_dark(self, self.driver, self.redrawn)
 
     def test_plots_and_pictures_are_dark_in_the_dark(self):
         self.show(0)
-        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia",
-                                    {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
-        self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.setEmulatedMedia", {"features": []})
-        self.wait_for(lambda: self.colour(self.one("#maps-shown canvas"), 0, 0)[:3] == [23, 27, 33], "dark paper")
-        self.assertIn("invert", self.driver.execute_script(
-            "return getComputedStyle(document.querySelector('#formats svg')).filter"))
+        paper = []
+        for scheme in ("dark", "light"):
+            with self.redrawn():
+                prefer(self.driver, scheme)
+            paper.append(self.colour(self.one("#maps-shown canvas"), 0, 0))
+            plots = self.driver.execute_script("return getComputedStyle(document.querySelector('#formats svg')).filter")
+            self.assertEqual("invert" in plots, scheme == "dark")
+        self.assertEqual(paper, [[23, 27, 33], WHITE])
 
     def test_shares_stay_in_one_line(self):
         self.resize(1280, 900)

@@ -5,20 +5,22 @@ function findingBox(f, style) {
   if (f.evidence) { const list = element("ul"); for (const line of f.evidence) list.append(element("li", line)); box.append(list); }
   return box;
 }
-let current = -1, marked = null;
+let current = -1, marked = null, turns = 0;
+/// Shows a result. A later call, also for the same result, takes the place of one that still unpacks its maps.
 async function show(k) {
+  const mine = ++turns;
   current = k; marked = null;
   const r = results[k];
   for (const b of document.querySelectorAll("#matrix button")) b.setAttribute("aria-pressed", b.dataset.case == k);
   byId("title").textContent = titleOf(r);
   byId("version").textContent = r.version || r.file || "";
   for (const id of ["findings", "maps-shown", "classes", "bounds", "scatter", "formats", "worst"]) byId(id).replaceChildren();
-  if (r.failure) { byId("findings").append(element("div", r.failure, { class: "finding" })); return; }
+  if (r.failure) { byId("findings").append(element("div", r.failure, { class: "finding" })); return isShown(mine); }
   if (!r.findings.length) byId("findings").append(element("div", r.verdict, { class: isGood(r) ? "note" : "finding" }));
   for (const f of r.findings) byId("findings").append(findingBox(f, "finding"));
   for (const f of r.notes) byId("findings").append(findingBox(f, "note"));
   const scene = await sceneOf(r.scene), map = await mapOf(k), n = scene.depths.length;
-  if (current != k) return;
+  if (mine !== turns) return;
   let low = Infinity, high = -Infinity;
   for (const d of scene.depths) if (isFinite(d)) { low = Math.min(low, d); high = Math.max(high, d); }
   const log = high / low > 20, place = (d) => log ? Math.log(d / low) / Math.log(high / low) : (d - low) / (high - low || 1);
@@ -63,7 +65,7 @@ async function show(k) {
   const fightText = !fights.triangle_numbers ? "No triangle numbers were read: z-fighting shows only where depths reveal it. " : fights.by_format_alone === null ? "" : "Of the format alone, exact depths rounded once, " + counted(fights.by_format_alone, "pixel") + " would z-fight. ";
   byId("bounds").textContent = fightText + "Bounds: half of the depth intervals are narrower than " + short(r.bounds.median_relative_width, 3) + " of the depth (" + short(r.bounds.median_width_in_steps, 3) + " steps of the storage); " + (100 * r.bounds.may_share).toFixed(2) + " % of the pixels that triangles touch are undecided: a triangle may be drawn there or not. Errors: median " + short(r.errors.median_relative, 3) + ", greatest " + short(r.errors.greatest_relative, 3) + " of the depth.";
   scatter(scene, map, relative);
-  formats(r.scene);
+  const plotted = formats(r.scene);
   const worst = byId("worst"); row(worst, ["pixel", element("th", "class", { class: "text" }), "truth", "other", heading(term("bound", "allowed")), element("th", "triangle and its corners", { class: "text" })], "th");
   for (const p of r.worst) {
     const b = element("button", "(" + p.pixel.join(", ") + ")", { type: "button" }), cell = element("td"); cell.append(b);
@@ -74,5 +76,8 @@ async function show(k) {
     const canvas = document.querySelectorAll("#maps-shown canvas");
     for (const c of canvas) { const g = c.getContext("2d"); g.strokeStyle = "#f0f"; g.strokeRect(pixel[0] - 3.5, pixel[1] - 3.5, 8, 8); }
   }
+  await plotted;
+  isShown(mine);
 }
+const isShown = (turn) => { if (turn === turns) document.documentElement.dataset.ready = turn; }; // for tests
 
