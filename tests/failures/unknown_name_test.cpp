@@ -21,6 +21,15 @@ TEST(UnknownName, NearestAreThoseWithTheFewestWrongLetters) {
   EXPECT_THAT(nearest_names("CHANNEL", names), ElementsAre("channel"));    // upper and lower case
 }
 
+TEST(UnknownName, BeginningsAreCompleted) {
+  EXPECT_EQ(suggestion("chan", names), "; did you mean 'channels' or 'channel'?");
+  EXPECT_EQ(suggestion("CHA", names), "; did you mean 'channels' or 'channel'?");
+  EXPECT_EQ(suggestion("ch", {"channels"}), "");  // too short
+  EXPECT_EQ(suggestion("red", {"redder", "reds"}), "; did you mean 'reds'?");
+  EXPECT_EQ(suggestion("red", {"redder", "reddest", "redness", "reddish"}), "");
+  EXPECT_STREQ(UnknownName("no 'cha'; is it 'Z'?", "cha", names).what(), "no 'cha'; is it 'Z'?");
+}
+
 TEST(UnknownName, WhatIsFarFromAllIsLikeNone) {
   EXPECT_THAT(nearest_names("naerr", names), IsEmpty());  // two of four
   EXPECT_THAT(nearest_names("b", names), IsEmpty());      // nothing of "c" would remain

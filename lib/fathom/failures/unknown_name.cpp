@@ -47,6 +47,19 @@ std::size_t reach(std::string_view name) {
   return name.size() < 6 ? 1 : 2;
 }
 
+/// The names that begin with `start`, in upper or lower case; none if more than three do or if
+/// `start` has less than three letters.
+std::vector<std::string> names_that_begin_with(std::string_view start,
+                                               const std::vector<std::string>& names) {
+  std::vector<std::string> found;
+  if (start.size() < 3) return found;
+  for (const std::string& each : names)
+    if (differ_by_case_alone(start, std::string_view(each).substr(0, start.size())))
+      found.push_back(each);
+  if (found.size() > 3) found.clear();
+  return found;
+}
+
 }  // namespace
 
 std::vector<std::string> nearest_names(std::string_view name,
@@ -71,8 +84,9 @@ std::string did_you_mean(const std::vector<std::string>& names) {
 }
 
 std::string suggestion(std::string_view name, const std::vector<std::string>& names) {
-  const std::string text = did_you_mean(nearest_names(name, names));
-  return text.empty() ? text : "; " + text;
+  std::vector<std::string> meant = nearest_names(name, names);
+  if (meant.empty()) meant = names_that_begin_with(name, names);
+  return meant.empty() ? "" : "; " + did_you_mean(meant);
 }
 
 std::string joined(const std::vector<std::string>& names, std::string_view last) {
@@ -86,7 +100,7 @@ std::string joined(const std::vector<std::string>& names, std::string_view last)
 
 UnknownName::UnknownName(const std::string& message, std::string name,
                          std::vector<std::string> names)
-    : UsageError(message + suggestion(name, names)),
+    : UsageError(message.ends_with('?') ? message : message + suggestion(name, names)),
       name_(std::move(name)),
       names_(std::move(names)) {}
 

@@ -21,13 +21,13 @@ std::vector<std::string> nearest_names(std::string_view name,
 /// "did you mean 'near'?", "did you mean 'near' or 'bear'?", or "" for no names.
 std::string did_you_mean(const std::vector<std::string>& names);
 
-/// "; did you mean 'near'?", of the nearest names, or "" where no name is near.
+/// "; did you mean 'near'?", of the nearest names, or of those that begin with `name`; or "".
 std::string suggestion(std::string_view name, const std::vector<std::string>& names);
 
 /// An unknown name. Contains the names that exist, so that a program can offer them.
 class UnknownName : public UsageError {
  public:
-  /// The suggestion is put behind the message.
+  /// The suggestion is put behind the message, unless the message ends with a question already.
   UnknownName(const std::string& message, std::string name, std::vector<std::string> names);
 
   [[nodiscard]] const std::string& name() const { return name_; }
