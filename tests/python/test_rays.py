@@ -157,7 +157,8 @@ def test_each_triangle_of_a_crowd_counts():
     (((0, 0, 0), (0, 0, 1)), {"tmin": np.nan}, "tmin: expected a number that is at most tmax"),
     (((0, 0, 0), (0, 0, 1)), {"cull": "all"}, "cull: expected 'back', 'front', 'none'"),
     (((0, 0, 0), (0, 0, 1)), {"mode": "first"}, "mode: expected 'nearest', 'all'"),
-    (((0, 0, 0), (0, 0, 1)), {"channels": ("Z",)}, "channels: expected 't', 'id'"),
+    (((0, 0, 0), (0, 0, 1)), {"channels": ("Z",)}, "channels: there is no channel 'Z'; there are t, id"),
+    (((0, 0, 0), (0, 0, 1)), {"channels": ("seg",)}, "did you mean 'object'?"),
     ((np.zeros((2, 3)), np.ones((3, 3))), {}, "directions: the shape 3×3 does not fit 2×3"),
 ])
 def test_wrong_arguments_are_named(grid, arguments, options, message):

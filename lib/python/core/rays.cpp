@@ -13,6 +13,7 @@
 #include "apps/rays/ray_file.h"
 #include "bindings.h"
 #include "fathom/camera/trajectory.h"
+#include "fathom/image/channel_names.h"
 #include "fathom/rays/cast.h"
 #include "fathom/rays/hit_channels.h"
 #include "fathom/rays/hit_values.h"
@@ -241,6 +242,9 @@ py::array shutter_rays_of(const Camera& camera, const std::string& poses, double
 void bind_rays(Module& core) {
   const Class<PreparedRays, std::shared_ptr<PreparedRays>> rays(core, "Rays");
   core.attr("ray_channels") = names_of(hit_channel_table);
+  core.def("unknown_ray_channel", [](const std::string& name) {
+    return std::string(unknown_channel(name, names_of(hit_channel_table)).what());
+  });
   core.def("prepare_rays", &prepare);
   core.def("cast_rays", &cast_rays);
   core.def("all_hits", &all_hits_of);

@@ -138,6 +138,18 @@ def one_of(name: str, value: object, allowed: Iterable[str]) -> str:
     return value
 
 
+def as_names(name: str, value: Any) -> list[str]:
+    """Names from a sequence, or from a text with commas."""
+    listed = value.split(",") if isinstance(value, str) else value
+    if not isinstance(listed, Iterable):
+        raise TypeError(f"{name}: expected a sequence of names, found {value!r}")
+    names = list(listed)
+    for each in names:
+        if not isinstance(each, str):
+            raise TypeError(f"{name}: expected names, found {each!r}")
+    return names
+
+
 def scene_handle(scene: object) -> _core.Scene:
     """The extension module's object behind a Scene."""
     handle = getattr(scene, "_handle", None)

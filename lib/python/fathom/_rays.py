@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from . import _core
-from ._arguments import as_finite, as_number, as_threads, culls, in_words, one_of
+from ._arguments import as_finite, as_names, as_number, as_threads, culls, in_words, one_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -81,8 +81,11 @@ def _flat(numbers: Numbers) -> Numbers:
 
 
 def checked_channels(channels: RayChannels) -> list[str]:
-    given = channels.split(",") if isinstance(channels, str) else list(channels)
-    return [one_of("channels", name, _core.ray_channels) for name in given]
+    names = as_names("channels", channels)
+    for name in names:
+        if name not in _core.ray_channels:
+            raise ValueError(f"channels: {_core.unknown_ray_channel(name)}")
+    return names
 
 
 def real_type(dtype: npt.DTypeLike) -> np.dtype[Any]:

@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _core
 from ._arguments import (
+    as_names,
     as_number,
     as_threads,
     camera_handle,
@@ -155,13 +156,8 @@ def list_of_cameras(cameras: Sequence[Camera]) -> list[Camera]:
 
 
 def channel_names(channels: Channels) -> list[str]:
-    listed = channels.split(",") if isinstance(channels, str) else channels
-    if not isinstance(listed, Iterable):
-        raise TypeError(f"channels: expected a sequence of names, found {channels!r}")
     names: list[str] = []
-    for name in listed:
-        if not isinstance(name, str):
-            raise TypeError(f"channels: expected names, found {name!r}")
+    for name in as_names("channels", channels):
         name = _core.contents.get(name, name)
         if name not in rendered:
             raise ValueError(f"channels: {_core.unknown_contents(name)}")
