@@ -1,8 +1,11 @@
 // Q: known answers, and that it is the last binary64 number, by the oracle's determinants.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <set>
 
 #include "fathom/lens/definiteness.h"
 #include "fathom/lens/polynomial_stage.h"
@@ -53,16 +56,23 @@ TEST(Disc, OfATangentialTermEndsAtTheNearestFold) {
   EXPECT_LT(q, 1);
 }
 
-// More lenses than a thread keeps the discs of, each of which differs from others in one number.
+// A thread keeps fewer discs than there are lenses here. The lenses differ in one of k1, k2, p1, p2
+// and k4, and no two discs are the same.
 TEST(Disc, OfAStageIsThatOfItsOwnNumbers) {
+  constexpr std::array<std::size_t, 5> places{0, 1, 2, 3, 5};
+  constexpr std::size_t lenses = 20;
+  std::set<double> discs;
   for (int round = 0; round < 2; ++round) {
-    for (int i = 0; i < 20; ++i) {
-      Lens lens{LensModel::opencv, {-0.25, 0.0625, 0.001, -0.002}};
-      lens.distortion[static_cast<std::size_t>(i % 4)] -= 0.001 * (1 + i / 4);
-      for (int again = 0; again < 2; ++again)
-        EXPECT_EQ(PolynomialStage(lens).disc, greatest_disc(stage_of(lens))) << i;
+    for (std::size_t i = 0; i < lenses; ++i) {
+      Lens lens{LensModel::full_opencv, {-0.25, 0.02, 0.001, -0.002, 0, 0.01}};
+      lens.distortion.at(places.at(i % places.size())) -=
+          0.001 * static_cast<double>(1 + i / places.size());
+      const double disc = greatest_disc(stage_of(lens));
+      discs.insert(disc);
+      for (int again = 0; again < 2; ++again) EXPECT_EQ(PolynomialStage(lens).disc, disc) << i;
     }
   }
+  EXPECT_EQ(discs.size(), lenses);
 }
 
 TEST(Disc, MayBeThePlane) {
