@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -10,10 +11,7 @@
 #include "fathom/camera/camera_import.h"
 #include "fathom/camera/data_set_cameras.h"
 #include "fathom/camera/pose.h"
-
-namespace fathom::text {
-class JsonValue;
-}
+#include "fathom/text/json_value.h"
 
 /// From the numbers of a calibration to a lens, and from a calibration to cameras at poses: shared
 /// by the importers of calibrations. Only for .cpp files of this module.
@@ -22,6 +20,21 @@ namespace fathom::camera {
 /// The width or height of an image.
 /// Fails    InputError if it is not an integer from 1 to 2³² − 1.
 std::uint32_t pixels_of(const text::JsonValue& size);
+
+/// The image of a calibrated camera: the given size or, where it is 0, the width and height of the
+/// file, which `size_in_file` returns as an array of two values; the given pixel centre or 0.
+/// `size_in_file` is called only if it is needed.
+template <class SizeInFile>
+void set_image(Camera& camera, const GivenLens& given, const SizeInFile& size_in_file) {
+  camera.width = given.width;
+  camera.height = given.height;
+  if (given.width == 0 || given.height == 0) {
+    const std::array<text::JsonValue, 2> size = size_in_file();
+    if (given.width == 0) camera.width = pixels_of(size[0]);
+    if (given.height == 0) camera.height = pixels_of(size[1]);
+  }
+  camera.projection.pixel_centre = given.pixel_centre.value_or(0);
+}
 
 /// A number of distortion, by the name of its parameter in the table of lens models (lens.h).
 struct LensNumber {

@@ -21,41 +21,28 @@ struct AriaEntry {
   std::optional<JsonValue> size;
 };
 
-void read_aria_size(const AriaEntry& entry, const GivenLens& given, Camera& camera) {
-  camera.width = given.width;
-  camera.height = given.height;
-  if (given.width != 0) return;
-  const auto config = entry.camera.find("ConfigData");
-  if (config) {
-    camera.width = pixels_of(config->at("ImageWidth"));
-    camera.height = pixels_of(config->at("ImageHeight"));
-  } else if (entry.size) {
-    const auto size = entry.size->elements(2);
-    camera.width = pixels_of(size[0]);
-    camera.height = pixels_of(size[1]);
-  } else {
+std::array<JsonValue, 2> size_of_aria(const AriaEntry& entry) {
+  if (const auto config = entry.camera.find("ConfigData"))
+    return {config->at("ImageWidth"), config->at("ImageHeight")};
+  if (!entry.size)
     entry.camera.fail(
         "has no image size: expected ConfigData or ImageSizes, or a size that is given (--size, in "
         "Python size=)");
-  }
+  const auto size = entry.size->elements(2);
+  return {size[0], size[1]};
 }
 
 /// FisheyeRadTanThinPrism with one focal length: f cu cv k0 … k5 p0 p1 s0 … s3.
 void read_fisheye624(const JsonValue& list, ImportedCamera& one) {
   const std::vector<double> numbers = list.numbers(3 + fisheye624_numbers);
-  one.camera.projection.fx = one.camera.projection.fy = numbers[0];
-  one.camera.projection.cx = numbers[1];
-  one.camera.projection.cy = numbers[2];
+  set_intrinsics(one.camera.projection, std::array{numbers[0], numbers[0], numbers[1], numbers[2]});
   set_fisheye624(one, std::span(numbers).subspan(3), list.where());
 }
 
 /// KannalaBrandtK3: fx fy cx cy kb0 kb1 kb2 kb3.
 void read_kannala_brandt(const JsonValue& list, ImportedCamera& one) {
   const std::vector<double> numbers = list.numbers(8);
-  one.camera.projection.fx = numbers[0];
-  one.camera.projection.fy = numbers[1];
-  one.camera.projection.cx = numbers[2];
-  one.camera.projection.cy = numbers[3];
+  set_intrinsics(one.camera.projection, std::span(numbers).first<4>());
   const std::array<LensNumber, 4> named{
       {{"k1", numbers[4]}, {"k2", numbers[5]}, {"k3", numbers[6]}, {"k4", numbers[7]}}};
   set_lens(one, "OPENCV_FISHEYE", named, list.where());
@@ -100,8 +87,7 @@ RigCamera read_aria_camera(const AriaEntry& entry, const GivenLens& given) {
             is_calibrated && !is_calibrated->boolean())
           one.absence = camera.where() + ": is not calibrated";
         result.from_rig = camera_from_device(camera.at("T_Device_Camera"));
-        read_aria_size(entry, given, one.camera);
-        one.camera.projection.pixel_centre = given.pixel_centre.value_or(0);
+        set_image(one.camera, given, [&] { return size_of_aria(entry); });
         if (one.absence.empty()) read_aria_lens(camera, one);
       });
   return result;

@@ -60,14 +60,13 @@ std::vector<double> numbers_of_matrix(const JsonValue& matrix) {
   return numbers;
 }
 
-/// The given size of the image or, if it is 0, the size by one of the keys.
-std::uint32_t size_of(const JsonValue& root, Keys keys, std::uint32_t given) {
-  if (given != 0) return given;
+/// The width or height by one of the keys.
+JsonValue size_at(const JsonValue& root, Keys keys) {
   const auto size = find_first(root, keys);
   if (!size)
     root.fail("has no image size: expected " + listed(keys) +
               ", or a size that is given (--size, in Python size=)");
-  return pixels_of(*size);
+  return *size;
 }
 
 IntrinsicMatrix intrinsics_of(const JsonValue& matrix) {
@@ -88,11 +87,12 @@ struct CalibrationKeys {
 Camera pinhole_part(const JsonValue& root, const CalibrationKeys& keys, const GivenLens& given) {
   const auto matrix = find_first(root, keys.matrix);
   if (!matrix) root.fail("has no camera matrix: expected " + listed(keys.matrix));
-  return lens_of({.pixel_centre = given.pixel_centre},
-                 {.width = size_of(root, keys.width, given.width),
-                  .height = size_of(root, keys.height, given.height),
-                  .K = intrinsics_of(*matrix)},
-                 matrix->where());
+  Camera camera;
+  set_image(camera, given, [&] {
+    return std::array{size_at(root, keys.width), size_at(root, keys.height)};
+  });
+  set_intrinsics(camera.projection, intrinsics_of(*matrix), matrix->where());
+  return camera;
 }
 
 /// OpenCV's lens or fisheye with these numbers; no lens where all are 0 and the model is one of the

@@ -114,10 +114,8 @@ ImportedCamera make_camera(const CameraRecord& record, const Model& model,
   }
   camera.width = static_cast<std::uint32_t>(record.width);
   camera.height = static_cast<std::uint32_t>(record.height);
-  camera.projection.fx = numbers[0];
-  camera.projection.fy = numbers[model.focals - 1];
-  camera.projection.cx = numbers[model.focals];
-  camera.projection.cy = numbers[model.focals + 1];
+  set_intrinsics(camera.projection, std::array{numbers[0], numbers[model.focals - 1],
+                                               numbers[model.focals], numbers[model.focals + 1]});
   if (const auto fault = find_fault(camera)) result.fault = about + *fault;
   return result;
 }

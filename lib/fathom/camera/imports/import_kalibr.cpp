@@ -88,22 +88,13 @@ void read_kalibr_lens(const JsonValue& cam, ImportedCamera& one) {
 
   const std::size_t before = projection.parameters.size();
   const std::vector<double> intrinsics = cam.at("intrinsics").numbers(before + 4);
-  one.camera.projection.fx = intrinsics[before];
-  one.camera.projection.fy = intrinsics[before + 1];
-  one.camera.projection.cx = intrinsics[before + 2];
-  one.camera.projection.cy = intrinsics[before + 3];
+  set_intrinsics(one.camera.projection, std::span(intrinsics).last<4>());
 
   std::vector<LensNumber> numbers;
   add_numbers(intrinsics, projection.parameters, numbers);
   add_numbers(cam.at("distortion_coeffs").numbers(distortion.parameters.size()),
               distortion.parameters, numbers);
   set_lens(one, projection.lens.empty() ? distortion.lens : projection.lens, numbers, cam.where());
-}
-
-void read_resolution(const JsonValue& cam, const GivenLens& given, Camera& camera) {
-  const auto size = cam.at("resolution").elements(2);
-  camera.width = given.width != 0 ? given.width : pixels_of(size[0]);
-  camera.height = given.height != 0 ? given.height : pixels_of(size[1]);
 }
 
 ExactPose from_first(const JsonValue& cam, const std::optional<ExactPose>& previous) {
@@ -117,8 +108,8 @@ RigCamera read_link(const JsonValue& cam, const std::string& name, const GivenLe
   link.camera = imported_camera(name, cam.where(), [&](ImportedCamera& one) {
     link.from_rig =
         previous ? from_first(cam, previous->from_rig) : exact_pose(one.camera.world_to_camera);
-    read_resolution(cam, given, one.camera);
-    one.camera.projection.pixel_centre = given.pixel_centre.value_or(0);
+    const auto size = cam.at("resolution").elements(2);
+    set_image(one.camera, given, [&] { return std::array{size[0], size[1]}; });
     read_kalibr_lens(cam, one);
   });
   return link;

@@ -23,10 +23,9 @@ void read_mei(const JsonValue& root, ImportedCamera& one) {
   if (type.string() != "MEI")
     type.fail("found " + text::printable(type.string()) + ", expected MEI");
   const JsonValue projection = root.at("projection_parameters");
-  one.camera.projection.fx = projection.at("gamma1").number();
-  one.camera.projection.fy = projection.at("gamma2").number();
-  one.camera.projection.cx = projection.at("u0").number();
-  one.camera.projection.cy = projection.at("v0").number();
+  set_intrinsics(one.camera.projection,
+                 std::array{projection.at("gamma1").number(), projection.at("gamma2").number(),
+                            projection.at("u0").number(), projection.at("v0").number()});
   std::vector<LensNumber> numbers{{"xi", root.at("mirror_parameters").at("xi").number()}};
   const JsonValue distortion = root.at("distortion_parameters");
   for (const char* key : {"k1", "k2", "p1", "p2"})
@@ -76,9 +75,9 @@ std::vector<ImportedCamera> camera::parse_kitti360(const NamedText& json, const 
   const auto named = root.find("camera_name");
   const std::string name = named ? named->string() : stem_of(json.name);
   const auto camera = imported_camera(name, json.name, [&](ImportedCamera& one) {
-    one.camera.width = given.width != 0 ? given.width : pixels_of(root.at("image_width"));
-    one.camera.height = given.height != 0 ? given.height : pixels_of(root.at("image_height"));
-    one.camera.projection.pixel_centre = given.pixel_centre.value_or(0);
+    set_image(one.camera, given, [&] {
+      return std::array{root.at("image_width"), root.at("image_height")};
+    });
     read_mei(root, one);
   });
   if (!poses) return {camera};

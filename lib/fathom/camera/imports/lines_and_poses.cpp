@@ -105,6 +105,13 @@ void set_intrinsics(Projection& projection, const IntrinsicMatrix& K, const std:
   projection.cy = K[5];
 }
 
+void set_intrinsics(Projection& projection, std::span<const double, 4> numbers) {
+  projection.fx = numbers[0];
+  projection.fy = numbers[1];
+  projection.cx = numbers[2];
+  projection.cy = numbers[3];
+}
+
 IntrinsicMatrix intrinsic_matrix(double fx, double fy, double cx, double cy) {
   return {fx, 0, cx, 0, fy, cy, 0, 0, 1};
 }

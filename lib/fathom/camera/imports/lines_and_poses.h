@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cstddef>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -69,6 +70,9 @@ TumPose read_tum_pose(Line& line);
 
 /// fx s cx, 0 fy cy, 0 0 1.
 void set_intrinsics(Projection& projection, const IntrinsicMatrix& K, const std::string& where);
+
+/// fx fy cx cy.
+void set_intrinsics(Projection& projection, std::span<const double, 4> numbers);
 
 /// The intrinsic matrix of four numbers.
 IntrinsicMatrix intrinsic_matrix(double fx, double fy, double cx, double cy);
