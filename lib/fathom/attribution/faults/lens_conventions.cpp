@@ -238,34 +238,60 @@ bool is_stage(const Lens& lens) {
   return has_stage(lens.model) && !lens::Tilt::of(lens) && !lens::is_identity(lens::stage_of(lens));
 }
 
+Hypothesis wrong_direction(const Truth& truth, const OtherMap& other, const RendererModel& model) {
+  const Camera& camera = whole_camera(truth);
+  const auto samples = samples_by(camera, [](const auto& stage, const auto& y) {
+    const auto [x_d, y_d] = lens::stage_value<double>(stage, y[0], y[1]);
+    return PlanePoint{x_d, y_d};
+  });
+  return with_rays(
+      fmt::format("the lens {} is applied in the wrong direction: its formula takes rays to the "
+                  "image; invert it to find the rays of pixels",
+                  name_of(camera.projection.lens->model)),
+      "lens-convention", other, model, samples);
+}
+
+/// An inverse of a stage that other programs compute step by step.
+struct SteppedInverse {
+  PlanePoint (*invert)(const lens::StageNumbers<double>& stage, const PlanePoint& y, int steps);
+  /// As many steps are tried at most.
+  int most;
+  const char* text;
+};
+
+constexpr int most_steps = 10;
+constexpr std::array stepped_inverses{
+    SteppedInverse{lens::invert_by_fixed_point, most_steps, "of the fixed point, as in OpenCV"},
+    SteppedInverse{lens::invert_by_residuals, most_steps, "of the fixed point, by residuals"},
+    SteppedInverse{lens::invert_by_newton, 3, "of Newton's method"}};
+
+/// OpenCV's fixed point divides by the radial factor of a single stage.
+bool can_invert(const SteppedInverse& inverse, const Lens& lens) {
+  return inverse.invert != lens::invert_by_fixed_point || !lens::stage_of(lens).is_double();
+}
+
+Hypothesis early_stop(const Truth& truth, const OtherMap& other, const RendererModel& model,
+                      const SteppedInverse& inverse, int steps) {
+  const Camera& camera = whole_camera(truth);
+  const auto samples = samples_by(
+      camera, [&](const auto& stage, const auto& y) { return inverse.invert(stage, y, steps); });
+  return with_rays(
+      fmt::format("the inverse of the lens {} stops after {} step{} {}: iterate until nothing "
+                  "changes (cv2.undistortPointsIter)",
+                  name_of(camera.projection.lens->model), steps, steps == 1 ? "" : "s",
+                  inverse.text),
+      "lens-inverse", other, model, samples);
+}
+
+/// Each inverse of the lens after 1, 2, … steps.
 std::vector<MakeHypothesis> early_inverses(const Truth& truth, const OtherMap& other,
                                            const RendererModel& model) {
-  using Inverse = PlanePoint (*)(const lens::StageNumbers<double>&, const PlanePoint&, int);
-  struct Method {
-    Inverse inverse;
-    int most;
-    const char* text;
-  };
-  constexpr int most_steps = 10;
-  constexpr std::array methods{
-      Method{lens::invert_by_fixed_point, most_steps, "of the fixed point, as in OpenCV"},
-      Method{lens::invert_by_residuals, most_steps, "of the fixed point, by residuals"},
-      Method{lens::invert_by_newton, 3, "of Newton's method"}};
-  const bool is_double = lens::stage_of(*whole_camera(truth).projection.lens).is_double();
   std::vector<MakeHypothesis> list;
-  for (const Method& method : methods) {
-    if (is_double && method.inverse == lens::invert_by_fixed_point) continue;
-    for (int steps = 1; steps <= method.most; ++steps) {
-      list.emplace_back([&truth, &other, &model, method, steps] {
-        const Camera& camera = whole_camera(truth);
-        return with_rays(
-            fmt::format("the inverse of the lens {} stops after {} step{} {}: iterate until "
-                        "nothing changes (cv2.undistortPointsIter)",
-                        name_of(camera.projection.lens->model), steps, steps == 1 ? "" : "s",
-                        method.text),
-            "lens-inverse", other, model, samples_by(camera, [&](const auto& stage, const auto& y) {
-              return method.inverse(stage, y, steps);
-            }));
+  for (const SteppedInverse& inverse : stepped_inverses) {
+    if (!can_invert(inverse, *whole_camera(truth).projection.lens)) continue;
+    for (int steps = 1; steps <= inverse.most; ++steps) {
+      list.emplace_back([&truth, &other, &model, &inverse, steps] {
+        return early_stop(truth, other, model, inverse, steps);
       });
     }
   }
@@ -282,17 +308,7 @@ std::vector<MakeHypothesis> lens_convention_hypotheses(const Truth& truth, const
     list.emplace_back(
         [&truth, &other, &model, misreading] { return misread(truth, other, model, misreading); });
   if (!is_stage(lens)) return list;
-  list.emplace_back([&truth, &other, &model] {
-    const Camera& camera = whole_camera(truth);
-    return with_rays(
-        fmt::format("the lens {} is applied in the wrong direction: its formula takes rays to the "
-                    "image; invert it to find the rays of pixels",
-                    name_of(camera.projection.lens->model)),
-        "lens-convention", other, model, samples_by(camera, [](const auto& stage, const auto& y) {
-          const auto [x_d, y_d] = lens::stage_value<double>(stage, y[0], y[1]);
-          return PlanePoint{x_d, y_d};
-        }));
-  });
+  list.emplace_back([&truth, &other, &model] { return wrong_direction(truth, other, model); });
   for (MakeHypothesis& make : early_inverses(truth, other, model)) list.push_back(std::move(make));
   return list;
 }
