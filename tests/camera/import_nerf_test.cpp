@@ -145,7 +145,8 @@ TEST(ImportNerf, WarnsOfGeometryTellsDistortionAndNamesFaults) {
             (Lens{LensModel::opencv, {1e-9, 2, 3, 1}}));
   EXPECT_EQ(lens(R"({"k1": 1, "k2": 2, "k3": 3, "k4": 4, "p1": 5, "p2": 6, )" + frames),
             (Lens{LensModel::brown, {1, 2, 3, 4, 5, 6}}));
-  EXPECT_THAT(fault(R"({"equirectangular": true, )" + frames), HasSubstr("no pinhole camera"));
+  EXPECT_THAT(fault(R"({"equirectangular": true, )" + frames),
+              HasSubstr("equirectangular: instant-ngp's panorama with rows of equal area is not"));
   const Lens fisheye{LensModel::opencv_fisheye, {1, 2, 3, 4}};
   const std::string numbers = R"("k1": 1, "k2": 2, "k3": 3, "k4": 4, )" + frames;
   EXPECT_EQ(lens(R"({"camera_model": "OPENCV_FISHEYE", )" + numbers), fisheye);

@@ -1,10 +1,13 @@
-// The wide lenses of Nerfstudio and ScanNet++: their rays, as nerfstudio/cameras/cameras.py
-// (_generate_rays_from_coords) and scannetpp/common/utils/nerfstudio.py have them.
+// The wide lenses of Nerfstudio, ScanNet++ and instant-ngp: their rays, as
+// nerfstudio/cameras/cameras.py (_generate_rays_from_coords), scannetpp/common/utils/nerfstudio.py
+// and instant-ngp's nerf_loader.cu (read_lens) and common_device.cuh (uv_to_ray) have them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "fathom/camera/camera_import_internal.h"
@@ -83,6 +86,64 @@ TEST(ImportWideNerf, ScanNetppHasTwoListsOfFrames) {
     const double s =
         theta * (1 + 0.01 * t - 0.02 * t * t + 0.03 * t * t * t - 0.004 * t * t * t * t) / r;
     return PixelPoint{5 * d[0] * s + 4, 6 * d[1] * s + 3};
+  });
+}
+
+// Nerfstudio undistorts the coordinates of a fisheye by all six numbers (camera_utils.py,
+// radial_and_tangential_undistort); their length is the angle then.
+TEST(ImportWideNerf, NerfstudiosFisheyeMayBeDecentred) {
+  const Camera camera = only_camera(
+      R"("camera_model": "OPENCV_FISHEYE", "fl_x": 5, "fl_y": 6, "cx": 4, "cy": 3, "w": 8, "h": 6,
+         "k1": 0.01, "k2": -0.02, "k3": 0.03, "k4": -0.004, "p1": 0.005, "p2": -0.003)");
+  EXPECT_EQ(camera.projection.lens,
+            (Lens{LensModel::thin_prism_fisheye, {0.01, -0.02, 0.005, -0.003, 0.03, -0.004}}));
+  expect_rays(camera, 0.5, [](const Direction& d) {
+    const double sine = std::hypot(d[0], d[1]), theta = std::atan2(sine, d[2]);
+    const double x = theta * d[0] / sine, y = theta * d[1] / sine, r = x * x + y * y;
+    const double radial = 1 + r * (0.01 + r * (-0.02 + r * (0.03 - r * 0.004)));
+    return PixelPoint{4 + 5 * (radial * x + 2 * 0.005 * x * y - 0.003 * (r + 2 * x * x)),
+                      3 + 6 * (radial * y - 2 * 0.003 * x * y + 0.005 * (r + 2 * y * y))};
+  });
+}
+
+TEST(ImportWideNerf, InstantNgpsFisheyeIsNotDecentred) {
+  const std::string fisheye = R"("is_fisheye": true, "fl_x": 5, "w": 8, "h": 6, "k1": 0.01, )";
+  EXPECT_EQ(only_camera(fisheye + R"("k3": 0.5, "p1": 0, "p2": 0)").projection.lens,
+            (Lens{LensModel::opencv_fisheye, {0.01, 0, 0.5}}));
+  for (const std::string key : {"p1", "p2"}) {
+    EXPECT_THAT(
+        message_of<InputError>([&] { only_camera(fisheye + "\"" + key + R"(": 0.001)"); }),
+        HasSubstr(key + ": Nerfstudio and instant-ngp read p1 and p2 of a fisheye in different"));
+  }
+}
+
+// The keys of read_lens() and the rays of uv_to_ray(), whose y points down.
+TEST(ImportWideNerf, InstantNgpsFThetaIsAPolynomialOfPixels) {
+  const std::string keys =
+      R"("ftheta_p0": 0.01, "ftheta_p1": 0.2, "ftheta_p2": 0.002, "ftheta_p3": -1e-4,
+         "ftheta_p4": 1e-5, "w": 16, "h": 12, "cx": 7.25, "cy": 6.5)";
+  const Camera camera = only_camera(keys);
+  expect_directions(camera, [](std::uint32_t column, std::uint32_t row) {
+    const double x = ((column + 0.5) / 16 - 7.25 / 16) * 16, y = ((row + 0.5) / 12 - 6.5 / 12) * 12;
+    const double r = std::sqrt(x * x + y * y);
+    const double alpha = 0.01 + r * (0.2 + r * (0.002 + r * (-1e-4 + r * 1e-5)));
+    std::optional<Direction> ray;
+    if (std::cos(alpha) > 0 && r != 0)
+      ray = Direction{std::sin(alpha) * x / r, std::sin(alpha) * y / r, std::cos(alpha)};
+    return ray;
+  });
+  EXPECT_EQ(only_camera(keys + R"(, "fl_x": 7, "k1": 0.5)").projection, camera.projection);
+  EXPECT_EQ(message_of<InputError>([] { only_camera(R"("ftheta_p0": 0, "w": 8, "h": 4)"); }),
+            "transforms.json: frames[0]: the f-theta lens has no ftheta_p1: expected ftheta_p0 to "
+            "p4");
+}
+
+TEST(ImportWideNerf, InstantNgpsLatlongShowsAllDirections) {
+  const Camera camera = only_camera(R"("latlong": true, "fl_x": 5, "cx": 1, "w": 16, "h": 8)");
+  expect_directions(camera, [](std::uint32_t column, std::uint32_t row) {
+    const double theta = ((row + 0.5) / 8 - 0.5) * pi, phi = ((column + 0.5) / 16 - 0.5) * pi * 2;
+    return std::optional(Direction{std::sin(phi) * std::cos(theta), std::sin(theta),
+                                   std::cos(phi) * std::cos(theta)});
   });
 }
 

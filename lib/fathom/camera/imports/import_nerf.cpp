@@ -62,18 +62,27 @@ void expect_known_lens(const Frame& frame) {
       model->fail("the camera model " + printable(name) +
                   " is not supported; undistort the images, or expected " +
                   joined({known_models.begin(), known_models.end()}, " or "));
-  // instant-ngp names its other lenses by keys of their own.
-  for (const char* key : {"ftheta_p0", "latlong", "equirectangular"})
-    if (const auto other = frame.find(key)) other->fail("the lens is no pinhole camera");
 }
 
-/// OpenCV's lens or fisheye, or Brown's lens where k3 or k4, which are of r⁶ and r⁸ above the
+/// Nerfstudio bends the rays of a fisheye by p1 and p2, too, as COLMAP's thin prism fisheye does.
+/// instant-ngp takes them for k3 and k4.
+Lens fisheye_of(const Frame& frame, const std::array<double, 4>& k, double p1, double p2) {
+  if (p1 == 0 && p2 == 0) return Lens{LensModel::opencv_fisheye, {k[0], k[1], k[2], k[3]}};
+  if (model_of(frame).empty())
+    frame.find(p1 != 0 ? "p1" : "p2")
+        ->fail(
+            "Nerfstudio and instant-ngp read p1 and p2 of a fisheye in different ways; expected 0, "
+            "or \"camera_model\": \"OPENCV_FISHEYE\" for Nerfstudio's");
+  return Lens{LensModel::thin_prism_fisheye, {k[0], k[1], p1, p2, k[2], k[3]}};
+}
+
+/// OpenCV's lens or a fisheye, or Brown's lens where k3 or k4, which are of r⁶ and r⁸ above the
 /// fraction bar, are not 0. Nothing where all numbers of a lens that is no fisheye are 0.
 std::optional<Lens> lens_of_opencv(const Frame& frame) {
   const auto number = [&](const char* key) { return frame.number(key).value_or(0); };
   const double k1 = number("k1"), k2 = number("k2"), k3 = number("k3"), k4 = number("k4"),
                p1 = number("p1"), p2 = number("p2");
-  if (is_fisheye(frame)) return Lens{LensModel::opencv_fisheye, {k1, k2, k3, k4}};
+  if (is_fisheye(frame)) return fisheye_of(frame, {k1, k2, k3, k4}, p1, p2);
   std::optional<Lens> lens;
   if (k3 != 0 || k4 != 0) {
     lens = Lens{LensModel::brown, {k1, k2, k3, k4, p1, p2}};
@@ -94,18 +103,6 @@ void read_fisheye624(const Frame& frame, ImportedCamera& one) {
   const auto list = frame.find("distortion_params");
   if (!list) frame.own.fail("the numbers of FISHEYE624 are missing: expected distortion_params");
   set_fisheye624(one, list->numbers(fisheye624_numbers), list->where());
-}
-
-/// After the intrinsics.
-void read_lens(const Frame& frame, ImportedCamera& one) {
-  const std::string model = model_of(frame);
-  if (model == "EQUIRECTANGULAR") {
-    make_panorama(one.camera.projection);
-  } else if (model == "FISHEYE624") {
-    read_fisheye624(frame, one);
-  } else {
-    one.camera.projection.lens = lens_of_opencv(frame);
-  }
 }
 
 /// Which number of the lens has no meaning in Nerfstudio's models, or nothing.
@@ -143,7 +140,7 @@ std::optional<double> focal_in_degrees(const Frame& frame, const char* key, std:
   return focal_of_degrees(size, *angle);
 }
 
-void read_intrinsics(const Frame& frame, Camera& camera) {
+void read_nerf_focal_lengths(const Frame& frame, Camera& camera) {
   const auto fov_x = focal_in_degrees(frame, "x_fov", camera.width),
              fov_y = focal_in_degrees(frame, "y_fov", camera.height);
   const auto angle_x = angle_of(frame, "camera_angle_x"),
@@ -159,8 +156,64 @@ void read_intrinsics(const Frame& frame, Camera& camera) {
                          : fl_y             ? *fl_y
                          : angle_y && !fl_x ? focal_of_radians(camera.height, *angle_y)
                                             : camera.projection.fx;
+}
+
+void read_principal_point(const Frame& frame, Camera& camera) {
   camera.projection.cx = frame.number("cx").value_or(camera.width / 2.0);
   camera.projection.cy = frame.number("cy").value_or(camera.height / 2.0);
+}
+
+/// Nerfstudio's lens, or instant-ngp's lens of OpenCV.
+void read_nerfstudio_lens(const Frame& frame, ImportedCamera& one) {
+  read_nerf_focal_lengths(frame, one.camera);
+  read_principal_point(frame, one.camera);
+  const std::string model = model_of(frame);
+  if (model == "EQUIRECTANGULAR") {
+    make_panorama(one.camera.projection);
+  } else if (model == "FISHEYE624") {
+    read_fisheye624(frame, one);
+  } else {
+    one.camera.projection.lens = lens_of_opencv(frame);
+  }
+}
+
+/// instant-ngp's f-theta lens: the angle to the axis is a polynomial of the distance from the
+/// principal point in pixels. Rays end before 90°. The focal length has no meaning.
+void read_ftheta(const Frame& frame, ImportedCamera& one) {
+  constexpr std::array<std::string_view, 5> parameters{"p0", "p1", "p2", "p3", "p4"};
+  std::vector<LensNumber> numbers;
+  for (const std::string_view parameter : parameters) {
+    const std::string key = "ftheta_" + std::string(parameter);
+    const auto number = frame.number(key.c_str());
+    if (!number) frame.own.fail("the f-theta lens has no " + key + ": expected ftheta_p0 to p4");
+    numbers.push_back({parameter, *number});
+  }
+  read_principal_point(frame, one.camera);
+  one.camera.projection.fx = one.camera.projection.fy = 1;
+  set_lens(one, "FTHETA", numbers, frame.own.where());
+  constexpr double greatest_below_90_degrees = std::numbers::pi / 2;
+  if (auto& lens = one.camera.projection.lens) lens->max_radius = greatest_below_90_degrees;
+}
+
+/// instant-ngp's panorama of all directions, which has neither focal length nor principal point.
+void read_latlong(ImportedCamera& one) {
+  const double width = one.camera.width, height = one.camera.height;
+  set_intrinsics(one.camera.projection, std::array{width, height, width / 2, height / 2});
+  one.camera.projection.lens = Lens{LensModel::equirectangular};
+}
+
+/// As in instant-ngp, equirectangular overrides latlong, which overrides ftheta_p0, and the values
+/// of the first two are not read.
+void read_lens(const Frame& frame, ImportedCamera& one) {
+  if (const auto equal_area = frame.find("equirectangular"))
+    equal_area->fail("instant-ngp's panorama with rows of equal area is not available");
+  if (frame.find("latlong")) {
+    read_latlong(one);
+  } else if (frame.find("ftheta_p0")) {
+    read_ftheta(frame, one);
+  } else {
+    read_nerfstudio_lens(frame, one);
+  }
 }
 
 /// World to camera, in our axes, of a camera-to-world matrix in OpenGL's.
@@ -204,7 +257,6 @@ std::vector<ImportedCamera> camera::parse_nerf(std::string_view text, const std:
       one.distortion = unknown_distortion(frame);
       one.camera.width = image_size(frame, "w", width);
       one.camera.height = image_size(frame, "h", height);
-      read_intrinsics(frame, one.camera);
       read_lens(frame, one);
       one.camera.world_to_camera = world_to_camera(own.at("transform_matrix"));
     }));
