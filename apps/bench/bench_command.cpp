@@ -64,7 +64,7 @@ std::vector<std::string> parse_scenes(const std::string& list) {
       std::vector<std::string> existing = bench::default_scene_names();
       existing.emplace_back("room-outside");
       throw unknown_name(
-          fmt::format("there is no scene '{}'; there are {}, sphere-N and mesh files", name,
+          fmt::format("there is no scene '{}'; there are {}, sphere-N, city-N and mesh files", name,
                       joined(existing, ", ")),
           name, existing, scenes_of_validate);
     }
@@ -267,7 +267,7 @@ void add_bench(Command& program) {
       "  fathom bench --parts --scene sphere-20k --idea lanes,blocks\n"
       "\nScenes: sphere-20k, sphere-200k, sphere-2m, mesh, soup, few-large, grid-aligned,\n"
       "grid-shifted, room, scan, city, tree, text and cad (default: these), room-outside,\n"
-      "sphere-N for any N, mesh files.\n"
+      "sphere-N and city-N for any N, mesh files.\n"
       "Each renderer runs in a separate process, on as many processors as threads; its first\n"
       "frame is not counted. fast keeps no memory between frames. fast-kept draws into the\n"
       "previous map and keeps its memory, as vtk and embree keep their buffers. Times of vtk\n"

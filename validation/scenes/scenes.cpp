@@ -19,6 +19,16 @@ const std::vector<std::string> made_names{"mesh",         "soup", "few-large",  
                                           "grid-shifted", "room", "room-outside", "scan",
                                           "city",         "tree", "text",         "cad"};
 
+/// The N of "city-N".
+std::optional<std::uint32_t> city_blocks(const std::string& name) {
+  if (!name.starts_with("city-")) return std::nullopt;
+  const char* const end = name.data() + name.size();
+  std::uint32_t blocks = 0;
+  const auto [rest, error] = std::from_chars(name.data() + 5, end, blocks);
+  if (error != std::errc() || rest != end || blocks < 1 || blocks > 1000) return std::nullopt;
+  return blocks;
+}
+
 /// The N of "sphere-N": a number, which may end in k or m.
 std::optional<std::uint64_t> sphere_size(const std::string& name) {
   if (!name.starts_with("sphere-")) return std::nullopt;
@@ -86,8 +96,8 @@ Camera page_camera(const ImageSize& size, double height) {
                  {0, 1, 0}, {.width = size.width, .height = size.height, .vertical_fov = 52});
 }
 
-BenchScene city_scene(const ImageSize& size) {
-  return {"city", as_scene({city(20)}, "city"), street_camera(size)};
+BenchScene city_scene(const std::string& name, std::uint32_t blocks, const ImageSize& size) {
+  return {name, as_scene({city(blocks)}, name), street_camera(size)};
 }
 
 BenchScene tree_scene(const ImageSize& size) {
@@ -125,7 +135,7 @@ std::vector<std::string> default_scene_names() {
 }
 
 bool is_made_scene(const std::string& name) {
-  return sphere_size(name) ||
+  return sphere_size(name) || city_blocks(name) ||
          std::find(made_names.begin(), made_names.end(), name) != made_names.end();
 }
 
@@ -143,7 +153,8 @@ BenchScene make_scene(const std::string& name, std::uint32_t width, std::uint32_
   if (name.starts_with("grid-") && is_made_scene(name)) return grid_scene(name, size);
   if (name.starts_with("room") && is_made_scene(name)) return room_scene(name, size);
   if (name == "scan") return scan_scene(size);
-  if (name == "city") return city_scene(size);
+  if (name == "city") return city_scene(name, 20, size);
+  if (const auto blocks = city_blocks(name)) return city_scene(name, *blocks, size);
   if (name == "tree") return tree_scene(size);
   if (name == "text") return text_scene(size);
   if (name == "cad") return cad_scene(size);

@@ -24,7 +24,8 @@
 ///   scan           a bumpy boulder of 980 thousand triangles as a scanner leaves it: of uneven
 ///                  sizes, about a pixel, with noise and holes
 ///   city           309 thousand triangles of 400 houses, seen from the middle of a street: long
-///                  and thin, from behind the camera to the horizon, most of them hidden
+///                  and thin, from behind the camera to the horizon, most of them hidden. city-N
+///                  has N × N houses ("city-2")
 ///   tree           a tree of 1.3 million triangles, most of them leaves below a pixel
 ///   text           a page of 500 thousand triangles that letters are cut into: slivers of a pixel
 ///                  and less in width

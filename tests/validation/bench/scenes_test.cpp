@@ -122,6 +122,9 @@ TEST(BenchScenes, AFileThatIsNoSceneIsRefused) {
   EXPECT_FALSE(is_made_scene("sphere-0"));
   EXPECT_FALSE(is_made_scene("sphere-20kk"));
   EXPECT_TRUE(is_made_scene("sphere-2m"));
+  EXPECT_FALSE(is_made_scene("city-0"));
+  EXPECT_FALSE(is_made_scene("city-2k"));
+  EXPECT_TRUE(is_made_scene("city-2"));
   EXPECT_THROW(make_scene("no-such-file.obj", 64, 36), std::exception);
 }
 
