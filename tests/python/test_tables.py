@@ -1,5 +1,5 @@
-"""What the library's tables list, channels of maps and of rays, formats of maps, lens models and names of options, is in the help, the
-docstrings, the C header and the pages that list it for users."""
+"""What the library's tables list, channels of maps and of rays, formats of maps and meshes, lens models, depth formats, models of
+renderers, exit statuses and names of options, is in the help, the docstrings, the C header and the pages that list it for users."""
 
 import json
 import os
@@ -36,6 +36,11 @@ def missing(names, text):
 
 def first_cells(table):
     return "\n".join(re.findall(r"^\| ([^|]*) \|", table, re.M))
+
+
+def names_in(table):
+    """The names in the first column of a table."""
+    return sorted(re.findall(r"`([^`]+)`", first_cells(table)))
 
 
 def without_remarks(text):
@@ -164,11 +169,78 @@ def test_formats_that_are_read_and_written_are_in_the_specification(tmp_path):
     assert missing([*names_of_readable_maps(tmp_path), "GeoTIFF"], specification) == []
 
 
+names_of_formats = {
+    "README.md": ("your renderer's depth along the optical axis (", ";"),
+    "docs/doctor.md": ("`--depth` names depth images (", ")"),
+    "docs/guides/validating-a-renderer.md": ("Any renderer that writes ", " can be validated"),
+    "docs/guides/tour.md": ("The suffix of `-o` selects the format: ", ".\n"),
+    "docs/python.md": ("- `write` writes all channels to ", ".\n"),
+    "docs/reference/channels.md": ("channel under another name. ", " hold all."),
+    "lib/fathom/image/README.md": ("| `map_formats.h`, `map_files.h` |", "|\n"),
+}
+lists_that_write = ["docs/guides/tour.md", "docs/python.md", "docs/reference/channels.md", "lib/fathom/image/README.md"]
+
+
+@pytest.mark.parametrize("page", names_of_formats)
+def test_every_format_is_listed_by_name(page, tmp_path):
+    names = [*names_of_readable_maps(tmp_path), *(["GeoTIFF"] if page in lists_that_write else [])]
+    assert missing(names, between(read(page), *names_of_formats[page])) == []
+
+
+def test_every_suffix_for_assimp_is_listed():
+    suffixes = re.findall(r'"(\w+)"', between(read("lib/fathom/mesh_files/foreign_formats.h"), "foreign_suffixes{", "}"))
+    listed = between(read("docs/conventions.md"), "**Formats that assimp reads**", ".\n").partition("`")[2].rstrip("`")
+    assert len(suffixes) >= 30 and listed.split() == suffixes
+
+
 @pytest.mark.parametrize("place", ["docs/conventions.md", "lib/c/fathom.h"])
 def test_every_mesh_format_is_listed(place, run_program):
     words = between(run_program("render", "--help=completion"), "option\t--mesh-format\t", "\n").split("\t")[2].split()
     assert len(words) >= 6
     assert missing([word for word in words if word != "glb"], read(place).lower()) == []
+
+
+pages_of_depth_formats = {
+    "docs/specification.md": ("\n## 9.", "\n## 10."),
+    "docs/depth-formats.md": ("A format is a *mapping*", "\n## "),
+}
+
+
+@pytest.mark.parametrize("page", pages_of_depth_formats)
+def test_every_mapping_and_storage_is_listed(page):
+    text = between(read(page), *pages_of_depth_formats[page])
+    assert names_in(text) == sorted(_core.mappings)
+    assert re.findall(r"`((?:unorm|float)\d+)`", text) == _core.storages
+
+
+def test_every_model_of_renderers_is_listed():
+    page = read("docs/validation.md")
+    models = between(page, "\n## Models\n", "\n**`auto`**")
+    assert names_in(models) == sorted(["auto", *_core.model_names.split(", ")])
+    classes = re.findall(r"^\| ([^|]*) \|", between(page, "\n## Classes\n", "\n## "), re.M)
+    assert classes == ["class", "---", *_core.class_names]
+
+
+def test_every_fault_of_a_data_set_is_listed():
+    code = read("apps/doctor/hypothesis.cpp")
+    names = re.findall(r'return "([\w-]+)"', between(code, "std::string name_of(Fault fault)", "\n}"))
+    others = ["clipped", "no-value"]  # of stored depths (apps/doctor/diagnosis.cpp)
+    assert len(names) >= 11
+    assert names_in(between(read("docs/doctor.md"), "\n## Faults\n", "\n## ")) == sorted([*names, *others])
+
+
+def test_every_exit_status_is_listed():
+    statuses = between(read("apps/shell/failures.h"), "enum ExitStatus : int {", "}")
+    statuses = {name: int(number) for name, number in re.findall(r"(\w+) = (\d+)", statuses)}
+    page = read("docs/reference/exit-statuses.md")
+    of_scripts = 125
+    assert f"exit {of_scripts}" in read("scripts/fathom")
+    assert [int(each) for each in re.findall(r"^\| (\d+) \|", page, re.M)] == sorted([*statuses.values(), of_scripts])
+    in_c = {name: int(number) for name, number in re.findall(r"FATHOM_(\w+) = (\d+)", between(c_header, "FATHOM_OK", "}"))}
+    in_c["OK"] = 0
+    same = {"OK": "done", "USAGE": "wrong_usage", "INPUT": "unusable_input", "OUTPUT": "unwritable_output"}
+    assert {in_c[name] for name in same} == {statuses[name] for name in same.values()} == {0, 2, 3, 4}
+    assert "0, 2, 3 and 4 mean the same there" in page
 
 
 def test_the_header_for_c_has_every_cull():
