@@ -4,9 +4,11 @@
 
 #include <limits>
 #include <random>
+#include <string>
 
 #include "fathom/depth_format/encode.h"
 #include "fathom/failures/errors.h"
+#include "tests/scratch_folder.h"
 
 namespace fathom {
 namespace {
@@ -144,7 +146,11 @@ TEST(PipelineModel, WhatItCannotDoIsRefused) {
   PipelineModel model;
   for (const Mapping mapping : {Mapping::linear, Mapping::w, Mapping::log, Mapping::log_ulrich}) {
     model.format.mapping = mapping;
-    EXPECT_THROW(window_depth(model, {0, 0, 1}), UsageError);
+    EXPECT_EQ(message_of<UsageError>([&] {
+                window_depth(model, {0, 0, 1});
+              }),
+              "the pipeline model has no projection for mapping " + std::string(name_of(mapping)) +
+                  "; there are standard, reversed, infinite, reversed-infinite, opengl");
   }
   model.format = format_of(Mapping::standard);
   EXPECT_THROW(window_depth(model, {0, 0, 0}), UsageError);

@@ -99,10 +99,13 @@ void require_meaningful(const DepthFormat& format) {
                      " is not greater than near = " + text_of(format.near));
   }
   if (std::isinf(format.far) && !takes_infinite_far(format.mapping)) {
+    std::vector<std::string> names;
+    for (const Mapping mapping : all_mappings) {
+      if (takes_infinite_far(mapping)) names.emplace_back(name_of(mapping));
+    }
     throw UsageError("mapping " + std::string(name_of(format.mapping)) +
-                     " needs a finite far; with far = inf there are infinite and "
-                     "reversed-infinite, each with the storages " +
-                     joined(names_of(all_storages), ", "));
+                     " needs a finite far; with far = inf there are " + joined(names) +
+                     ", each with the storages " + joined(names_of(all_storages), ", "));
   }
   if (!(format.c > 0) || std::isinf(format.c)) {
     throw UsageError("C = " + text_of(format.c) + " is not a positive number");

@@ -1,11 +1,14 @@
 #include "fathom/depth_format/pipeline_model.h"
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "fathom/depth_format/depth_bias.h"
 #include "fathom/failures/errors.h"
+#include "fathom/failures/unknown_name.h"
 #include "fathom/numeric/standard_arithmetic.h"
 
 namespace fathom {
@@ -63,30 +66,39 @@ struct DepthProjection {
   Ratio A, B;
 };
 
-DepthProjection projection_of(const DepthFormat& format) {
+/// nullopt if the mapping is not a projection.
+std::optional<DepthProjection> find_projection(const DepthFormat& format) {
   const Ratio n = Dyadic(format.near), one = Dyadic(1.0), two = Dyadic(2.0);
   switch (format.mapping) {
     case Mapping::infinite:
-      return {one, Ratio() - n};
+      return DepthProjection{one, Ratio() - n};
     case Mapping::reversed_infinite:
-      return {Ratio(), n};
+      return DepthProjection{Ratio(), n};
     case Mapping::standard:
     case Mapping::reversed:
     case Mapping::opengl:
       break;
     default:
-      throw UsageError("the pipeline model has no projection for mapping " +
-                       std::string(name_of(format.mapping)) +
-                       "; there are standard, reversed, infinite, reversed-infinite, opengl");
+      return std::nullopt;
   }
   const Ratio f = Dyadic(format.far), range = f - n;
   if (format.mapping == Mapping::standard) {
-    return {quotient(f, range), quotient(Ratio() - f * n, range)};
+    return DepthProjection{quotient(f, range), quotient(Ratio() - f * n, range)};
   }
   if (format.mapping == Mapping::reversed) {
-    return {quotient(Ratio() - n, range), quotient(f * n, range)};
+    return DepthProjection{quotient(Ratio() - n, range), quotient(f * n, range)};
   }
-  return {quotient(f + n, range), quotient(Ratio() - two * f * n, range)};
+  return DepthProjection{quotient(f + n, range), quotient(Ratio() - two * f * n, range)};
+}
+
+DepthProjection projection_of(const DepthFormat& format) {
+  if (const auto projection = find_projection(format)) return *projection;
+  std::vector<std::string> names;
+  for (const Mapping mapping : all_mappings) {
+    if (find_projection({.mapping = mapping})) names.emplace_back(name_of(mapping));
+  }
+  throw UsageError("the pipeline model has no projection for mapping " +
+                   std::string(name_of(format.mapping)) + "; there are " + joined(names, ", "));
 }
 
 using Row = std::array<Number, 4>;
