@@ -18,6 +18,7 @@
 #include "fathom/image/channel_names.h"
 #include "fathom/image/deep_map.h"
 #include "fathom/image/files/file_texts.h"
+#include "fathom/image/preview.h"
 #include "fathom/image/surface.h"
 #include "fathom/threads/threads.h"
 
@@ -197,20 +198,10 @@ const char* type_of(const ImageChannel& channel) {
   return names.at(channel.values.index());
 }
 
-const char* word_of(ChannelKind kind) {
-  switch (kind) {
-    case ChannelKind::depth:
-      return "depth";
-    case ChannelKind::identifier:
-      return "identifier";
-    case ChannelKind::direction:
-      return "direction";
-    case ChannelKind::position:
-      return "position";
-    case ChannelKind::quantity:
-      break;
-  }
-  return "quantity";
+/// The scale of a channel, unless the user chooses another: most pixels of a deep map have few
+/// samples.
+ColourScale scale_for(const ImageChannel& channel) {
+  return channel.name == samples_channel ? ColourScale::log : ColourScale::linear;
 }
 
 /// The least and the greatest finite value at surfaces, or null.
@@ -250,11 +241,17 @@ class Masks {
 Json describe_channel(const ViewedMap& viewed, const ImageChannel& channel, Masks& masks) {
   const DepthMap& map = viewed.map;
   Mask mask = surface_mask(map, channel);
-  Json told{{"name", channel.name},
-            {"meaning", meaning_of(channel.name.substr(0, channel.name.find('.')))},
-            {"type", type_of(channel)},
-            {"kind", word_of(kind_of(channel))},
-            {"range", range_of(channel, mask)}};
+  const ChannelDrawing drawing = drawing_of(channel);
+  Json told{
+      {"name", channel.name},
+      {"meaning", meaning_of(channel.name.substr(0, channel.name.find('.')))},
+      {"type", type_of(channel)},
+      {"isError", drawing == ChannelDrawing::errors},
+      {"isFight", drawing == ChannelDrawing::fights},
+      {"isIdentifier", drawing == ChannelDrawing::identifiers || drawing == ChannelDrawing::fights},
+      {"defaults",
+       {{"colours", name_of(colours_for(drawing))}, {"scale", name_of(scale_for(channel))}}},
+      {"range", range_of(channel, mask)}};
   told["mask"] = masks.number_of(std::move(mask));
   if (const auto parts = parts_beside(map, channel)) told["unit"] = *parts;
   if (const auto normals = normals_beside(viewed, channel)) told["normals"] = *normals;
@@ -262,6 +259,24 @@ Json describe_channel(const ViewedMap& viewed, const ImageChannel& channel, Mask
   if (shows_segments(channel.name)) told["none"] = no_segment;
   if (const auto* names = image::names_of_channel(map, channel.name)) told["names"] = *names;
   return told;
+}
+
+/// The directions of a map, which the page draws as red, green and blue: their names, and the
+/// numbers of the channels of their parts X, Y and Z.
+Json describe_directions(const DepthMap& map) {
+  Json directions = Json::array();
+  for (const ImageChannel& channel : map.channels) {
+    if (kind_of(channel) != ChannelKind::direction || !channel.name.ends_with(".X")) continue;
+    const std::string name = channel.name.substr(0, channel.name.size() - 2);
+    Json parts = Json::array();
+    for (const char* part : {".X", ".Y", ".Z"}) {
+      if (const ImageChannel* const found = map.find(name + part)) {
+        parts.push_back(found - map.channels.data());
+      }
+    }
+    if (parts.size() == 3) directions.push_back({{"name", name}, {"parts", std::move(parts)}});
+  }
+  return directions;
 }
 
 /// The numbers from which the page computes a pixel's place in the world, like point_at() and
@@ -355,6 +370,7 @@ Json write_planes(const ViewedMap& viewed, const std::string& prefix, const Sink
     told["channels"].push_back(describe_channel(viewed, channel, masks));
     write_channel(viewed, channel, prefix + "-c" + std::to_string(k), sink, progress);
   }
+  told["directions"] = describe_directions(map);
   for (std::size_t k = 0; k < masks.all().size(); ++k) {
     const std::span<const std::uint8_t> mask(masks.all()[k]);
     const auto packed_tile = [&](const TilePlace& tile) { return packed(mask, size.width, tile); };

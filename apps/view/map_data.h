@@ -11,10 +11,9 @@ namespace fathom::view {
 
 inline constexpr std::uint32_t tile_size = 512;
 
-/// Writes the planes of a map as script elements and returns what the page has to know of it: size,
-/// levels, camera of straight rays, and of each channel its name, type, kind, names and which plane
-/// shows where it
-/// has values. Level n has every 2ⁿ-th pixel. A tile is the element `PREFIX-PLANE-LEVEL-NUMBER`;
+/// Writes the planes of a map as script elements and returns the data that the page needs: size,
+/// levels, camera of straight rays, directions, and of each channel its name, type, drawing, names
+/// and mask. Level n has every 2ⁿ-th pixel. A tile is the element `PREFIX-PLANE-LEVEL-NUMBER`;
 /// planes are `c0`, `c1`, … of channels and `k0`, … of masks. The samples of a deep map are the
 /// planes `d0` to `d4`, in the order of pixels within each tile of level 0: Z, ZBack, area, A and
 /// id.

@@ -140,6 +140,19 @@ TEST(Preview, ErrorsAreWhiteAtZero) {
   EXPECT_EQ(block(alone, 1), colour_at(ColourMap::diverging, 0));
 }
 
+TEST(Preview, DrawsChannelsByNameAndType) {
+  const Samples<float> numbers{1};
+  const Samples<std::uint32_t> integers{1};
+  EXPECT_EQ(drawing_of({"Z", numbers}), ChannelDrawing::numbers);
+  EXPECT_EQ(drawing_of({"Zerror", numbers}), ChannelDrawing::errors);
+  EXPECT_EQ(drawing_of({"Zfight", integers}), ChannelDrawing::fights);
+  EXPECT_EQ(drawing_of({"Zfight", numbers}), ChannelDrawing::numbers);
+  EXPECT_EQ(drawing_of({"Zwinner", integers}), ChannelDrawing::identifiers);
+  EXPECT_EQ(drawing_of({"valid", integers}), ChannelDrawing::numbers);
+  EXPECT_EQ(colours_for(ChannelDrawing::errors), ColourMap::diverging);
+  EXPECT_EQ(colours_for(ChannelDrawing::numbers), ColourMap::viridis);
+}
+
 TEST(Preview, OddMapsAreDrawn) {
   const auto drawn = [](std::vector<float> values) {
     return draw_preview(map_of(5, 1, "Z", std::move(values)));

@@ -46,8 +46,6 @@ class Channel extends Source {
     super(map, `${prefix}-c${number}`);
     Object.assign(this, told, { prefix, siblings, camera: map.camera, scale: told.type === "u16" ? map.scale : undefined });
     this.isSingle = this.type === "f32";
-    this.isFight = this.name === "Zfight" && this.type === "u32"; // 1 where the wrong surface wins
-    this.isIdentifier = this.kind === "identifier" || this.isFight;
     if (this.scale && this.range) this.range = this.range.map((code) => code / this.scale);
   }
   async made(level, number) {
@@ -89,7 +87,8 @@ class Channel extends Source {
 class Directions extends Source {
   constructor(map, name, parts) {
     super(map, `${parts[0].key}-rgb`);
-    Object.assign(this, { name, parts, meaning: parts[0].meaning, kind: "colour" });
+    const { meaning, defaults } = parts[0];
+    Object.assign(this, { name, parts, meaning, defaults, isColour: true });
   }
   async made(level, number) {
     const tiles = await Promise.all(this.parts.map((part) => part.tile(level, number)));
@@ -97,22 +96,11 @@ class Directions extends Source {
   }
 }
 
-function withDirections(map, channels) {
-  const found = [];
-  for (const channel of channels) {
-    const name = channel.name.slice(0, -2);
-    if (channel.kind === "direction" && channel.name.endsWith(".X")) {
-      const parts = ["X", "Y", "Z"].map((part) => channels.find((other) => other.name === `${name}.${part}`));
-      if (parts.every(Boolean)) found.push(new Directions(map, name, parts));
-    }
-  }
-  return [...channels, ...found];
-}
-
 export const maps = page.maps.map((told, number) => {
   const stored = [];
   told.channels.forEach((channel, k) => stored.push(new Channel(told, channel, `m${number}`, k, stored)));
-  return { ...told, number, stored, channels: withDirections(told, stored) };
+  const directions = told.directions.map(({ name, parts }) => new Directions(told, name, parts.map((k) => stored[k])));
+  return { ...told, number, stored, channels: [...stored, ...directions] };
 });
 export const channelOf = (map, name) => map.channels.find((channel) => channel.name === name);
 

@@ -18,10 +18,11 @@ function sourcesOf(state) {
 /// The ends of the colours, unless the user chose them: those of all values, which the page knows without their pixels. Errors
 /// in diverging colours are white where they are 0.
 function endsOf(sources, state) {
-  if (sources[0].source.kind === "colour") return [0, 1];
+  const [{ source: first }] = sources;
+  if (first.isColour) return [0, 1];
   const ranges = sources.map(({ source }) => source.range ?? [Infinity, -Infinity]);
   const low = Math.min(...ranges.map(([least]) => least)), high = Math.max(...ranges.map(([, greatest]) => greatest));
-  if (state.channel !== "Zerror" || coloursOf(state) !== "diverging") return [low, high];
+  if (!first.isError || coloursOf(state) !== "diverging") return [low, high];
   const end = Math.max(Math.abs(low), Math.abs(high));
   return [-end, end];
 }
@@ -31,7 +32,7 @@ const rangeOf = (state, [low, high]) => ({ low: state.low ?? low, high: state.hi
 /// promise of the statistics: they need all tiles, and the colours do so only if the values settle them.
 export async function shownBy(state) {
   const sources = sourcesOf(state);
-  if (state.mode === "difference" && sources.length > 1 && sources[0].source.kind !== "colour") {
+  if (state.mode === "difference" && sources.length > 1 && !sources[0].source.isColour) {
     const source = new Difference(maps[state.map], sources[0].source, sources[1].source, state.measure);
     const statistics = await statisticsOf(source), end = endOfDifferences(statistics);
     const shading = new Shading(source, { ...state, ...rangeOf(state, [-end, end]) }, statistics.sorted);

@@ -29,7 +29,7 @@ export function mended(state) {
   const isB = (number) => isMap(number) && isComparable(a, maps[number], state.channel);
   if (!isB(state.other)) state.other = maps.findIndex((_, number) => isB(number));
   if (state.other < 0) state.mode = "single";
-  if (state.mode === "difference" && channelOf(a, state.channel).kind === "colour") state.mode = "slider";
+  if (state.mode === "difference" && channelOf(a, state.channel).isColour) state.mode = "slider";
   if (state.low !== null && state.high !== null && !(state.low < state.high)) state.low = state.high = null;
   for (const key of ["pixel", "line"]) {
     if (state[key] && !state[key].every((at, k) => at >= 0 && at < (k % 2 ? a.height : a.width))) state[key] = null;
@@ -53,7 +53,7 @@ export function fillControls(state) {
   for (const key of ["mode", "measure"]) byId(key).value = state[key];
   byId("scale").value = scaleOf(state);
   byId("colours").value = coloursOf(state);
-  const isNumber = !channel.isIdentifier && channel.kind !== "colour", isDifference = state.mode === "difference";
+  const isNumber = !channel.isIdentifier && !channel.isColour, isDifference = state.mode === "difference";
   byId("map-label").hidden = maps.length < 2;
   byId("comparing").hidden = others.length === 0;
   byId("incomparable").hidden = maps.length < 2 || others.length > 0;

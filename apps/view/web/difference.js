@@ -19,7 +19,7 @@ const labels = { absolute: "B − A", relative: "(B − A) / larger", ulps: "B �
 export class Difference extends Source {
   constructor(map, first, second, measure) {
     super(map, `difference-${measure}-${first.key}-${second.key}`);
-    Object.assign(this, { first, second, measure, name: first.name, kind: "quantity", isDifference: true });
+    Object.assign(this, { first, second, measure, name: first.name, isDifference: true });
     this.isSingle = false;
     this.label = first.isIdentifier ? "differs" : labels[measure];
     this.meaning = first.isIdentifier ? "1 where B differs from A" : `B − A, ${measure}`;

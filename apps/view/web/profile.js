@@ -38,7 +38,7 @@ export class Profile {
     section.hidden = !line;
     if (!line) return;
     const pixels = pixelsOn(line);
-    const curves = await Promise.all(sources.filter(({ source }) => source.kind !== "colour").map(async ({ name, source }) =>
+    const curves = await Promise.all(sources.filter(({ source }) => !source.isColour).map(async ({ name, source }) =>
       ({ name, values: await valuesOn(source, pixels) })));
     if (mine !== this.line) return;
     Object.assign(this, { pixels, curves });

@@ -1,5 +1,5 @@
 /// What is shown, and its link: all of it stands in the fragment of the page's address.
-import { page } from "./channels.js";
+import { channelOf, maps, page } from "./channels.js";
 
 export const defaults = {
   map: 0, other: -1, mode: "single", measure: "relative", channel: "", scale: "", colours: "",
@@ -18,11 +18,10 @@ const readers = {
   map: number, other: number, low: number, high: number, x: number, y: number, zoom: number, split: number,
   pixel: listOf(2), line: listOf(4), channel: (text) => text };
 
-/// The scale that the user chose, or the scale that suits the channel: most pixels of a deep map have few samples.
-export const scaleOf = ({ scale, channel }) => scale || (channel === "samples" ? "log" : "linear");
-
-/// The colours that the user chose, or those that suit the channel, as in `fathom preview`.
-export const coloursOf = ({ colours, channel }) => colours || (channel === "Zerror" ? "diverging" : "viridis");
+const defaultsOf = ({ map, channel }) => channelOf(maps[map], channel).defaults;
+/// The scale and the colours that the user chose, or those of the channel.
+export const scaleOf = (state) => state.scale || defaultsOf(state).scale;
+export const coloursOf = (state) => state.colours || defaultsOf(state).colours;
 
 /// What a fragment says; what it does not say, or says wrongly, is as by default.
 export function stateOf(fragment) {

@@ -33,7 +33,7 @@ const known = new Map();
 
 /// Counted once: { pixels, masks, low, high, sorted, ids, … }; `sorted` is a sample of the finite values.
 export function statisticsOf(source) {
-  if (source.kind === "colour") return Promise.resolve(null);
+  if (source.isColour) return Promise.resolve(null);
   if (!known.has(source.key)) known.set(source.key, gathered(source));
   return known.get(source.key);
 }

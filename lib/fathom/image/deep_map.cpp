@@ -24,7 +24,7 @@ DepthMap flat_map(const DeepMap& deep) {
   map.channels.reserve(5);  // references to channels stay
   auto &depth = add_channel(map, "Z", none), &back = add_channel(map, "ZBack", none);
   auto& coverage = add_channel(map, "A", 0.0F);
-  auto& count = add_channel(map, "samples", 0.0F);
+  auto& count = add_channel(map, samples_channel, 0.0F);
   auto& id = add_channel(map, "id", no_surface);
   std::size_t next = 0;
   for (std::size_t k = 0; k < deep.counts.size(); ++k) {

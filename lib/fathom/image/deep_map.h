@@ -58,6 +58,9 @@ DeepMap read_deep_map(std::span<const std::byte> bytes, const std::string& name,
 /// Whether a file begins as a deep EXR of one part does.
 bool is_deep_map(std::span<const std::byte> bytes);
 
+/// The channel of flat_map() with the number of samples at each pixel.
+inline constexpr const char* samples_channel = "samples";
+
 /// A deep map as a map for pictures, with its names and texts: `samples`, the number of samples at
 /// each pixel; `Z`, `ZBack` and `id` of the first, the nearest; and `A`, the sum of their areas.
 /// Background as of rendered maps.

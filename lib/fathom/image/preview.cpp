@@ -152,7 +152,8 @@ Range range_of(const Reading& values, const std::vector<std::uint8_t>& mask) {
 Range bar_range(const Reading& values, const std::vector<std::uint8_t>& mask,
                 const ImageChannel& channel, const PreviewOptions& options) {
   Range range = channel.name == "A" ? Range{0, 1, true} : range_of(values, mask);
-  if (channel.name == "Zerror" && options.colours == ColourMap::diverging && range.any) {
+  if (drawing_of(channel) == ChannelDrawing::errors && options.colours == ColourMap::diverging &&
+      range.any) {
     range.high = std::max(std::abs(range.low), std::abs(range.high));
     range.low = -range.high;
   }
@@ -286,6 +287,10 @@ void draw_normals(Sheet& sheet, const DepthMap& map, const PreviewOptions& optio
 
 }  // namespace
 
+ColourMap colours_for(ChannelDrawing drawing) {
+  return drawing == ChannelDrawing::errors ? ColourMap::diverging : ColourMap::viridis;
+}
+
 RgbImage draw_preview(const DepthMap& map, const PreviewOptions& given) {
   const StandardArithmetic standard;
   require_valid(map);
@@ -308,11 +313,11 @@ RgbImage draw_preview(const DepthMap& map, const PreviewOptions& given) {
     if (!channel) throw missing_channel(map, options.channel.empty() ? "Z" : options.channel);
     sheet.title = title_of(map, *channel);
     if (!options.unit.empty()) sheet.title += " [" + options.unit + "]";
-    use_colours(channel->name == "Zerror" ? ColourMap::diverging : ColourMap::viridis);
-    if (channel->name == "Zfight" &&
-        std::holds_alternative<Samples<std::uint32_t>>(channel->values))
+    const ChannelDrawing drawing = drawing_of(*channel);
+    use_colours(colours_for(drawing));
+    if (drawing == ChannelDrawing::fights)
       draw_fights(sheet, map, *channel, background_colour(*options.colours));
-    else if (kind_of(*channel) == ChannelKind::identifier)
+    else if (drawing == ChannelDrawing::identifiers)
       draw_identifiers(sheet, map, *channel, options);
     else
       draw_numbers(sheet, map, *channel, options);

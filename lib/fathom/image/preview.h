@@ -7,6 +7,7 @@
 
 #include "fathom/image/depth_map.h"
 #include "fathom/image/rgb_image.h"
+#include "fathom/image/surface.h"
 
 /// Pictures of maps for people.
 namespace fathom {
@@ -36,6 +37,9 @@ Rgb colour_at(ColourMap map, double t);
 
 /// The colour of an identifier: always the same, and neighbouring numbers far apart.
 Rgb colour_of_identifier(std::uint32_t id);
+
+/// The colours of a channel, unless the user chooses others.
+ColourMap colours_for(ChannelDrawing drawing);
 
 struct PreviewOptions {
   /// The channel to draw; empty: Z, or else the map's first. `N` draws N.X, N.Y, N.Z

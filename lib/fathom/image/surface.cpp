@@ -115,6 +115,15 @@ ChannelKind kind_of(const ImageChannel& channel) {
   return depth ? ChannelKind::depth : ChannelKind::quantity;
 }
 
+ChannelDrawing drawing_of(const ImageChannel& channel) {
+  if (channel.name == "Zerror") return ChannelDrawing::errors;
+  if (channel.name == "Zfight" && std::holds_alternative<Samples<std::uint32_t>>(channel.values)) {
+    return ChannelDrawing::fights;
+  }
+  return kind_of(channel) == ChannelKind::identifier ? ChannelDrawing::identifiers
+                                                     : ChannelDrawing::numbers;
+}
+
 const Samples<std::uint32_t>* identifiers_of(const DepthMap& map) {
   for (const char* name : {"id", "object", "face"})
     if (const auto* ids = map.values<std::uint32_t>(name)) return ids;

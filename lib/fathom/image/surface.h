@@ -15,6 +15,15 @@ namespace fathom {
 /// count: `ViewLayer.Depth.Z` is a depth, `N.Z` a direction.
 ChannelKind kind_of(const ImageChannel& channel);
 
+/// How the values of a channel are drawn, in pictures and on the page of `fathom view`.
+enum class ChannelDrawing {
+  numbers,      ///< in the colours of a colour map
+  errors,       ///< Zerror: numbers in diverging colours, which are white at 0
+  identifiers,  ///< each number in its own colour
+  fights        ///< Zfight: 0 as "right" and 1 as "wrong", in two colours
+};
+ChannelDrawing drawing_of(const ImageChannel& channel);
+
 /// The value that means "no surface" in a depth channel of another program: 1e10 (Blender), 0
 /// (most 16-bit and simulator maps), NaN (ROS), …
 struct BackgroundRule {
