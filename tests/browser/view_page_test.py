@@ -511,6 +511,14 @@ class ViewPage(PageCase):
             self.assertEqual(colour_at("Zerror", pixel, 16), self.colour_of(place, "diverging"), pixel)
         self.assertEqual(self.one("#colours").get_attribute("value"), "diverging")
 
+    def test_directions_are_drawn_as_red_green_and_blue(self):
+        normals, seen = self.pair["N"], numpy.isfinite(self.pair["Z"])
+        for y, x in numpy.argwhere(seen)[::40009]:
+            self.open(f"#channel=N&x={x + 0.5}&y={y + 0.5}&zoom=16")
+            shown = numpy.array(self.driver.execute_script(COLOUR_AT_CENTRE))
+            self.assertLessEqual(numpy.abs(shown - 127.5 * (normals[y, x] + 1)).max(), 0.51, (x, y))
+        self.assertFalse(self.one("#scale").is_displayed())
+
     def test_cryptomatte_is_shown_by_names(self):
         fathom("render", DATA / "scenes/pair.json", "--size", "160x120", "--cryptomatte", "-o", self.folder / "matte.exr")
         self.open(page=self.viewed("matte.exr"))
