@@ -1,8 +1,12 @@
 // fathom cast SCENE… --rays FILE, or --lidar FILE
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "apps/commands.h"
 #include "apps/options/scene_options.h"
@@ -35,6 +39,7 @@ struct CastArguments {
   [[nodiscard]] bool is_about_hits() const {
     return mode == RayQuestion::nearest || mode == RayQuestion::all;
   }
+  [[nodiscard]] CastOptions options() const { return {segment, cull, scene.threads}; }
 };
 
 RayQuestion parse_question(const std::string& text) {
@@ -74,36 +79,95 @@ void take_segment(const std::string& text, RaySegment& segment) {
   if (segment.t_min > segment.t_max) throw UsageError("'" + text + "': TMIN is above TMAX");
 }
 
+/// A block of rays, and the number of its first ray.
+struct RayBlock {
+  std::span<const Ray> rays;
+  std::uint64_t first = 0;
+};
+
+/// The rays of a file or of a lidar, block by block.
+class RayBlocks {
+ public:
+  /// Reads the first block, so that a wrong file is reported before the scene is read.
+  explicit RayBlocks(const CastArguments& a)
+      : most_(a.mode == RayQuestion::all ? most_rays / 64 : most_rays) {
+    if (a.lidar.sensor.empty()) {
+      file_.emplace(a.rays);
+    } else {
+      lidar_.emplace(a.lidar, a.scene.threads);
+    }
+    read();
+  }
+
+  [[nodiscard]] const LidarScan* lidar() const { return lidar_ ? &*lidar_ : nullptr; }
+  /// Without rays at the end.
+  [[nodiscard]] const RayBlock& current() const { return block_; }
+  /// Goes to the next block. Where rays have many hits, it has fewer rays.
+  void advance(std::size_t hits) {
+    const std::size_t rays = block_.rays.size();
+    most_ = std::clamp(most_hits / std::max<std::size_t>(1, hits / rays), fewest_rays, most_rays);
+    block_.first += rays;
+    read();
+  }
+
+ private:
+  static constexpr std::size_t fewest_rays = 512, most_rays = std::size_t{1} << 16;
+  static constexpr std::size_t most_hits = std::size_t{1} << 18;
+
+  void read() {
+    if (lidar_) {
+      const std::span<const Ray> left =
+          std::span(lidar_->rays()).subspan(static_cast<std::size_t>(block_.first));
+      block_.rays = left.first(std::min(most_, left.size()));
+    } else {
+      of_file_ = file_->next(most_);
+      block_.rays = of_file_;
+    }
+  }
+
+  std::optional<LidarScan> lidar_;
+  std::optional<RayFile> file_;
+  std::vector<Ray> of_file_;
+  RayBlock block_;
+  std::size_t most_;
+};
+
+/// The columns of a block. `hits_before` counts the hits of the blocks before.
 std::vector<Column> columns_about_hits(const CastArguments& a, const RayScene& scene,
-                                       const std::vector<Ray>& rays, const CastOptions& options,
+                                       const RayBlock& block, std::uint64_t hits_before,
                                        bool with_splits) {
+  const CastOptions options = a.options();
   RayHitLists lists;
   std::vector<std::uint64_t> ray_of_hit;
   if (a.mode == RayQuestion::all) {
-    lists = all_hits(scene, rays, options);
-    for (std::size_t ray = 0; ray < rays.size(); ++ray)
+    lists = all_hits(scene, block.rays, options);
+    for (std::size_t ray = 0; ray < block.rays.size(); ++ray)
       ray_of_hit.insert(ray_of_hit.end(), lists.splits[ray + 1] - lists.splits[ray], ray);
   } else {
-    lists.hits = cast(scene, rays, options);
-    ray_of_hit = numbers_up_to(rays.size());
+    lists.hits = cast(scene, block.rays, options);
+    ray_of_hit = numbers_from(0, block.rays.size());
   }
-  std::vector<Column> columns =
-      columns_of(scene.triangles(), rays, ray_of_hit, lists.hits, a.channels, options.threads);
+  std::vector<Column> columns = columns_of(scene.triangles(), block.rays, ray_of_hit, lists.hits,
+                                           a.channels, options.threads);
+  for (std::uint64_t& ray : ray_of_hit) ray += block.first;
   columns.insert(columns.begin(), Column{"ray", {}, std::move(ray_of_hit)});
   if (a.mode == RayQuestion::all && with_splits) {
-    std::vector<std::uint64_t> splits(lists.splits.begin(), lists.splits.end());
+    // The first split of a block is the last of the block before.
+    std::vector<std::uint64_t> splits(lists.splits.begin() + (block.first == 0 ? 0 : 1),
+                                      lists.splits.end());
+    for (std::uint64_t& split : splits) split += hits_before;
     columns.push_back({"splits", {}, std::move(splits)});
   }
   return columns;
 }
 
-std::vector<Column> columns_about_rays(RayQuestion mode, const RayScene& scene,
-                                       const std::vector<Ray>& rays, const CastOptions& options) {
-  std::vector<Column> columns{{"ray", {}, numbers_up_to(rays.size())}};
-  if (mode == RayQuestion::count) {
-    columns.push_back({"count", {}, count_hits(scene, rays, options)});
+std::vector<Column> columns_about_rays(const CastArguments& a, const RayScene& scene,
+                                       const RayBlock& block) {
+  std::vector<Column> columns{{"ray", {}, numbers_from(block.first, block.rays.size())}};
+  if (a.mode == RayQuestion::count) {
+    columns.push_back({"count", {}, count_hits(scene, block.rays, a.options())});
   } else {
-    const std::vector<bool> are_hit = occluded(scene, rays, options);
+    const std::vector<bool> are_hit = occluded(scene, block.rays, a.options());
     columns.push_back({"occluded", {}, std::vector<std::uint32_t>(are_hit.begin(), are_hit.end())});
   }
   return columns;
@@ -116,8 +180,7 @@ int run_scan(const CastArguments& a, ScanFile file, const Console& console) {
   OutputFile output(a.output);
   const LidarScan lidar(a.lidar, a.scene.threads);
   const Scene scene = a.scene.read(console);
-  const bool has_hits = lidar.write(RayScene(scene, a.scene.threads),
-                                    {a.segment, a.cull, a.scene.threads}, file, output);
+  const bool has_hits = lidar.write(RayScene(scene, a.scene.threads), a.options(), file, output);
   lidar.write_rays();
   output.commit();
   if (!has_hits)
@@ -128,17 +191,21 @@ int run_scan(const CastArguments& a, ScanFile file, const Console& console) {
 
 int run_cast(const CastArguments& a, const Console& console) {
   ColumnOutput table(a.output);
-  std::optional<LidarScan> lidar;
-  if (!a.lidar.sensor.empty()) lidar.emplace(a.lidar, a.scene.threads);
-  const std::vector<Ray> rays = lidar ? lidar->rays() : read_rays(a.rays);
+  RayBlocks blocks(a);
   const Scene scene = a.scene.read(console);
   const RayScene prepared(scene, a.scene.threads);
-  const CastOptions options{a.segment, a.cull, a.scene.threads};
-  const std::vector<Column> columns =
-      a.is_about_hits() ? columns_about_hits(a, prepared, rays, options, table.is_archive())
-                        : columns_about_rays(a.mode, prepared, rays, options);
-  if (lidar) lidar->write_rays();
-  table.finish(columns);
+  std::uint64_t hits = 0;
+  while (!blocks.current().rays.empty()) {
+    const RayBlock& block = blocks.current();
+    const std::vector<Column> columns =
+        a.is_about_hits() ? columns_about_hits(a, prepared, block, hits, table.is_archive())
+                          : columns_about_rays(a, prepared, block);
+    table.append(columns);
+    hits += columns.front().rows();
+    blocks.advance(columns.front().rows());
+  }
+  if (const LidarScan* lidar = blocks.lidar()) lidar->write_rays();
+  table.finish();
   return done;
 }
 

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "apps/surfaces/npz_rows.h"
+#include "apps/shell/standard_streams.h"
 #include "fathom/failures/errors.h"
 #include "fathom/files/byte_order.h"
 #include "fathom/rays/hit_values.h"
@@ -57,8 +57,8 @@ std::string heading_of(const std::vector<Column>& columns) {
   return line + "\n";
 }
 
-std::string csv_of(const std::vector<Column>& columns) {
-  std::string text = heading_of(columns);
+std::string lines_of(const std::vector<Column>& columns) {
+  std::string text;
   for (std::size_t row = 0; row < columns.front().rows(); ++row) {
     for (const Column& column : columns) {
       std::visit(
@@ -75,19 +75,6 @@ std::string csv_of(const std::vector<Column>& columns) {
   return text;
 }
 
-void write_npz(const std::vector<Column>& columns, int descriptor, const std::string& target) {
-  std::vector<NpzRows::Array> arrays;
-  arrays.reserve(columns.size());
-  for (const Column& column : columns)
-    arrays.push_back(
-        std::visit([&](const auto& values) { return array_of(column, values); }, column.values));
-  NpzRows file(descriptor, target, std::move(arrays));
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    file.append(k,
-                std::visit([](const auto& values) { return bytes_of(values); }, columns[k].values));
-  file.finish();
-}
-
 }  // namespace
 
 std::size_t Column::rows() const {
@@ -98,24 +85,72 @@ bool ColumnOutput::is_for(const std::string& name) {
   return name == "-" || name.ends_with(".csv") || name.ends_with(".npz");
 }
 
-ColumnOutput::ColumnOutput(const std::string& name) : name_(name) {
+ColumnOutput::ColumnOutput(const std::string& name)
+    : name_(name), is_text_(!name.ends_with(".npz")) {
   if (!is_for(name)) throw UsageError("-o: '" + name + "' does not end in .csv or .npz");
-  if (name.ends_with(".npz")) {
-    archive_.emplace(name);
+  if (name == "-") {
+    expect_standard_output();
+    waiting_.resize(1);
   } else {
-    text_.emplace(name);
+    file_.emplace(name);
+    file_->write_by_descriptor([this](int descriptor) { descriptor_ = descriptor; });
   }
 }
 
-void ColumnOutput::finish(const std::vector<Column>& columns) {
-  if (text_) return text_->finish(csv_of(columns));
-  archive_->write_by_descriptor([&](int descriptor) { write_npz(columns, descriptor, name_); });
-  archive_->commit();
+void ColumnOutput::append(const std::vector<Column>& columns) {
+  if (is_text_) {
+    if (!has_rows_) append_text(heading_of(columns));
+    append_text(lines_of(columns));
+  } else {
+    append_arrays(columns);
+  }
+  has_rows_ = true;
 }
 
-std::vector<std::uint64_t> numbers_up_to(std::size_t count) {
+void ColumnOutput::append_text(const std::string& text) {
+  if (file_) {
+    write_all(descriptor_, text.data(), text.size(), name_);
+  } else {
+    waiting_.front().append(std::as_bytes(std::span(text)));
+  }
+}
+
+void ColumnOutput::append_arrays(const std::vector<Column>& columns) {
+  waiting_.resize(columns.size());
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const auto append_values = [&](const auto& values) {
+      NpzRows::Array block = array_of(columns[k], values);
+      if (has_rows_) {
+        arrays_[k].shape.front() += block.shape.front();
+      } else {
+        arrays_.push_back(std::move(block));
+      }
+      waiting_[k].append(bytes_of(values));
+    };
+    std::visit(append_values, columns[k].values);
+  }
+}
+
+void ColumnOutput::write_archive() {
+  NpzRows archive(descriptor_, name_, std::move(arrays_));
+  for (std::size_t k = 0; k < waiting_.size(); ++k)
+    waiting_[k].for_each_piece([&](files::ByteView piece) { archive.append(k, piece); });
+  archive.finish();
+}
+
+void ColumnOutput::finish() {
+  if (!file_) {
+    return waiting_.front().for_each_piece([](files::ByteView piece) {
+      print({reinterpret_cast<const char*>(piece.data()), piece.size()});
+    });
+  }
+  if (is_archive()) write_archive();
+  file_->commit();
+}
+
+std::vector<std::uint64_t> numbers_from(std::uint64_t first, std::size_t count) {
   std::vector<std::uint64_t> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), std::uint64_t{0});
+  std::iota(numbers.begin(), numbers.end(), first);
   return numbers;
 }
 

@@ -9,7 +9,9 @@
 #include <variant>
 #include <vector>
 
+#include "apps/rays/waiting_bytes.h"
 #include "apps/shell/output_file.h"
+#include "apps/surfaces/npz_rows.h"
 #include "fathom/rays/cast.h"
 #include "fathom/rays/hit_channels.h"
 
@@ -28,8 +30,9 @@ struct Column {
   [[nodiscard]] std::size_t rows() const;
 };
 
-/// The file to which a table is written, CSV or NPZ by its name. All columns have the same number
-/// of rows.
+/// The file to which a table is written, CSV or NPZ by its name. Its rows come in blocks, which do
+/// not stay in memory: the columns of an NPZ, and text for standard output, wait in the folder that
+/// TMPDIR names.
 ///   CSV    with a heading, in which parts are named as P.X. Numbers are the shortest decimals that
 ///          are read back as the same numbers, or "inf" and "nan"
 ///   NPZ    an array for each column, little-endian
@@ -40,18 +43,33 @@ class ColumnOutput {
   /// Fails    UsageError if !is_for(name), before any work.
   explicit ColumnOutput(const std::string& name);
 
-  [[nodiscard]] bool is_archive() const { return archive_.has_value(); }
+  [[nodiscard]] bool is_archive() const { return file_ && !is_text_; }
+  /// Appends a block of rows. All blocks have the same columns. In a CSV, all columns of a block
+  /// have the same number of rows.
   /// Fails    OutputError "NAME: why".
-  void finish(const std::vector<Column>& columns);
+  void append(const std::vector<Column>& columns);
+  /// Puts the table in its place. Fails as append().
+  void finish();
 
  private:
+  void append_text(const std::string& text);
+  void append_arrays(const std::vector<Column>& columns);
+  void write_archive();
+
   std::string name_;
-  std::optional<OutputFile> archive_;
-  std::optional<TextOutput> text_;
+  bool is_text_;
+  /// nullopt for standard output.
+  std::optional<OutputFile> file_;
+  /// The open file, until it is in its place.
+  int descriptor_ = -1;
+  bool has_rows_ = false;
+  /// The arrays of an NPZ, and their numbers; or the text for standard output.
+  std::vector<NpzRows::Array> arrays_;
+  std::vector<WaitingBytes> waiting_;
 };
 
-/// 0, 1, …, count − 1
-std::vector<std::uint64_t> numbers_up_to(std::size_t count);
+/// first, first + 1, …
+std::vector<std::uint64_t> numbers_from(std::uint64_t first, std::size_t count);
 
 /// The values of the channels, in their order. Hit i belongs to the ray rays[ray_of_hit[i]].
 /// distance, P, bary and N are computed with exact numbers, which takes about 10 µs for each hit.

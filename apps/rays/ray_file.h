@@ -1,23 +1,33 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "apps/rays/number_rows.h"
 #include "fathom/files/file_bytes.h"
 #include "fathom/rays/ray.h"
 #include "fathom/rays/sight.h"
 
-/// Files of rays and of pairs of points, with six numbers in each row. "-" is standard input.
-///   CSV   a heading with the names of the columns, in any order, then a line for each row; each
-///         number is rounded once to binary64
-///   NPY   an array of shape N×6, of binary64 or binary32
-/// Fails    InputError "FILE: line N: …" or "FILE: row N: …": other columns, a number that is not
-///          finite, no row.
+/// Files of rays and of pairs of points, as number_rows.h describes.
+/// Fails    as NumberRows.
 namespace fathom::app {
 
-/// Reads rays, with the columns x, y, z (origin) and dx, dy, dz (direction).
+/// Reads rays, with the columns x, y, z (origin) and dx, dy, dz (direction), in blocks.
 /// Fails    as above; InputError for a direction of 0.
+class RayFile {
+ public:
+  explicit RayFile(const std::string& file);
+
+  /// The next rays, at most `most`; empty at the end of the file.
+  std::vector<Ray> next(std::size_t most);
+
+ private:
+  NumberRows rows_;
+};
+
+/// Reads all rays of a file.
 std::vector<Ray> read_rays(const std::string& file);
 
 /// Rays as an NPY file of binary64 numbers.

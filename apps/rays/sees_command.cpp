@@ -32,8 +32,9 @@ int run_sees(const SeesArguments& a, const Console& console) {
   const RayScene prepared(scene, a.scene.threads);
   const std::vector<bool> seen =
       sees(prepared, pairs.eyes, pairs.points, {a.edges, a.scene.threads});
-  output.finish({{"pair", {}, numbers_up_to(seen.size())},
+  output.append({{"pair", {}, numbers_from(0, seen.size())},
                  {"seen", {}, std::vector<std::uint32_t>(seen.begin(), seen.end())}});
+  output.finish();
   return done;
 }
 

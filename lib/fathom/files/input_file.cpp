@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 
 #include "fathom/failures/errors.h"
 #include "fathom/files/descriptor.h"
+#include "fathom/files/input_stream.h"
 #include "fathom/memory/huge_pages.h"
 #include "fathom/threads/interruption.h"
 
@@ -89,42 +89,13 @@ constexpr std::size_t largest_read = std::size_t{64} << 20;
 /// Between such pieces the reading can be interrupted.
 constexpr std::size_t read_at_once = std::size_t{32} << 20;
 
-bool is_device(const struct stat& status) {
-  return S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode);
-}
-
-/// Whether a device is /dev/null, which is empty, or standard input, such as a terminal.
-bool is_harmless(const struct stat& status) {
-  struct stat standard {};
-  const bool is_standard_input = ::fstat(STDIN_FILENO, &standard) == 0 && is_device(standard) &&
-                                 standard.st_rdev == status.st_rdev;
-  return is_standard_input || (S_ISCHR(status.st_mode) && status.st_rdev == ::makedev(1, 3));
-}
-
-/// Checked before opening, because merely opening some devices has side effects.
-void refuse_folders_and_devices(const std::string& name) {
-  struct stat status {};
-  if (::stat(name.c_str(), &status) != 0) fail_with_errno(name, "cannot be opened");
-  if (S_ISDIR(status.st_mode)) throw InputError(name + ": is a directory, expected a file");
-  if (is_device(status) && !is_harmless(status)) {
-    throw InputError(name + ": is a device, expected a file or a pipe");
-  }
-}
-
-Descriptor opened(const std::string& name) {
-  refuse_folders_and_devices(name);
-  Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
-  if (!file.is_open()) fail_with_errno(name, "cannot be opened");
-  return file;
-}
-
 }  // namespace
 
 InputFile::InputFile(const std::filesystem::path& path, Reading reading) : name_(path.string()) {
   if (name_ == "-") {
     take(Descriptor(::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0)), Reading::copied);
   } else {
-    take(opened(name_), reading);
+    take(open_input(name_), reading);
   }
 }
 

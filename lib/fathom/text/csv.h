@@ -30,6 +30,9 @@ class CsvReader {
   /// `name` is the file's, for messages. The text and the name must outlive the reader.
   CsvReader(std::string_view text, const std::string& name)
       : cursor_(text, name, {}), name_(name) {}
+  /// A part of a file, of whole lines: their ends, and the number of the first.
+  CsvReader(std::string_view text, const std::string& name, char line_end, std::uint64_t first_line)
+      : cursor_(text, name, {}, line_end, first_line), name_(name) {}
 
   /// Goes to the next line; false at the end of the file.
   bool next_line();

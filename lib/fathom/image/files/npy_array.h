@@ -15,6 +15,19 @@ namespace fathom::image {
 /// follow, begin at a multiple of 64 bytes.
 files::Bytes npy_header(const std::string& type, const std::string& shape);
 
+/// The header of an array.
+struct NpyHeader {
+  /// "<f8"
+  std::string type;
+  /// Whether the first dimension varies fastest.
+  bool fortran_order = false;
+  std::vector<std::uint32_t> shape;
+  /// The bytes before the values.
+  std::size_t size = 0;
+};
+/// The header of a file, from its first bytes.
+NpyHeader npy_header_of(files::ByteView bytes, const std::string& name);
+
 struct ImageSize {
   std::uint32_t width = 0, height = 0;
   friend bool operator==(const ImageSize&, const ImageSize&) = default;

@@ -281,6 +281,11 @@ Bytes npy_header(const std::string& type, const std::string& shape) {
   return bytes;
 }
 
+NpyHeader npy_header_of(ByteView bytes, const std::string& name) {
+  const auto [array, data] = take_apart(bytes, name);
+  return {array.type, array.fortran_order, array.shape, bytes.size() - data.size()};
+}
+
 bool is_image_array(ByteView bytes, const std::string& name) {
   const Array array = take_apart(bytes, name).array;
   return !value_type_of(array).kind.empty() && (array.shape.size() == 2 || array.shape.size() == 3);
