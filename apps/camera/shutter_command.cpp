@@ -24,11 +24,9 @@ void add_shutter(Command& camera, const ShutterRun& run) {
       "  fathom camera shutter camera.json --poses path.txt --readout 0.03 -o rays.npy\n"
       "  fathom cast room.json --rays rays.npy -o hits.npz\n"
       "\nEach row of the image has its own pose. Ray row*width + column is of the pixel in this "
-      "row and column; for a pinhole, t of a hit is its planar depth. The pose of a row and each "
-      "number of its rays are rounded once.");
-  command
-      .argument("CAMERA", arguments->camera,
-                "Camera file without a lens, or a map, which contains its camera")
+      "row and column. t of a hit is its planar depth, except with fisheyes, panoramas and tables. "
+      "The pose of a row and each number of its rays are rounded once.");
+  command.argument("CAMERA", arguments->camera, "Camera file, or a map, which contains its camera")
       .required();
   arguments->limits.add_confine_to(command);
   command

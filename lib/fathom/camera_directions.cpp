@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fathom/failures/errors.h"
+#include "fathom/lens/greatest_component.h"
 #include "fathom/lens/preimages.h"
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/certified_value.h"
@@ -21,31 +22,6 @@ using lens::ExactDirection;
 namespace {
 
 using Direction = DirectionTable::Direction;
-
-/// The component of this number as a form.
-ExactVector3 component(std::size_t k) {
-  ExactVector3 form;
-  form[k] = 1.0;
-  return form;
-}
-
-/// The greatest of |d_x|, |d_y| and |d_z|, as a form at d.
-ExactVector3 greatest_magnitude(const ExactDirection& d) {
-  std::array<double, 3> signs{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    signs[k] = d.sign_of(component(k)) == Sign::negative ? -1 : 1;
-  }
-  std::size_t greatest = 0;
-  for (std::size_t k = 1; k < 3; ++k) {
-    ExactVector3 difference;
-    difference[k] = signs[k];
-    difference[greatest] = -signs[greatest];
-    if (d.sign_of(difference) == Sign::positive) greatest = k;
-  }
-  ExactVector3 form;
-  form[greatest] = signs[greatest];
-  return form;
-}
 
 double rounded(const Real& x, DirectionRounding rounding) {
   return rounding == DirectionRounding::binary64 ? round_to_binary64(x) : round_to_binary32(x);
@@ -91,10 +67,11 @@ std::optional<Direction> settled(const lens::DirectionWords& d, DirectionRoundin
 Direction rounded(const ExactDirection& d, DirectionRounding rounding) {
   if (const auto words = d.words())
     if (const auto direction = settled(*words, rounding)) return *direction;
-  const LinearForm greatest(greatest_magnitude(d));
+  const LinearForm greatest(lens::greatest_component(d));
   Direction result{};
   for (std::size_t k = 0; k < 3; ++k) {
-    result[k] = rounded(triangle::quotient_at(d, LinearForm(component(k)), greatest), rounding);
+    result[k] =
+        rounded(triangle::quotient_at(d, LinearForm(lens::component(k)), greatest), rounding);
   }
   return result;
 }

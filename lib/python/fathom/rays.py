@@ -90,7 +90,9 @@ class Rays:
         """The rays through the centres of all pixels of a moving camera with a rolling shutter: each row has its own pose.
         They are the rays of `fathom camera shutter`, bit for bit.
 
-        camera   a camera without a lens; t is the planar depth
+        camera   every pixel must have a ray. t is the planar depth, except with fisheyes, panoramas and tables: the
+                 greatest component of their directions is 1 or −1 in the camera's frame, and `distance` is the channel
+                 to ask for
         poses    file with the path of the camera, lines `time tx ty tz qx qy qz qw`, camera to world, if the pose of
                  `camera` is the identity. Otherwise the path of what the camera is mounted on
         readout  seconds from the top row to the bottom row; negative if the bottom row comes first
