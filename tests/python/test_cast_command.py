@@ -243,8 +243,7 @@ def test_ten_times_the_rays_take_the_same_memory(mesh, tmp_path, output, mode):
     random = np.random.default_rng(7)
     peaks = []
     for count in (100_000, 1_000_000):
-        rays = np.concatenate([np.full((count, 3), 0.25), random.integers(1, 4, (count, 3))], axis=1)
-        np.save(tmp_path / "rays.npy", rays.astype(float))
+        np.save(tmp_path / "rays.npy", np.concatenate([np.full((count, 3), 0.25), random.random((count, 3))], axis=1))
         with open(tmp_path / "rays.npy", "rb") as source, open(tmp_path / "out", "wb") as target:
             peaks.append(peak_memory([mesh, "--rays", "-", "--mode", mode, "--threads", 2, "-o", output], stdin=source,
                                      stdout=target, cwd=tmp_path))
