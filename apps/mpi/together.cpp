@@ -14,8 +14,8 @@
 #include <system_error>
 
 #include "fathom/failures/errors.h"
+#include "fathom/failures/failure_kind.h"
 #include "fathom/files/sha256.h"
-#include "fathom/threads/threads.h"
 
 namespace fathom::app {
 namespace {
@@ -48,7 +48,7 @@ Fault fault_of(const std::function<void()>& work) {
   } catch (const std::filesystem::filesystem_error& error) {
     return {Kind::input, error.path1().string() + ": " + error.code().message()};
   } catch (const std::exception& error) {
-    if (is_lack_of_threads(error))
+    if (kind_of(error) == FailureKind::threads)
       return {Kind::input, "the system starts no more threads; --threads N asks for fewer"};
     return {Kind::other, error.what()};
   }

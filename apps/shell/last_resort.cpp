@@ -14,8 +14,8 @@
 #include <utility>
 
 #include "apps/shell/staged_file.h"
+#include "fathom/failures/failure_kind.h"
 #include "fathom/files/mapped_file.h"
-#include "fathom/threads/threads.h"
 
 namespace fathom::app {
 namespace {
@@ -58,7 +58,7 @@ template <class Report>
   } catch (const std::bad_alloc&) {
     end(report_out_of_memory);
   } catch (const std::exception& failure) {
-    if (is_lack_of_threads(failure)) end(report_lack_of_threads);
+    if (kind_of(failure) == FailureKind::threads) end(report_lack_of_threads);
     end([&] { return report_unexpected(failure.what()); });
   } catch (...) {
   }

@@ -21,8 +21,8 @@
 #include "apps/shell/standard_streams.h"
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
+#include "fathom/failures/failure_kind.h"
 #include "fathom/failures/unknown_name.h"
-#include "fathom/threads/threads.h"
 
 namespace fathom::app {
 namespace {
@@ -235,10 +235,20 @@ void start_other_program(const CLI::App& app, const std::vector<std::string>& ar
                        : not_built("'" + *name + "'", companion->program, *name));
 }
 
-int report(ExitStatus status, const std::string& message) {
-  have_the_last_word();
-  if (may_report()) Console::error(message);
-  return status;
+ExitStatus status_of(FailureKind kind) {
+  switch (kind) {
+    case FailureKind::usage:
+      return wrong_usage;
+    case FailureKind::output:
+      return unwritable_output;
+    case FailureKind::internal:
+      return internal_error;
+    case FailureKind::input:
+    case FailureKind::memory:
+    case FailureKind::threads:
+      break;
+  }
+  return unusable_input;
 }
 
 /// Where the library names a setting, the user gave an option of that name.
@@ -250,22 +260,19 @@ std::string message_of(const Error& error) {
   return option + message.substr(error.setting().size());
 }
 
-/// A refusal of the machine is not a bug. If the operation is unknown, errors that only outputs
-/// encounter are attributed to an output.
-ExitStatus status_of(const std::error_code& code) {
-  for (const std::errc refusal : {std::errc::no_space_on_device, std::errc::read_only_file_system,
-                                  std::errc::file_too_large, std::errc::broken_pipe}) {
-    if (code == refusal) return unwritable_output;
-  }
-  return unusable_input;
-}
-
 /// "PATH: why", where a path is known.
-std::string said_by(const std::system_error& error) {
+std::string message_of(const std::system_error& error) {
   const std::string why = error.code().message();
   const auto* const about = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
   if (about != nullptr && !about->path1().empty()) return about->path1().string() + ": " + why;
   return "the system refuses: " + why;
+}
+
+std::string message_of(const std::exception& failure) {
+  if (const auto* error = dynamic_cast<const Error*>(&failure)) return message_of(*error);
+  if (const auto* error = dynamic_cast<const std::system_error*>(&failure))
+    return message_of(*error);
+  return std::string("unexpected: ") + failure.what();
 }
 
 /// Reports the lack of threads and ends the program without destructors. Outputs are already taken
@@ -275,29 +282,24 @@ std::string said_by(const std::system_error& error) {
   std::_Exit(report_lack_of_threads());
 }
 
+int report(const std::exception& failure) {
+  const FailureKind kind = kind_of(failure);
+  if (kind == FailureKind::memory) return report_out_of_memory();
+  if (kind == FailureKind::threads) leave_without_threads();
+  const std::string message = message_of(failure);
+  have_the_last_word();
+  if (may_report()) Console::error(message);
+  return status_of(kind);
+}
+
 int run_reporting(const std::function<int()>& run) {
   try {
     open_missing_streams();
     handle_signals();
     stay_within_control_group();
     return run();
-  } catch (const UsageError& error) {
-    return report(wrong_usage, message_of(error));
-  } catch (const InputError& error) {
-    return report(unusable_input, message_of(error));
-  } catch (const OutputError& error) {
-    return report(unwritable_output, message_of(error));
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::length_error&) {
-    throw;
-  } catch (const std::system_error& error) {  // filesystem_error is one
-    if (is_lack_of_threads(error)) leave_without_threads();
-    if (error.code() == std::errc::not_enough_memory) return report_out_of_memory();
-    return report(status_of(error.code()), said_by(error));
-  } catch (const std::exception& error) {
-    if (is_lack_of_threads(error)) leave_without_threads();
-    return report(internal_error, std::string("unexpected: ") + error.what());
+  } catch (const std::exception& failure) {
+    return report(failure);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "fathom/failures/errors.h"
+#include "fathom/failures/failure_kind.h"
 #include "fathom/mesh/mesh_faces.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/rendering/options.h"
@@ -39,6 +40,23 @@ inline fathom_status failed(fathom_status status, const char* why) {
   return status;
 }
 
+inline fathom_status code_of(FailureKind kind) {
+  switch (kind) {
+    case FailureKind::usage:
+      return FATHOM_USAGE;
+    case FailureKind::output:
+      return FATHOM_OUTPUT;
+    case FailureKind::memory:
+      return FATHOM_MEMORY;
+    case FailureKind::internal:
+      return FATHOM_INTERNAL;
+    case FailureKind::input:
+    case FailureKind::threads:
+      break;
+  }
+  return FATHOM_INPUT;
+}
+
 /// Does the work of a function that the library exports, in StandardArithmetic, whatever mode the
 /// caller computes in. Every exported function consists of one call of this or of status_of().
 template <class Work>
@@ -56,14 +74,9 @@ fathom_status status_of(const Work& work) noexcept {
     return FATHOM_OK;
   } catch (const Stopped&) {
     return failed(FATHOM_STOPPED, "stopped");
-  } catch (const UsageError& error) {
-    return failed(FATHOM_USAGE, error.what());
-  } catch (const OutputError& error) {
-    return failed(FATHOM_OUTPUT, error.what());
-  } catch (const std::bad_alloc&) {
-    return failed(FATHOM_MEMORY, "there is not enough memory");
-  } catch (const std::exception& error) {
-    return failed(FATHOM_INPUT, error.what());
+  } catch (const std::exception& failure) {
+    const fathom_status status = code_of(kind_of(failure));
+    return failed(status, status == FATHOM_MEMORY ? "there is not enough memory" : failure.what());
   }
 }
 

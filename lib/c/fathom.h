@@ -26,14 +26,15 @@ extern "C" {
 
 /* NOLINTBEGIN(readability-identifier-naming): C has no namespaces, but prefixes. */
 
-/* 0 to 4 mean the same as the exit statuses of the program. */
+/* 0 to 4 and 70 mean the same as the exit statuses of the program. */
 typedef enum {
   FATHOM_OK = 0,
-  FATHOM_USAGE = 2,  /* arguments are invalid or contradict each other */
-  FATHOM_INPUT = 3,  /* a file, scene, camera or map cannot be used */
-  FATHOM_OUTPUT = 4, /* a file cannot be written, or a value does not fit its format */
-  FATHOM_MEMORY = 5, /* out of memory */
-  FATHOM_STOPPED = 6 /* stopped by fathom_options.progress */
+  FATHOM_USAGE = 2,    /* arguments are invalid or contradict each other */
+  FATHOM_INPUT = 3,    /* a file, scene, camera or map cannot be used */
+  FATHOM_OUTPUT = 4,   /* a file cannot be written, or a value does not fit its format */
+  FATHOM_MEMORY = 5,   /* out of memory */
+  FATHOM_STOPPED = 6,  /* stopped by fathom_options.progress */
+  FATHOM_INTERNAL = 70 /* an error in Fathom; please report it */
 } fathom_status;
 
 /* The reason of this thread's last failed call; "" before the first failure. Valid until the next

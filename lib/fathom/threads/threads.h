@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -50,10 +49,6 @@ auto with_threads(int threads, const Work& work) {
     return std::move(*result);
   }
 }
-
-/// Whether this exception of the standard library or TBB means that the system starts no more
-/// threads.
-bool is_lack_of_threads(const std::exception& failure);
 
 /// Reports the fraction of equal parts that are done, from one thread at a time.
 class Progress {

@@ -5,6 +5,7 @@
 #include "bindings.h"
 #include "entry_points.h"
 #include "fathom/failures/errors.h"
+#include "fathom/failures/failure_kind.h"
 #include "running.h"
 
 namespace py = pybind11;
@@ -33,16 +34,24 @@ void set_error(PyObject* type, const std::exception& error) {
   Py_DECREF(message);
 }
 
+PyObject* type_of(FailureKind kind) {
+  switch (kind) {
+    case FailureKind::usage:
+      return usage_error;
+    case FailureKind::output:
+      return output_error;
+    default:
+      return input_error;
+  }
+}
+
+/// Other exceptions become those of pybind11.
 // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 has it so
 void translate(std::exception_ptr pointer) {
   try {
     if (pointer) std::rethrow_exception(pointer);
-  } catch (const UsageError& error) {
-    set_error(usage_error, error);
-  } catch (const InputError& error) {
-    set_error(input_error, error);
-  } catch (const OutputError& error) {
-    set_error(output_error, error);
+  } catch (const Error& error) {
+    set_error(type_of(kind_of(error)), error);
   } catch (const std::bad_alloc&) {
     PyErr_SetString(PyExc_MemoryError, "fathom: there is not enough memory");
   }
