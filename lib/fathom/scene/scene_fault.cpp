@@ -276,12 +276,14 @@ Fault find_fault(const Scene& scene, const std::vector<bool>& looked_at) {
 
 void require_camera(const Camera& camera) {
   require_valid(camera);
-  if (std::uint64_t{camera.width} * camera.height > std::uint64_t{1} << 44) {
-    throw InputError("an image of more than 2^44 pixels cannot be rendered");
-  }
+  if (std::uint64_t{camera.width} * camera.height > most_pixels_of_image) throw image_too_large();
 }
 
 }  // namespace
+
+InputError image_too_large() {
+  return InputError("an image of " + std::string(too_many_pixels) + " cannot be rendered");
+}
 
 bool scene::all_below(std::span<const CornerIndices> triangles, std::uint64_t end) {
   if (end == 0) return triangles.empty();

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "fathom/camera/camera.h"
+#include "fathom/failures/errors.h"
 #include "fathom/scene/scene.h"
 #include "fathom/scene/streamed_scene.h"
 #include "fathom/scene/triangle_source.h"
@@ -40,9 +43,17 @@ enum class LookAtElements { now, later };
 /// Fails    InputError: "scene: " and the fault from find_fault().
 void require_valid(const TriangleSource& triangles, LookAtElements when = LookAtElements::now);
 
+/// An image of more pixels cannot be rendered: the engines number its tiles of 64×64 pixels with 32
+/// bits.
+inline constexpr std::uint64_t most_pixels_of_image = std::uint64_t{1} << 44;
+inline constexpr std::string_view too_many_pixels = "more than 2^44 pixels";
+
+/// The failure of a larger image.
+InputError image_too_large();
+
 /// Checks the arguments of every function that takes a scene and a camera.
-/// Fails    InputError if scene or camera has a fault, or the image has more than 2⁴⁴ pixels;
-///          UsageError if the camera has a lens that bends rays.
+/// Fails    InputError if scene or camera has a fault, or the image has more pixels than
+///          most_pixels_of_image; UsageError if the camera has a lens that bends rays.
 void require_renderable(const TriangleSource& triangles, const Camera& camera,
                         LookAtElements when = LookAtElements::now);
 /// The same for a function that takes lenses.

@@ -12,6 +12,7 @@
 #include "fathom/memory/available_memory.h"
 #include "fathom/rendering/options.h"
 #include "fathom/rendering/segment_channels.h"
+#include "fathom/scene/scene_fault.h"
 #include "fathom/scene/view_warnings.h"
 #include "fathom/threads/per_thread.h"
 #include "fathom/threads/threads.h"
@@ -215,6 +216,8 @@ void bind_render(Module& core) {
   py::dict contents;
   for (const ContentsName& each : contents_table)
     contents[py::str(std::string(each.name))] = std::string(description_of(each.channel).name);
+  core.attr("most_pixels") = most_pixels_of_image;
+  core.attr("too_many_pixels") = too_many_pixels;
   core.attr("contents") = contents;
   core.attr("png_scale") = DepthEncoding{}.scale;
   core.def("channels", [] {

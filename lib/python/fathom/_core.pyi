@@ -26,6 +26,8 @@ ray_channels: list[str]
 culls: list[str]
 edge_selections: list[str]
 contents: dict[str, str]
+most_pixels: int
+too_many_pixels: str
 png_scale: float
 engines: list[str]
 normal_sources: list[str]

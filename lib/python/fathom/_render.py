@@ -198,9 +198,9 @@ def background_value(background: Background, dtype: npt.DTypeLike) -> float | No
 def require_room(cameras: list[Camera], names: list[str], stored: str) -> None:
     """Raises MemoryError early; otherwise the system might end the process."""
     pixels = float(cameras[0].width) * cameras[0].height
-    if pixels > 2.0**44:
+    if pixels > _core.most_pixels:
         size = in_pixels(cameras[0].size)
-        raise ValueError(f"size: an image of {size} has more than 2^44 pixels")
+        raise ValueError(f"size: an image of {size} has {_core.too_many_pixels}")
     bytes_of_pixel = sum(
         np.dtype(own or stored).itemsize * max(1, len(parts))
         for parts, own in (rendered[name] for name in names)

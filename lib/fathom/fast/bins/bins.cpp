@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "fathom/failures/errors.h"
 #include "fathom/fast/bins/boxes.h"
 #include "fathom/fast/bins/tile_shape.h"
 #include "fathom/fast/setup/setup.h"
+#include "fathom/scene/scene_fault.h"
 
 namespace fathom::fast {
 using namespace triangle;
@@ -16,9 +16,10 @@ TileGrid::TileGrid(std::uint32_t image_width, std::uint32_t image_height)
       height(image_height),
       columns((image_width - 1) / TileShape::size + 1),
       rows((image_height - 1) / TileShape::size + 1) {
-  if (std::uint64_t{columns} * rows > std::numeric_limits<std::uint32_t>::max()) {
-    throw InputError("an image of more than 2^44 pixels cannot be rendered");
-  }
+  constexpr std::uint64_t most_tiles =
+      most_pixels_of_image / (TileShape::size * TileShape::size) - 1;
+  static_assert(most_tiles == std::numeric_limits<std::uint32_t>::max());
+  if (std::uint64_t{columns} * rows > most_tiles) throw image_too_large();
 }
 
 std::uint32_t TileGrid::tile_at(std::uint32_t column, std::uint32_t row) const {
