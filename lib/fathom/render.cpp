@@ -11,7 +11,7 @@
 #include "fathom/map_description.h"
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/reference.h"
-#include "fathom/rendering/map_of_camera.h"
+#include "fathom/rendering/map_background.h"
 #include "fathom/rendering/options.h"
 #include "fathom/rendering/segment_channels.h"
 #include "fathom/scene/scene_fault.h"

@@ -5,7 +5,7 @@
 
 #include "fathom/area/coverage.h"
 #include "fathom/render.h"
-#include "fathom/rendering/map_of_camera.h"
+#include "fathom/rendering/map_background.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "tests/effort.h"
 #include "tests/inputs/random_scenes.h"

@@ -6,7 +6,7 @@
 #include "fathom/area/cell_coverage.h"
 #include "fathom/area/coverage_image.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/rendering/map_of_camera.h"
+#include "fathom/rendering/map_background.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/interruption.h"
 #include "fathom/threads/per_thread.h"

@@ -6,7 +6,7 @@
 #include "fathom/depth_buffer/buffer_work.h"
 #include "fathom/failures/errors.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/rendering/map_of_camera.h"
+#include "fathom/rendering/map_background.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/text/counted.h"
 #include "fathom/threads/threads.h"

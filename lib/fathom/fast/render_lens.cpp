@@ -15,7 +15,7 @@
 #include "fathom/fast/lenses/window.h"
 #include "fathom/fast/render_memory_parts.h"
 #include "fathom/fast/tiles/frame.h"
-#include "fathom/rendering/map_of_camera.h"
+#include "fathom/rendering/map_background.h"
 #include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"

@@ -10,7 +10,7 @@
 #include "fathom/fast/rounds/coverage_in_rounds.h"
 #include "fathom/fast/rounds/tile_store.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/rendering/map_of_camera.h"
+#include "fathom/rendering/map_background.h"
 #include "fathom/scene/element_checks.h"
 #include "fathom/scene/scene_fault.h"
 

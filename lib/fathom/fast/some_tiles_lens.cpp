@@ -8,7 +8,7 @@
 #include "fathom/fast/lenses/places.h"
 #include "fathom/fast/render_lens.h"
 #include "fathom/fast/rounds/tile_store.h"
-#include "fathom/rendering/map_of_camera.h"
+#include "fathom/rendering/map_background.h"
 #include "fathom/threads/threads.h"
 
 // How to read this file: WindowImage does what StraightImage (some_tiles.cpp) does, in each view of

@@ -8,7 +8,7 @@
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/ray_decisions.h"
 #include "fathom/reference/view.h"
-#include "fathom/rendering/map_of_camera.h"
+#include "fathom/rendering/map_background.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/channels.h"

@@ -14,7 +14,7 @@
 #include "fathom/numeric/standard_arithmetic.h"
 #include "fathom/reference/verify_samples.h"
 #include "fathom/reference/view.h"
-#include "fathom/rendering/map_of_camera.h"
+#include "fathom/rendering/map_background.h"
 #include "fathom/scene/scene_fault.h"
 #include "fathom/threads/threads.h"
 #include "fathom/triangle/channels.h"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "fathom/image/depth_map.h"
-#include "fathom/rendering/map_of_camera.h"
+#include "fathom/rendering/channel_values.h"
 #include "fathom/rendering/options.h"
 #include "fathom/scene/scene_segments.h"
 #include "fathom/scene/triangle_source.h"

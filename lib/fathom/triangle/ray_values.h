@@ -7,7 +7,7 @@
 #include "fathom/lens/exact_direction.h"
 #include "fathom/numeric/exact_polynomial.h"
 #include "fathom/numeric/real.h"
-#include "fathom/rendering/map_of_camera.h"
+#include "fathom/rendering/channel_values.h"
 #include "fathom/triangle/projected_triangle.h"
 #include "fathom/triangle/stored_quantity.h"
 

@@ -5,7 +5,7 @@
 
 #include "fathom/numeric/certified_rounding.h"
 #include "fathom/numeric/certified_value.h"
-#include "fathom/rendering/map_of_camera.h"
+#include "fathom/rendering/channel_values.h"
 #include "fathom/triangle/stored_quantity.h"
 
 /// Stores values that are known within a bound as a channel is encoded. Each function returns false

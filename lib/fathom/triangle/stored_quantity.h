@@ -10,7 +10,7 @@
 #include "fathom/numeric/real.h"
 #include "fathom/numeric/rounding.h"
 #include "fathom/numeric/standard_arithmetic.h"
-#include "fathom/rendering/map_of_camera.h"
+#include "fathom/rendering/channel_values.h"
 #include "fathom/rendering/options.h"
 
 namespace fathom::triangle {

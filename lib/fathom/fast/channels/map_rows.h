@@ -9,7 +9,7 @@
 
 #include "fathom/fast/bins/tile_shape.h"
 #include "fathom/geometry/frames.h"
-#include "fathom/rendering/map_of_camera.h"
+#include "fathom/rendering/map_background.h"
 
 namespace fathom::fast {
 

@@ -9,7 +9,7 @@
 #include "fathom/fast/lenses/view_axes.h"
 #include "fathom/fast/pixels/surface_values.h"
 #include "fathom/lens/direction_words.h"
-#include "fathom/rendering/map_of_camera.h"
+#include "fathom/rendering/channel_values.h"
 
 namespace fathom::fast {
 
