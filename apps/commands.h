@@ -4,7 +4,7 @@
 #include "apps/shell/command.h"
 
 /// Commands of `fathom`, `fathom-surfaces` and `fathom-textbook`. `render` is in
-/// render/render_arguments.h, and `dataset` in dataset/dataset_command.h.
+/// render/render_command.h, and `dataset` in dataset/dataset_command.h.
 namespace fathom::app {
 
 // Commands that look at maps, and `info`, which looks at any file.

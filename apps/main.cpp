@@ -5,7 +5,7 @@
 
 #include "apps/commands.h"
 #include "apps/dataset/dataset_command.h"
-#include "apps/render/render_arguments.h"
+#include "apps/render/render_command.h"
 #include "apps/shell/program.h"
 #include "fathom/failures/errors.h"
 

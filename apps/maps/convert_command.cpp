@@ -65,7 +65,7 @@ std::vector<Camera> cameras_in_file(const ConvertArguments& arguments, const Con
   if (arguments.camera.empty()) return {};
   const std::string_view why =
       ends_with_ply(arguments.output) ? points_need_no_lens : takes_no_lens;
-  return cameras_of_maps(arguments.maps, read_camera_file(arguments.camera, console, why));
+  return cameras_of_maps(arguments.maps, read_cameras_without_lens(arguments.camera, console, why));
 }
 
 /// The camera that a map carries.

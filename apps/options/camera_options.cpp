@@ -333,8 +333,8 @@ void require_size_of(const DepthMap& map, const Camera& camera, const std::strin
                                camera.width, camera.height, map.width, map.height));
 }
 
-std::vector<Camera> read_camera_file(const std::string& file, const Console& console,
-                                     std::string_view why) {
+std::vector<Camera> read_cameras_without_lens(const std::string& file, const Console& console,
+                                              std::string_view why) {
   const auto refuse = [&](const std::string&, auto, auto) -> std::shared_ptr<const DirectionTable> {
     throw UsageError("the lens TABLE: " + std::string(why));
   };

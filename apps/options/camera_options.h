@@ -87,8 +87,8 @@ inline constexpr std::string_view takes_no_lens =
 /// The cameras of a camera file, or the camera that a map carries, each without fault; warnings go
 /// to the console. Fails with InputError, and with UsageError, which says `why`, for a lens that
 /// bends rays; opens no table of directions.
-std::vector<Camera> read_camera_file(const std::string& file, const Console& console,
-                                     std::string_view why = takes_no_lens);
+std::vector<Camera> read_cameras_without_lens(const std::string& file, const Console& console,
+                                              std::string_view why = takes_no_lens);
 /// The same for a command that takes lenses, or calls functions that refuse them.
 std::vector<Camera> read_cameras_with_lenses(const std::string& file, const ReadLimits& limits,
                                              const Console& console);

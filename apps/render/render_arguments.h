@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +30,7 @@ struct DepthBufferArguments {
   std::optional<double> c;
   bool against_exact = false;
 
+  /// Declares the options (render_command.cpp).
   void add_to(Command& command);
 };
 
@@ -65,6 +65,7 @@ struct RenderArguments {
   std::string output, image;
   std::string save_camera, statistics;
 
+  /// Declares all options of `render` (render_command.cpp).
   void add_to(Command& command);
   /// Takes the contents of a map in place of the previous ones.
   void take(Contents contents);
@@ -92,15 +93,5 @@ struct RenderArguments {
   std::vector<Option> of_pipeline_;
   std::optional<pipeline::Colour> picture_background_;
 };
-
-using Render = std::function<int(const RenderArguments&, const Console&)>;
-
-/// `fathom render`. Each program that has it brings what renders with the engines.
-void add_render(Command& program, const Render& by_exact_engine, const Render& by_pipeline);
-
-/// Make a plan of the arguments, then carry it out: `fathom` has the exact engines
-/// (render_maps.cpp), fathom-textbook the pipeline (textbook/pipeline/pipeline_render.cpp).
-int render_exactly(const RenderArguments& arguments, const Console& console);
-int render_by_pipeline(const RenderArguments& arguments, const Console& console);
 
 }  // namespace fathom::app

@@ -5,7 +5,7 @@
 
 #include "apps/options/scene_options.h"
 #include "apps/render/map_additions.h"
-#include "apps/render/render_arguments.h"
+#include "apps/render/render_command.h"
 #include "apps/render/render_outputs.h"
 #include "apps/render/render_plan.h"
 #include "apps/render/render_report.h"

@@ -45,11 +45,11 @@ std::string list_of_studies() {
 }
 
 /// The only camera of the file. The study `lens` refuses lenses itself, if it must.
-Camera read_camera(const StudyArguments& arguments, const Console& console) {
+Camera camera_of_study(const StudyArguments& arguments, const Console& console) {
   const std::string& file = arguments.camera;
   const std::vector<Camera> cameras =
       arguments.name == "lens" ? read_cameras_with_lenses(file, arguments.limits, console)
-                               : read_camera_file(file, console);
+                               : read_cameras_without_lens(file, console);
   if (cameras.size() != 1) {
     throw InputError(
         fmt::format("{}: {} cameras; a study takes a single one", file, cameras.size()));
@@ -73,7 +73,7 @@ studies::SceneView read_view(const StudyArguments& arguments, const Console& con
   }
   view.camera = arguments.camera.empty()
                     ? frame_scene(view.scene, {}, {.width = 640, .height = 360})
-                    : read_camera(arguments, console);
+                    : camera_of_study(arguments, console);
   return view;
 }
 

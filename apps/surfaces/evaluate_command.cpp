@@ -123,7 +123,7 @@ int run_evaluate(const EvaluateArguments& arguments, const Console& console) {
   const Scene reconstruction = arguments.scene.read(console, {.clouds = true});
   const Scene truth = read_truth(arguments, console);
   std::vector<Camera> cameras;
-  if (!arguments.camera.empty()) cameras = read_camera_file(arguments.camera, console);
+  if (!arguments.camera.empty()) cameras = read_cameras_without_lens(arguments.camera, console);
   TextOutput output(arguments.output);
   PointsFile accuracy(arguments.accuracy_points), completeness(arguments.completeness_points);
   SurfaceComparisonOptions options = arguments.comparison;

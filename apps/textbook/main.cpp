@@ -1,7 +1,7 @@
 // fathom-textbook: what `fathom` needs for clip, scan, pipeline and render --engine pipeline.
 
 #include "apps/commands.h"
-#include "apps/render/render_arguments.h"
+#include "apps/render/render_command.h"
 #include "apps/shell/program.h"
 #include "fathom/failures/errors.h"
 

@@ -148,7 +148,7 @@ ValidationScene named_by_files(const ValidateArguments& arguments, const Console
     const auto [width, height] = arguments.size;
     camera = frame_scene(scene, {}, {.width = width, .height = height});
   } else {
-    camera = read_camera(arguments, "", console);
+    camera = camera_of_comparison(arguments, "", console);
     require_straight(camera,
                      "these renderers draw the images of pinhole cameras; --map judges a "
                      "map of a lens");
@@ -159,8 +159,8 @@ ValidationScene named_by_files(const ValidateArguments& arguments, const Console
 
 }  // namespace
 
-Camera read_camera(const ValidateArguments& arguments, const std::string& map,
-                   const Console& console) {
+Camera camera_of_comparison(const ValidateArguments& arguments, const std::string& map,
+                            const Console& console) {
   const std::string& file = arguments.camera;
   if (file.empty()) {
     throw UsageError(

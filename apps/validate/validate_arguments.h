@@ -46,8 +46,8 @@ struct ValidateArguments {
 /// The single camera of --camera, or the camera of a path that is called as `map`, the file of
 /// --map; empty: there is no such file. Warnings go to the console.
 /// Fails    UsageError if the file is not given or has no such camera; InputError.
-Camera read_camera(const ValidateArguments& arguments, const std::string& map,
-                   const Console& console);
+Camera camera_of_comparison(const ValidateArguments& arguments, const std::string& map,
+                            const Console& console);
 
 /// The scene of SCENE…; warnings go to the console.
 /// Fails    UsageError if SCENE is missing; InputError.

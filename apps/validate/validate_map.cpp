@@ -63,7 +63,7 @@ void note_other_camera(const std::optional<Camera>& own, const Camera& camera,
 }
 
 ValidationCase judge_brought(const ValidateArguments& arguments, const Console& console) {
-  const Camera camera = read_camera(arguments, arguments.map, console);
+  const Camera camera = camera_of_comparison(arguments, arguments.map, console);
   // Faults of the arguments are reported before the files are read.
   const std::string name = arguments.model.empty() ? any_model : arguments.model;
   if (name == matching) {

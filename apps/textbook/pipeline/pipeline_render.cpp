@@ -9,7 +9,7 @@
 
 #include "apps/options/depth_format_options.h"
 #include "apps/options/map_arguments.h"
-#include "apps/render/render_arguments.h"
+#include "apps/render/render_command.h"
 #include "apps/render/render_outputs.h"
 #include "apps/shell/console.h"
 #include "apps/shell/elapsed_time.h"

@@ -300,7 +300,7 @@ std::optional<std::string> fault_but_of_unread_directions(const Camera& camera) 
   return find_fault(without_table);
 }
 
-Camera read_camera(const JsonValue& value, const DirectionReader& directions) {
+Camera camera_of_json(const JsonValue& value, const DirectionReader& directions) {
   expect_known_keys(value);
   constexpr auto largest_size = std::numeric_limits<std::uint32_t>::max();
   Camera camera;
@@ -368,7 +368,7 @@ std::vector<Camera> read_cameras(std::string_view text, const std::string& name,
   if (values.empty()) root.fail("the list of cameras is empty");
   std::vector<Camera> cameras;
   cameras.reserve(values.size());
-  for (const JsonValue& value : values) cameras.push_back(read_camera(value, directions));
+  for (const JsonValue& value : values) cameras.push_back(camera_of_json(value, directions));
   if (!std::ranges::all_of(values, says_pixel_centre)) {
     warnings.push_back(name +
                        ": does not say \"pixel_centre\", so that 0.5 is taken; write 0.5 (COLMAP, "
