@@ -9,6 +9,7 @@
 #include "apps/bench/measurement.h"
 #include "apps/bench/parts/ideas.h"
 #include "apps/bench/report.h"
+#include "apps/companions.h"
 #include "apps/options/map_arguments.h"
 #include "apps/shell/console.h"
 #include "apps/shell/failures.h"
@@ -260,7 +261,7 @@ int run_bench(const BenchArguments& arguments, const Console& console) {
 
 void add_bench(Command& program) {
   Command& command = program.command(
-      "bench", "Compare time and memory with VTK, Embree and the reference engine",
+      "bench", description_of_companion("bench"),
       "  fathom bench\n"
       "  fathom bench --scene sphere-200k,soup --threads 1,2 --json times.json\n"
       "  fathom bench --scene sphere-5k --peers reference --size 640x360\n"

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/companions.h"
 #include "apps/doctor/corrected_folder.h"
 #include "apps/doctor/data_set.h"
 #include "apps/doctor/diagnosis.h"
@@ -155,7 +156,7 @@ int run_doctor(const DoctorArguments& arguments, const Console& console) {
 void add_doctor(Command& program) {
   const auto arguments = std::make_shared<DoctorArguments>();
   Command& command = program.command(
-      "doctor", "Find what is wrong with the cameras and depth images of a mesh",
+      "doctor", description_of_companion("doctor"),
       "  fathom doctor room.ply --camera cameras.json --depth 'depth/{stem}.png'\n"
       "  fathom doctor room.ply --camera camera.json --depth a.png --png-scale 5000\n"
       "  fathom doctor room.ply --camera cameras.json --depth 'depth/{stem}.png' \\\n"

@@ -12,6 +12,7 @@
 #include <new>
 #include <span>
 #include <string>
+#include "apps/companions.h"
 #include <string_view>
 
 #include "apps/formats/tasks.h"
@@ -137,10 +138,9 @@ int show_formats(const Console&) {
 
 /// `fathom formats`: the libraries that read foreign formats, and the suffixes of their files.
 void add_formats(Command& program) {
-  Command& command = program.command(
-      "formats", "Show which libraries read foreign mesh formats (FBX, COLLADA, 3DS, 3MF, …)",
-      "  fathom formats\n"
-      "  fathom info model.fbx");
+  Command& command = program.command("formats", description_of_companion("formats"),
+                                     "  fathom formats\n"
+                                     "  fathom info model.fbx");
   command.runs(show_formats);
 }
 

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "apps/commands.h"
+#include "apps/companions.h"
 #include "apps/options/scene_options.h"
 #include "apps/rays/columns.h"
 #include "apps/rays/lidar_options.h"
@@ -214,7 +215,7 @@ int run_cast(const CastArguments& a, const Console& console) {
 void add_cast(Command& program) {
   const auto arguments = std::make_shared<CastArguments>();
   Command& command =
-      program.command("cast", "Find the triangles that rays meet, exactly",
+      program.command("cast", description_of_companion("cast"),
                       "  fathom cast room.json --rays rays.csv -o hits.csv\n"
                       "  fathom cast room.json --rays rays.npy --channels t,id,P,N -o hits.npz\n"
                       "  fathom cast room.json --rays rays.csv --mode any --segment 0:50\n"

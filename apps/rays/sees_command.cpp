@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "apps/commands.h"
+#include "apps/companions.h"
 #include "apps/options/scene_options.h"
 #include "apps/rays/columns.h"
 #include "apps/rays/ray_file.h"
@@ -43,7 +44,7 @@ int run_sees(const SeesArguments& a, const Console& console) {
 void add_sees(Command& program) {
   const auto arguments = std::make_shared<SeesArguments>();
   Command& command =
-      program.command("sees", "Decide which points see each other, exactly",
+      program.command("sees", description_of_companion("sees"),
                       "  fathom sees room.json --pairs pairs.csv -o seen.csv\n"
                       "  fathom sees room.json --pairs pairs.npy --edges generic -o seen.npz");
   arguments->scene.add_to(command);

@@ -14,13 +14,13 @@
 
 namespace fathom::app {
 
-std::filesystem::path companion_path(const std::string& program) {
+std::filesystem::path companion_path(std::string_view program) {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
   return error ? std::filesystem::path() : self.parent_path() / program;
 }
 
-void start_companion(const std::string& program, const std::vector<std::string>& arguments) {
+void start_companion(std::string_view program, const std::vector<std::string>& arguments) {
   if (program.find('/') != std::string::npos) return;
   const std::string path = companion_path(program);
   std::error_code error;
@@ -62,7 +62,7 @@ std::optional<std::string> answer_of(const Companion& companion,
                                      const std::vector<std::string>& arguments) {
   const std::string path = companion_path(companion.program);
   std::vector<std::string> words{path};
-  if (companion.takes_name()) words.push_back(companion.command);
+  if (companion.takes_name()) words.emplace_back(companion.command);
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> list;
   list.reserve(words.size() + 1);
@@ -86,7 +86,7 @@ std::optional<std::string> answer_of(const Companion& companion,
   return answer;
 }
 
-std::string not_built(const std::string& what, const std::string& program, const std::string& how) {
+std::string not_built(std::string_view what, std::string_view program, std::string_view how) {
   return fmt::format(
       "{} is a separate program, {}, that is not built: 'scripts/fathom {}' in a clone of "
       "Fathom installs its dependencies and builds it",

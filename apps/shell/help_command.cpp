@@ -54,7 +54,8 @@ CompletionTable whole_table(const Command& program, const std::vector<Companion>
       const auto lines = answer_of(companion, {form_option + "completion"});
       if (lines) more = table_from_lines(*lines);
     }
-    if (more.empty()) more = {{{"fathom", companion.command}, companion.description, {}}};
+    if (more.empty())
+      more = {{{"fathom", std::string(companion.command)}, std::string(companion.description), {}}};
     table.insert(table.end(), more.begin(), more.end());
   }
   return table;

@@ -325,7 +325,8 @@ int run_arguments(const std::vector<std::string>& given, const std::vector<AddCo
   for (const AddCommand& add : commands) add(program);
   if (!companions.empty()) add_help(program, app, companions);
   for (const Companion& companion : companions) {
-    app.add_subcommand(companion.command, companion.description)->group(companion_heading);
+    app.add_subcommand(std::string(companion.command), std::string(companion.description))
+        ->group(companion_heading);
   }
 
   if (given.empty() && !companions.empty()) {

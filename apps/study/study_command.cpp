@@ -6,6 +6,7 @@
 #include <list>
 #include <memory>
 
+#include "apps/companions.h"
 #include "apps/options/camera_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/command.h"
@@ -142,12 +143,12 @@ std::uint32_t parse_samples(const std::string& text) {
 void add_study(Command& program) {
   auto arguments = std::make_shared<StudyArguments>();
   studies::StudyOptions& options = arguments->options;
-  Command& command = program.command(
-      "study", "Measure depth-buffer precision and textbook algorithms; write tables and web pages",
-      "  fathom study --list\n"
-      "  fathom study depth-resolution --near 0.1 --far 1000 -o resolution\n"
-      "  fathom study indistinguishable -o reed\n"
-      "  fathom study mitigation --scene spot.obj --near 0.001 -o cures");
+  Command& command =
+      program.command("study", description_of_companion("study"),
+                      "  fathom study --list\n"
+                      "  fathom study depth-resolution --near 0.1 --far 1000 -o resolution\n"
+                      "  fathom study indistinguishable -o reed\n"
+                      "  fathom study mitigation --scene spot.obj --near 0.001 -o cures");
   command.argument("NAME", into(arguments->name, parse_study),
                    "Name of the study; --list shows all names");
   add_output_option(command, "DIR", arguments->out,

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "apps/commands.h"
+#include "apps/companions.h"
 #include "apps/options/camera_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/console.h"
@@ -211,11 +212,11 @@ int run_areas(const AreasArguments& a, const Console& console) {
 
 void add_areas(Command& program) {
   const auto arguments = std::make_shared<AreasArguments>();
-  Command& command = program.command(
-      "areas", "Measure the areas that a sun, a lamp or a camera sees, exactly, without pixels",
-      "  fathom areas house.obj --directions suns.csv --by face -o areas.csv\n"
-      "  fathom areas house.obj --directions suns.csv --alone -o areas.npz\n"
-      "  fathom areas room.json --points lamps.csv --by triangle --nonzero");
+  Command& command =
+      program.command("areas", description_of_companion("areas"),
+                      "  fathom areas house.obj --directions suns.csv --by face -o areas.csv\n"
+                      "  fathom areas house.obj --directions suns.csv --alone -o areas.npz\n"
+                      "  fathom areas room.json --points lamps.csv --by triangle --nonzero");
   arguments->scene.add_to(command);
   const Option directions = command.option(
       "--directions", "FILE", arguments->directions,

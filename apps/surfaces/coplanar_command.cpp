@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "apps/commands.h"
+#include "apps/companions.h"
 #include "apps/options/camera_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/console.h"
@@ -150,10 +151,10 @@ int run_coplanar(const CoplanarArguments& arguments, const Console& console) {
 
 void add_coplanar(Command& program) {
   const auto arguments = std::make_shared<CoplanarArguments>();
-  Command& command = program.command(
-      "coplanar", "Find visible surfaces that coincide or nearly coincide, where z-buffers fight",
-      "  fathom coplanar room.json\n"
-      "  fathom coplanar room.json --camera camera.json --within 0.001 --json");
+  Command& command =
+      program.command("coplanar", description_of_companion("coplanar"),
+                      "  fathom coplanar room.json\n"
+                      "  fathom coplanar room.json --camera camera.json --within 0.001 --json");
   arguments->scene.add_to(command);
   arguments->camera.add_to(command);
   command.option("--within", "D", into(arguments->within, parse_distance),

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/commands.h"
+#include "apps/companions.h"
 #include "apps/options/camera_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/console.h"
@@ -74,7 +75,7 @@ int run_draw(const DrawArguments& arguments, const Console& console) {
 void add_draw(Command& program) {
   const auto arguments = std::make_shared<DrawArguments>();
   Command& command =
-      program.command("draw", "Draw the visible edges as SVG or PDF, with exact hidden lines",
+      program.command("draw", description_of_companion("draw"),
                       "  fathom draw spot.obj --edges silhouettes -o spot.svg\n"
                       "  fathom draw house.json --camera camera.json -o house.pdf\n"
                       "  fathom draw part.obj --orthographic 4 --view 0,0 --up z -o front.svg");

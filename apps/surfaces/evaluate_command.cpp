@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/companions.h"
 #include "apps/options/camera_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/command.h"
@@ -152,9 +153,7 @@ int run_evaluate(const EvaluateArguments& arguments, const Console& console) {
 void add_evaluate(Command& program) {
   const auto arguments = std::make_shared<EvaluateArguments>();
   Command& command = program.command(
-      "evaluate",
-      "Measure a reconstructed mesh or point cloud against the true one: Depth L1, accuracy, "
-      "completeness",
+      "evaluate", description_of_companion("evaluate"),
       "  fathom evaluate mesh.ply --truth room.ply --camera cameras.json --within 0.05\n"
       "  fathom evaluate mesh.ply --truth scan.ply --within 0.01,0.02,0.05 --json\n"
       "  fathom evaluate fused.ply --truth scan.ply --density 0.2 --max-distance 20");

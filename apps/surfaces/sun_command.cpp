@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "apps/commands.h"
+#include "apps/companions.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/values.h"
@@ -218,7 +219,7 @@ int run_sun(const SunArguments& a, const Console&) {
 void add_sun(Command& program) {
   const auto arguments = std::make_shared<SunArguments>();
   Command& command = program.command(
-      "sun", "Print directions towards the sun, for areas",
+      "sun", description_of_companion("sun"),
       "  fathom sun --latitude 48.1 --longitude 11.6 --dates 2026-01-01:2026-12-31\n"
       "  fathom sun --latitude 48 --longitude 11 --dates 2026-06-21 -o suns.csv\n"
       "\nEach line of the CSV table has the columns time, azimuth, elevation, x, y, z and name. "

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.h"
+#include "apps/companions.h"
 #include "apps/options/camera_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/command.h"
@@ -138,7 +139,7 @@ int run_visible(const VisibleArguments& arguments, const Console& console) {
 void add_visible(Command& program) {
   const auto arguments = std::make_shared<VisibleArguments>();
   Command& command =
-      program.command("visible", "Measure how much of each triangle and object is visible, exactly",
+      program.command("visible", description_of_companion("visible"),
                       "  fathom visible spot.obj\n"
                       "  fathom visible room.json --camera camera.json --json\n"
                       "  fathom visible room.json --camera camera.json --csv -o visible.csv");

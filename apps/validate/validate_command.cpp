@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "apps/companions.h"
 #include "apps/shell/program.h"
 #include "apps/validate/validate_arguments.h"
 #include "fathom/attribution/model/named_models.h"
@@ -48,7 +49,7 @@ int run_validate(const ValidateArguments& arguments, const Console& console) {
 
 void add_validate(Command& program) {
   Command& command = program.command(
-      "validate", "Check another renderer's maps against the truth and explain every difference",
+      "validate", description_of_companion("validate"),
       "  fathom validate --against vtk,opengl,embree,blender -o report\n"
       "  fathom validate --against opengl --scene room --variants unorm16,float32\n"
       "  fathom validate --against vtk spot.obj --camera camera.json\n"

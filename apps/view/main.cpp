@@ -14,6 +14,7 @@
 #include <memory>
 #include <string>
 
+#include "apps/companions.h"
 #include "apps/options/camera_options.h"
 #include "apps/options/map_arguments.h"
 #include "apps/options/scene_options.h"
@@ -284,13 +285,13 @@ int run_view(const ViewArguments& arguments, const Console& console) {
 /// `fathom view`: maps in a page for a browser.
 void add_view(Command& program) {
   const auto arguments = std::make_shared<ViewArguments>();
-  Command& command = program.command(
-      "view", "Show maps in a browser, with pan, zoom, values, ranges and histograms",
-      "  fathom view spot.exr\n"
-      "  fathom view spot.exr -o spot.html\n"
-      "  fathom view exact.exr other.exr\n"
-      "  fathom view spot.exr --scene spot.obj --serve --open\n"
-      "  fathom view vtk.npy --camera camera.json --scene spot.obj --serve --open");
+  Command& command =
+      program.command("view", description_of_companion("view"),
+                      "  fathom view spot.exr\n"
+                      "  fathom view spot.exr -o spot.html\n"
+                      "  fathom view exact.exr other.exr\n"
+                      "  fathom view spot.exr --scene spot.obj --serve --open\n"
+                      "  fathom view vtk.npy --camera camera.json --scene spot.obj --serve --open");
   command
       .arguments("MAP", arguments->maps,
                  "Maps to look at (" + names_of_readable_maps() +

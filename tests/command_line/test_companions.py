@@ -1,4 +1,4 @@
-"""The companions that fathom starts are listed in apps/main.cpp: each is built, scripts/fathom builds it for its command, and
+"""The companions that fathom starts are listed in apps/companions.h: each is built, scripts/fathom builds it for its command, and
 help and tests list it."""
 
 import os
@@ -15,7 +15,7 @@ def read(path: str) -> str:
     return (source / path).read_text(encoding="utf-8")
 
 
-companions = re.findall(r'\{"([a-z]+)",\s*"(fathom-[a-z]+)",', read("apps/main.cpp"))
+companions = re.findall(r'\{"([a-z]+)",\s*"(fathom-[a-z]+)",', read("apps/companions.h"))
 
 
 def test_all_companions_are_found():

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "apps/commands.h"
+#include "apps/companions.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/values.h"
 #include "apps/textbook/cases/json_lines.h"
@@ -167,7 +168,7 @@ int run_clip(const ClipArguments& arguments, const Console& console) {
 void add_clip(Command& program) {
   const auto arguments = std::make_shared<ClipArguments>();
   Command& command = program.command(
-      "clip", "Clip polygons and segments given as JSON lines",
+      "clip", description_of_companion("clip"),
       "  echo '{\"subject\":[[[0,0],[4,0],[4,4],[0,4]]],\"clip\":[[[2,1],[6,1],[2,3]]]}' |\n"
       "    fathom clip --algorithm weiler-atherton --exact\n"
       "  echo '{\"segment\": [[0,0],[9,6]], \"window\": [1,1,6,3]}' |\n"

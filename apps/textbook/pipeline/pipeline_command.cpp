@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.h"
+#include "apps/companions.h"
 #include "apps/options/camera_options.h"
 #include "apps/options/pipeline_options.h"
 #include "apps/options/scene_options.h"
@@ -183,10 +184,9 @@ void add_run(Command& family) {
 }  // namespace
 
 void add_pipeline(Command& program) {
-  Command& family = program.command(
-      "pipeline", "Trace primitives through the graphics pipeline, or run one of its stages",
-      "  fathom pipeline trace spot.obj --triangle 238\n"
-      "  fathom pipeline run viewport records.jsonl");
+  Command& family = program.command("pipeline", description_of_companion("pipeline"),
+                                    "  fathom pipeline trace spot.obj --triangle 238\n"
+                                    "  fathom pipeline run viewport records.jsonl");
   family.requires_command();
   add_trace(family);
   add_run(family);

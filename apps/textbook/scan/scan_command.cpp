@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "apps/commands.h"
+#include "apps/companions.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/values.h"
 #include "apps/textbook/cases/json_lines.h"
@@ -89,7 +90,7 @@ int run_scan(const ScanArguments& arguments) {
 void add_scan(Command& program) {
   const auto arguments = std::make_shared<ScanArguments>();
   Command& command = program.command(
-      "scan", "Rasterize lines, polygons and triangles given as JSON lines",
+      "scan", description_of_companion("scan"),
       "  echo '{\"line\": [0,0,8,3]}' | fathom scan --algorithm midpoint --trace\n"
       "  echo '{\"line\": [0,0,2147483648,7], \"width\": 9, \"height\": 9}' |\n"
       "    fathom scan --algorithm dda --arithmetic float32\n"
