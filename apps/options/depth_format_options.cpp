@@ -5,19 +5,40 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "apps/shell/values.h"
 #include "fathom/failures/errors.h"
+#include "fathom/failures/unknown_name.h"
 
 namespace fathom::app {
 
+namespace {
+
+template <class Values, class Value>
+std::string list_with_default(const Values& values, Value standard) {
+  std::vector<std::string> names;
+  for (const auto value : values)
+    names.push_back(std::string(name_of(value)) + (value == standard ? " (default)" : ""));
+  return joined(names, " or ");
+}
+
+}  // namespace
+
+std::string list_of_mappings() {
+  return list_with_default(all_mappings, DepthFormat{}.mapping);
+}
+
+std::string list_of_storages() {
+  return list_with_default(all_storages, DepthFormat{}.storage);
+}
+
 void DepthFormatOptions::add_to(Command& command) {
   command.option("--mapping", "NAME", into(mapping, mapping_named),
-                 "Mapping from depth to stored value: standard (default), reversed, infinite, "
-                 "reversed-infinite, opengl, linear, w, log or log-ulrich");
+                 "Mapping from depth to stored value: " + list_of_mappings());
   command.option("--storage", "NAME", into(storage, storage_named),
-                 "Storage: unorm16, unorm24, unorm32, float16, float32 (default) or float64; "
-                 "also as D24S8, GL_DEPTH_COMPONENT24, VK_FORMAT_D32_SFLOAT, …");
+                 "Storage: " + list_of_storages() +
+                     "; also as D24S8, GL_DEPTH_COMPONENT24, VK_FORMAT_D32_SFLOAT, …");
   command.option("--near", "D", into(near, parse_number), "Least depth").required();
   command.option("--far", "D", into(far, parse_number_or_infinity),
                  "Greatest depth; inf is the default of infinite and reversed-infinite");

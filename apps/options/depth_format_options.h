@@ -2,11 +2,17 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
 
 #include "apps/shell/command.h"
 #include "fathom/depth_format/depth_format.h"
 
 namespace fathom::app {
+
+/// For help texts: the names in the order of the tables, with a remark behind the default:
+/// "standard (default), reversed, … or log-ulrich".
+std::string list_of_mappings();
+std::string list_of_storages();
 
 /// The options that describe a depth format: `--mapping --storage --near --far --c`.
 struct DepthFormatOptions {

@@ -7,12 +7,15 @@
 #include <utility>
 #include <vector>
 
+#include "apps/options/depth_format_options.h"
 #include "apps/options/map_arguments.h"
 #include "apps/options/pipeline_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/command.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/values.h"
+#include "fathom/depth_format/depth_format.h"
+#include "fathom/failures/unknown_name.h"
 #include "fathom/image/channel_names.h"
 #include "fathom/image/channel_table.h"
 #include "fathom/image/map_formats.h"
@@ -109,17 +112,26 @@ std::string suffixes_with_remarks() {
   return text;
 }
 
+/// "unorm16, unorm24, unorm32: code (UINT); …"
+std::string storages_with_channels() {
+  std::vector<std::string> codes, values;
+  for (const Storage storage : all_storages) {
+    if (storage == Storage::float64) continue;
+    (is_unorm(storage) ? codes : values).emplace_back(name_of(storage));
+  }
+  return joined(codes, ", ") + ": code (UINT); " + joined(values, ", ") +
+         ": value (FLOAT); float64: halves of its bits, Zwindow.high and Zwindow.low (UINT)";
+}
+
 }  // namespace
 
 void DepthBufferArguments::add_to(Command& command) {
   command.option("--depth-format", "NAME", into(storage, storage_named),
                  "Add channel Zwindow, the value in a depth buffer of this format, and Zdecoded, "
-                 "the depth decoded from it; near and far are the camera's. unorm16, unorm24, "
-                 "unorm32: code (UINT); float16, float32: value (FLOAT); float64: halves of its "
-                 "bits, Zwindow.high and Zwindow.low (UINT)");
+                 "the depth decoded from it; near and far are the camera's. " +
+                     storages_with_channels());
   command.option("--mapping", "NAME", into(mapping, mapping_named),
-                 "Mapping of --depth-format: standard (default), reversed, infinite, "
-                 "reversed-infinite, opengl, linear, w, log or log-ulrich");
+                 "Mapping of --depth-format: " + list_of_mappings());
   command.option("--c", "C", into(c, parse_number), "Constant C of --mapping log (default 1)");
   command.flag("--against-exact", against_exact,
                "Add Zerror (Zdecoded minus the exact depth), Zwinner (the triangle that wins in "

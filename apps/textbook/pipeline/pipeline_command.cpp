@@ -9,6 +9,7 @@
 #include "apps/commands.h"
 #include "apps/companions.h"
 #include "apps/options/camera_options.h"
+#include "apps/options/depth_format_options.h"
 #include "apps/options/pipeline_options.h"
 #include "apps/options/scene_options.h"
 #include "apps/shell/failures.h"
@@ -39,13 +40,11 @@ struct TraceArguments {
 void add_depth_format(Command& command, DepthFormat& format, const std::string& heading) {
   command
       .option("--depth-format", "NAME", into(format.storage, storage_named),
-              "Storage of the z-buffer: unorm16, unorm24, unorm32, float16, float32 (default) or "
-              "float64")
+              "Storage of the z-buffer: " + list_of_storages())
       .below(heading);
   command
       .option("--mapping", "NAME", into(format.mapping, mapping_named),
-              "Mapping of the z-buffer: standard (default), reversed, infinite, reversed-infinite, "
-              "opengl, linear, w, log or log-ulrich")
+              "Mapping of the z-buffer: " + list_of_mappings())
       .below(heading);
   command
       .option("--c", "C", into(format.c, parse_number), "Constant C of --mapping log (default 1)")
