@@ -16,14 +16,16 @@ namespace fathom::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::seconds time_there_is{20};
 
 }  // namespace
 
+double median_of(const std::vector<double>& sorted) {
+  const std::size_t half = sorted.size() / 2;
+  return sorted.size() % 2 == 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
+}
+
 double Measurement::median_ms() const {
-  const std::size_t half = milliseconds.size() / 2;
-  return milliseconds.size() % 2 == 1 ? milliseconds[half]
-                                      : (milliseconds[half - 1] + milliseconds[half]) / 2;
+  return median_of(milliseconds);
 }
 
 Frames time_frames(int repeat, const std::function<void()>& draw,

@@ -43,6 +43,12 @@ struct Measurement {
   [[nodiscard]] double median_ms() const;
 };
 
+/// No frame starts after this time.
+inline constexpr std::chrono::seconds time_there_is{20};
+
+/// Of numbers in increasing order; there must be some.
+double median_of(const std::vector<double>& sorted);
+
 struct Frames {
   double first_ms = 0;
   /// In increasing order; only the time of the first frame if it took all the available time.
@@ -51,7 +57,7 @@ struct Frames {
 
 /// Times `draw` once, keeps drawing until `warm_up` has passed, so that threads settle on
 /// processors and allocators on sizes, and then times `repeat` more frames. Starts no frame after
-/// 20 seconds. `clear` is called before each frame and not timed.
+/// time_there_is. `clear` is called before each frame and not timed.
 Frames time_frames(
     int repeat, const std::function<void()>& draw, const std::function<void()>& clear = [] {},
     std::chrono::milliseconds warm_up = std::chrono::milliseconds(300));

@@ -2,19 +2,17 @@
 #include <fmt/ranges.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <csignal>
 #include <exception>
 #include <memory>
 #include <new>
 #include <span>
 #include <string>
-#include "apps/companions.h"
 #include <string_view>
 
+#include "apps/companions.h"
 #include "apps/formats/tasks.h"
 #include "apps/shell/failures.h"
 #include "apps/shell/program.h"
@@ -27,29 +25,10 @@ namespace {
 
 using namespace mesh_files::formats_program;
 
-bool receive(std::span<std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t got = ::recv(STDIN_FILENO, bytes.data(), bytes.size(), 0);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(got));
-  }
-  return true;
-}
-
-bool send(std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t sent = ::send(STDIN_FILENO, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent < 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(sent));
-  }
-  return true;
-}
-
 bool reply(bool refused, std::span<const std::byte> bytes) {
   const ReplyHead head{refused ? 1U : 0U, bytes.size()};
-  return send(std::as_bytes(std::span(&head, 1))) && send(bytes);
+  return send_all(STDIN_FILENO, std::as_bytes(std::span(&head, 1))) &&
+         send_all(STDIN_FILENO, bytes);
 }
 
 bool refuse(const std::string& why) {
@@ -98,7 +77,7 @@ bool answer(const RequestHead& request) {
     std::vector<std::byte> parameters(request.parameter_bytes);
     const auto bytes = std::make_unique_for_overwrite<std::byte[]>(request.bytes);
     const std::span<std::byte> content(bytes.get(), request.bytes);
-    if (!receive(parameters) || !receive(content)) return false;
+    if (!receive_all(STDIN_FILENO, parameters) || !receive_all(STDIN_FILENO, content)) return false;
     return reply(false, carry_out(request, parameters, content));
   } catch (const std::bad_alloc&) {
     return refuse(too_large);
@@ -115,7 +94,7 @@ int serve_requests() {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody waits for the answer any more
   limit(RLIMIT_CORE, 0);
   RequestHead request;
-  while (receive(std::as_writable_bytes(std::span(&request, 1)))) {
+  while (receive_all(STDIN_FILENO, std::as_writable_bytes(std::span(&request, 1)))) {
     if (!answer(request)) break;
     ::alarm(0);
   }

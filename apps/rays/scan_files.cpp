@@ -61,13 +61,13 @@ files::Bytes cloud_of(const Scan<Real>& scan, ScanFile file) {
   for (std::size_t k = 0; k < scan.ids.size(); ++k) {
     if (scan.ids[k] == no_triangle) continue;
     ++points;
-    for (const Real x : scan.values[k].position) put(body, x);
+    for (const Real x : scan.values[k].position) files::put_number(body, x);
     if (file == ScanFile::kitti) {
-      put(body, 0.0F);
+      files::put_number(body, 0.0F);
     } else {
-      put(body, scan.ids[k]);
-      put(body, static_cast<std::uint32_t>(k / scan.columns));
-      put(body, static_cast<std::uint32_t>(k % scan.columns));
+      files::put_number(body, scan.ids[k]);
+      files::put_number(body, static_cast<std::uint32_t>(k / scan.columns));
+      files::put_number(body, static_cast<std::uint32_t>(k % scan.columns));
     }
   }
   files::Bytes bytes;

@@ -19,6 +19,8 @@
 namespace fathom::app {
 namespace {
 
+using files::put_number;
+
 using Json = nlohmann::ordered_json;
 
 const std::vector<std::string>& own_columns() {
@@ -196,7 +198,7 @@ void AreaArrays::add_texts(const std::string& name, const std::vector<std::strin
   files::Bytes bytes;
   for (std::u32string& each : characters) {
     each.resize(longest);
-    for (const char32_t c : each) put(bytes, static_cast<std::uint32_t>(c));
+    for (const char32_t c : each) put_number(bytes, static_cast<std::uint32_t>(c));
   }
   add_other(name, "<U" + std::to_string(longest), 4 * longest, {texts.size()}, std::move(bytes));
 }
@@ -206,9 +208,9 @@ void AreaArrays::add_items(const AreaItems& items) {
   files::Bytes numbers, objects, faces;
   for (const AreaItem& item : items.items) {
     names.push_back(item.name);
-    put(numbers, item.number);
-    if (item.object) put(objects, *item.object);
-    if (item.face) put(faces, *item.face);
+    put_number(numbers, item.number);
+    if (item.object) put_number(objects, *item.object);
+    if (item.face) put_number(faces, *item.face);
   }
   const std::uint64_t count = names.size();
   add_texts("names", names);
@@ -222,7 +224,7 @@ void AreaArrays::add_lights(const LightList& list) {
   if (list.lights.empty()) return;
   files::Bytes numbers;
   for (const LightList::Light& light : list.lights) {
-    for (const double number : light.numbers) put(numbers, number);
+    for (const double number : light.numbers) put_number(numbers, number);
   }
   add_other("lights", "<f8", 8, {list.lights.size(), 3}, std::move(numbers));
   std::vector<std::string> taken;
@@ -238,14 +240,14 @@ void AreaArrays::add_lights(const LightList& list) {
 std::vector<files::Bytes> AreaArrays::rows(const std::vector<LitArea>& areas) const {
   files::Bytes projected, visible, fraction, lit, centroid, side;
   for (const LitArea& area : areas) {
-    put(projected, or_nan(area.projected));
-    put(visible, or_nan(area.visible));
-    put(fraction, or_nan(area.fraction));
-    put(lit, area.lit);
+    put_number(projected, or_nan(area.projected));
+    put_number(visible, or_nan(area.visible));
+    put_number(fraction, or_nan(area.fraction));
+    put_number(lit, area.lit);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      put(centroid, area.centroid ? (*area.centroid)[axis] : or_nan({}));
+      put_number(centroid, area.centroid ? (*area.centroid)[axis] : or_nan({}));
     }
-    if (has_sides_) put(side, sign_of(area.side.value_or(LitSide::edge)));
+    if (has_sides_) put_number(side, sign_of(area.side.value_or(LitSide::edge)));
   }
   std::vector<files::Bytes> rows;
   for (files::Bytes* bytes : {&projected, &visible, &fraction, &lit, &centroid}) {

@@ -13,6 +13,8 @@
 namespace fathom::app {
 namespace {
 
+using files::put_number;
+
 constexpr std::uint32_t local_magic = 0x04034b50, entry_magic = 0x02014b50, end_magic = 0x06054b50,
                         end64_magic = 0x06064b50, locator_magic = 0x07064b50;
 constexpr std::uint32_t in_extra_field = 0xFFFFFFFF;
@@ -32,27 +34,27 @@ files::Bytes array_header(const NpzRows::Array& array) {
 /// fields.
 void put_facts(files::Bytes& bytes, std::uint32_t crc, const std::string& file,
                std::uint16_t extra_bytes) {
-  put(bytes, version);
-  put(bytes, utf8_names);
-  put<std::uint16_t>(bytes, 0);  // stored
-  put<std::uint16_t>(bytes, 0);  // midnight
-  put(bytes, no_date);
-  put(bytes, crc);
-  put(bytes, in_extra_field);
-  put(bytes, in_extra_field);
-  put(bytes, static_cast<std::uint16_t>(file.size()));
-  put(bytes, extra_bytes);
+  put_number(bytes, version);
+  put_number(bytes, utf8_names);
+  put_number<std::uint16_t>(bytes, 0);  // stored
+  put_number<std::uint16_t>(bytes, 0);  // midnight
+  put_number(bytes, no_date);
+  put_number(bytes, crc);
+  put_number(bytes, in_extra_field);
+  put_number(bytes, in_extra_field);
+  put_number(bytes, static_cast<std::uint16_t>(file.size()));
+  put_number(bytes, extra_bytes);
 }
 
 void put_zip64(files::Bytes& bytes, const std::vector<std::uint64_t>& numbers) {
-  put<std::uint16_t>(bytes, 1);
-  put(bytes, static_cast<std::uint16_t>(8 * numbers.size()));
-  for (const std::uint64_t number : numbers) put(bytes, number);
+  put_number<std::uint16_t>(bytes, 1);
+  put_number(bytes, static_cast<std::uint16_t>(8 * numbers.size()));
+  for (const std::uint64_t number : numbers) put_number(bytes, number);
 }
 
 files::Bytes local_header(const std::string& file, std::uint32_t crc, std::uint64_t size) {
   files::Bytes bytes;
-  put(bytes, local_magic);
+  put_number(bytes, local_magic);
   put_facts(bytes, crc, file, 20);
   files::append(bytes, file);
   put_zip64(bytes, {size, size});
@@ -89,35 +91,35 @@ void NpzRows::finish() {
   for (const Place& place : places_) {
     const std::string file = file_of(place.array);
     write_at(place.header_at, local_header(file, place.crc, place.size));
-    put(directory, entry_magic);
-    put(directory, version);
+    put_number(directory, entry_magic);
+    put_number(directory, version);
     put_facts(directory, place.crc, file, 28);
     // No comment, first disk, no attributes.
-    for (int k = 0; k < 5; ++k) put<std::uint16_t>(directory, 0);
-    put(directory, in_extra_field);
+    for (int k = 0; k < 5; ++k) put_number<std::uint16_t>(directory, 0);
+    put_number(directory, in_extra_field);
     files::append(directory, file);
     put_zip64(directory, {place.size, place.size, place.header_at});
   }
   const std::uint64_t size = directory.size(), count = places_.size();
-  put(directory, end64_magic);
-  put<std::uint64_t>(directory, 44);  // the bytes that follow in this record
-  put(directory, version);
-  put(directory, version);
-  put<std::uint64_t>(directory, 0);  // this disk, and the disk of the directory
-  put(directory, count);
-  put(directory, count);
-  put(directory, size);
-  put(directory, end_);
-  put(directory, locator_magic);
-  put<std::uint32_t>(directory, 0);
-  put(directory, end_ + size);
-  put<std::uint32_t>(directory, 1);  // disks
-  put(directory, end_magic);
-  put<std::uint32_t>(directory, 0);
-  put<std::uint32_t>(directory, in_extra_field);  // two counts
-  put(directory, in_extra_field);
-  put(directory, in_extra_field);
-  put<std::uint16_t>(directory, 0);  // no comment
+  put_number(directory, end64_magic);
+  put_number<std::uint64_t>(directory, 44);  // the bytes that follow in this record
+  put_number(directory, version);
+  put_number(directory, version);
+  put_number<std::uint64_t>(directory, 0);  // this disk, and the disk of the directory
+  put_number(directory, count);
+  put_number(directory, count);
+  put_number(directory, size);
+  put_number(directory, end_);
+  put_number(directory, locator_magic);
+  put_number<std::uint32_t>(directory, 0);
+  put_number(directory, end_ + size);
+  put_number<std::uint32_t>(directory, 1);  // disks
+  put_number(directory, end_magic);
+  put_number<std::uint32_t>(directory, 0);
+  put_number<std::uint32_t>(directory, in_extra_field);  // two counts
+  put_number(directory, in_extra_field);
+  put_number(directory, in_extra_field);
+  put_number<std::uint16_t>(directory, 0);  // no comment
   write_at(end_, directory);
 }
 

@@ -1,22 +1,13 @@
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "fathom/files/byte_order.h"
 #include "fathom/files/file_bytes.h"
 
 namespace fathom::app {
-
-/// Appends a number in little-endian order.
-template <class T>
-void put(files::Bytes& bytes, T value) {
-  bytes.resize(bytes.size() + sizeof(T));
-  store(&bytes[bytes.size() - sizeof(T)], value, std::endian::little);
-}
 
 /// Writes an NPZ whose arrays grow together, row by row, without keeping them in memory. The shapes
 /// are known at the beginning, so each array has its place in the file. Numbers of the archive have

@@ -98,9 +98,8 @@ std::string lines_for_ctest(const ValidationCase& c, const std::string& cause,
                      "\n";
   text += line_of(c, !c.is_good() && (is_accepted || cause == verdict)) + more;
   if (!cause.empty()) {
-    constexpr std::size_t listed_pixels = 8;
     for (const std::size_t i :
-         attribution::worst_pixels(*c.truth, c.other, c.attribution, listed_pixels)) {
+         attribution::worst_pixels(*c.truth, c.other, c.attribution, validation::listed_pixels)) {
       text +=
           fmt::format("  {} {}\n", name_of(c.attribution.classes[i]), validation::pixel_text(c, i));
     }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "apps/bench/measurement.h"
 #include "fathom/failures/errors.h"
 #include "fathom/pipeline/render_pipeline.h"
 #include "fathom/render.h"
@@ -78,7 +79,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds time_there_is{20};
 constexpr std::chrono::milliseconds enough_for_a_round{30};
 
 /// The least of several times, of as many as there is time for in `enough_for_a_round`: one draw
@@ -121,9 +121,7 @@ Counts checked_counts(const Idea& idea, const Variant& variant) {
 }  // namespace
 
 double VariantTimes::median_ms() const {
-  const std::size_t half = milliseconds.size() / 2;
-  return milliseconds.size() % 2 == 1 ? milliseconds[half]
-                                      : (milliseconds[half - 1] + milliseconds[half]) / 2;
+  return median_of(milliseconds);
 }
 
 IdeaTimes time_idea(const Idea& idea, int repeat) {

@@ -25,11 +25,6 @@ double fragments_at_most(const pipeline::PixelWindow& box) {
          std::max(0.0, static_cast<double>(box.y_end - box.y_begin));
 }
 
-pipeline::PixelWindow overlap(const pipeline::PixelWindow& a, const pipeline::PixelWindow& b) {
-  return {std::max(a.x_begin, b.x_begin), std::max(a.y_begin, b.y_begin),
-          std::min(a.x_end, b.x_end), std::min(a.y_end, b.y_end)};
-}
-
 template <class Real>
 void put_fragments(Json& list, const pipeline::WindowTriangle<Real>& part,
                    const PipelineOptions& options, const pipeline::PixelWindow& window) {

@@ -73,8 +73,6 @@ struct Complaint {
   std::string element, type, message, details;
 };
 
-constexpr std::size_t listed_pixels = 8;
-
 std::string details_of(const ValidationCase& c) {
   std::string text;
   for (const attribution::Finding& f : c.attribution.findings) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -32,6 +33,9 @@ std::string xml_text(std::string_view text);
 std::string to_xml(const XmlElement& element, int depth = 0);
 
 // The forms in which `fathom validate` writes its results.
+
+/// Each form lists at most so many of a comparison's worst pixels.
+inline constexpr std::size_t listed_pixels = 8;
 
 /// report.json, explained in docs/validation.md: {"fathom": version, "format": report_format,
 /// "verdict": verdict_of(cases), "results": [ … ]}, one result for each case. Ends with a newline.

@@ -18,8 +18,6 @@ using attribution::Truth;
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t listed_pixels = 8;
-
 /// null where there is no finite number.
 Json number(double x) {
   return std::isfinite(x) ? Json(x) : Json(nullptr);

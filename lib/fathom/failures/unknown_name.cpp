@@ -113,7 +113,7 @@ std::string plain(std::string_view name) {
   std::string letters;
   for (const char c : name) {
     if (c == '-' || c == '_' || c == ' ') continue;
-    letters += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    letters += lower(c);
   }
   return letters;
 }

@@ -328,8 +328,6 @@ Rendered render_lens(const Scene& scene, const Camera& camera, const RenderOptio
 
 namespace {
 
-constexpr std::uint32_t parts_of_chunk = 8;
-
 /// A tile of a lens that waits for further triangles.
 struct WaitingTile {
   WaitingTile(const ViewDrawing& drawing, const TileGrid& image, std::uint32_t number) {

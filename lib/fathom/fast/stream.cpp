@@ -31,8 +31,6 @@ using namespace triangle;
 
 namespace {
 
-constexpr std::uint32_t parts_of_chunk = 8;
-
 /// Rows of tiles [first_row, end_row); a tile exists from the first triangle on that may be visible
 /// in it.
 class Band {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "fathom/failures/errors.h"
-#include "fathom/files/byte_order.h"
 #include "fathom/files/file_bytes.h"
 #include "fathom/image/surface.h"
 #include "fathom/numeric/standard_arithmetic.h"
@@ -117,12 +116,6 @@ class Points {
   std::vector<std::uint8_t> surface_;
 };
 
-template <class T>
-void put(Bytes& bytes, T value) {
-  bytes.resize(bytes.size() + sizeof(T));
-  store(&bytes[bytes.size() - sizeof(T)], value, std::endian::little);
-}
-
 std::string header_of(std::size_t points, const PointCloudOptions& options, bool has_normals,
                       const std::vector<std::string>& identifiers) {
   std::string text = "ply\nformat binary_little_endian 1.0\n";
@@ -170,11 +163,13 @@ void PointCloud::add(const DepthMap& map, const Camera& camera, const std::strin
     const std::optional<Vector> p = points.point(k);
     if (!p) continue;
     ++points_;
-    for (const double x : *p) options_.binary64 ? put(body_, x) : put(body_, static_cast<float>(x));
+    for (const double x : *p)
+      options_.binary64 ? put_number(body_, x) : put_number(body_, static_cast<float>(x));
     if (has_normals_)
-      for (const double x : points.normal(k)) put(body_, static_cast<float>(x));
-    for (const std::string& each : identifiers_) put(body_, (*map.values<std::uint32_t>(each))[k]);
-    if (options_.numbers_views) put(body_, maps_);
+      for (const double x : points.normal(k)) put_number(body_, static_cast<float>(x));
+    for (const std::string& each : identifiers_)
+      put_number(body_, (*map.values<std::uint32_t>(each))[k]);
+    if (options_.numbers_views) put_number(body_, maps_);
   }
   ++maps_;
 }

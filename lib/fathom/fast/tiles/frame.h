@@ -65,8 +65,9 @@ struct FastFrame {
 ImageObjects image_objects(const TriangleSource& triangles, const Camera& camera,
                            VertexMemory* kept);
 
-/// Parts of a whole scene, for sort_into_tiles().
+/// Parts of a whole scene, and of a chunk of a stream, for sort_into_tiles().
 inline constexpr std::uint32_t parts_of_scene = 64;
+inline constexpr std::uint32_t parts_of_chunk = 8;
 
 /// Sorts triangles [first, end) of the scene, all of which belong to these objects, into tiles:
 /// into at most `parts` bins of equal length, so that each thread has several and their tables of

@@ -27,12 +27,6 @@ constexpr std::uint16_t no_date = 0x21;
 constexpr std::uint16_t stored_method = 0, deflate_method = 8;
 constexpr std::uint32_t beyond = 0xFFFFFFFF;
 
-template <class T>
-void put_number(Bytes& bytes, T value) {
-  bytes.resize(bytes.size() + sizeof(T));
-  store(&bytes[bytes.size() - sizeof(T)], value, std::endian::little);
-}
-
 std::uint16_t two(ByteView bytes, std::size_t at) {
   return load<std::uint16_t>(&bytes[at], std::endian::little);
 }

@@ -56,6 +56,10 @@ struct ReplyHead {
   std::uint64_t bytes = 0;
 };
 
+/// Sends or receives all bytes. False if the other program has ended.
+bool send_all(int socket, std::span<const std::byte> bytes);
+bool receive_all(int socket, std::span<std::byte> bytes);
+
 /// Puts numbers, texts and lists one behind the other.
 class MessageWriter {
  public:

@@ -135,35 +135,15 @@ std::vector<std::byte> Process::ask(Task task, std::span<const std::byte> parame
   const Limits limits = limits_of(bytes.size(), max_expansion_);
   const RequestHead request{task, limits.seconds, limits.memory, parameters.size(), bytes.size()};
   ReplyHead reply;
-  if (!send(std::as_bytes(std::span(&request, 1))) || !send(parameters) || !send(bytes) ||
-      !receive(std::as_writable_bytes(std::span(&reply, 1))))
+  if (!send_all(socket_, std::as_bytes(std::span(&request, 1))) || !send_all(socket_, parameters) ||
+      !send_all(socket_, bytes) ||
+      !receive_all(socket_, std::as_writable_bytes(std::span(&reply, 1))))
     fail_as_ended(limits);
   budget.take(reply.bytes, 1);
   std::vector<std::byte> answer(reply.bytes);
-  if (!receive(answer)) fail_as_ended(limits);
+  if (!receive_all(socket_, answer)) fail_as_ended(limits);
   if (reply.refused == 0) return answer;
   throw Refusal({reinterpret_cast<const char*>(answer.data()), answer.size()});
-}
-
-/// False if the program has ended.
-bool Process::send(std::span<const std::byte> bytes) const {
-  while (!bytes.empty()) {
-    const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent < 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(sent));
-  }
-  return true;
-}
-
-bool Process::receive(std::span<std::byte> bytes) const {
-  while (!bytes.empty()) {
-    const ssize_t got = ::recv(socket_, bytes.data(), bytes.size(), 0);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(got));
-  }
-  return true;
 }
 
 void Process::fail_as_ended(const Limits& limits) {

@@ -51,8 +51,6 @@ class Process {
                              std::span<const std::byte> bytes, ExpansionBudget& budget);
 
  private:
-  bool send(std::span<const std::byte> bytes) const;
-  bool receive(std::span<std::byte> bytes) const;
   [[noreturn]] void fail_as_ended(const Limits& limits);
 
   std::filesystem::path program_;

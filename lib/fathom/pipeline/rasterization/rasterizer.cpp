@@ -10,11 +10,6 @@ namespace {
 
 constexpr std::int64_t block_size = 8;
 
-PixelWindow overlap(const PixelWindow& a, const PixelWindow& b) {
-  return {std::max(a.x_begin, b.x_begin), std::max(a.y_begin, b.y_begin),
-          std::min(a.x_end, b.x_end), std::min(a.y_end, b.y_end)};
-}
-
 template <class Real>
 class Rasterizer {
  public:

@@ -34,6 +34,11 @@ struct PixelWindow {
   friend bool operator==(const PixelWindow&, const PixelWindow&) = default;
 };
 
+inline PixelWindow overlap(const PixelWindow& a, const PixelWindow& b) {
+  return {std::max(a.x_begin, b.x_begin), std::max(a.y_begin, b.y_begin),
+          std::min(a.x_end, b.x_end), std::min(a.y_end, b.y_end)};
+}
+
 /// The requested part of a span; x_begin ≥ x_end if it is empty.
 inline Span clipped(const Span& span, const PixelWindow& window) {
   if (span.y < window.y_begin || span.y >= window.y_end) return {span.y, 0, 0};
