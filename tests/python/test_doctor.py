@@ -325,12 +325,16 @@ def test_65535_is_no_value(tmp_path):
 barrel = ("OPENCV", {"k1": -0.25, "k2": 0.08, "p1": 0.01, "p2": -0.015})
 
 
-@pytest.mark.parametrize("made_with, text", [
-    (None, "do not have the lens"),
-    (("OPENCV", {"k1": -0.25, "k2": 0.08, "p1": -0.015, "p2": 0.01}), "swapped"),
-    (("OPENCV_FISHEYE", {"k1": -0.25, "k2": 0.08, "k3": 0.01, "k4": -0.015}), "OPENCV_FISHEYE"),
-    (("FULL_OPENCV", {"k1": -0.25, "k2": 0.08, "k3": 0.01}), "k3")], ids=["ignored", "swapped", "fisheye", "k3"])
-def test_lens_is_named_and_corrected(tmp_path, made_with, text):
+lenses_of_images = {
+    "ignored": (None, "do not have the lens"),
+    "swapped": (("OPENCV", {"k1": -0.25, "k2": 0.08, "p1": -0.015, "p2": 0.01}), "swapped"),
+    "fisheye": (("OPENCV_FISHEYE", {"k1": -0.25, "k2": 0.08, "k3": 0.01, "k4": -0.015}), "OPENCV_FISHEYE"),
+    "k3": (("FULL_OPENCV", {"k1": -0.25, "k2": 0.08, "k3": 0.01}), "k3")}
+
+
+@pytest.mark.parametrize("name", lenses_of_images if thorough else ["ignored", "swapped"])
+def test_lens_is_named_and_corrected(tmp_path, name):
+    made_with, text = lenses_of_images[name]
     data = Data("room", made_with, views=None if thorough else 2)
     for camera in data.cameras:
         put_lens(camera, *barrel)
