@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/shell/failures.h"
+#include "apps/shell/folder_argument.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/output_file.h"
 #include "apps/shell/standard_streams.h"
@@ -112,10 +113,7 @@ std::string lines_for_ctest(const ValidationCase& c, const std::string& cause,
 }
 
 validation::Report read_baseline(const std::string& file) {
-  if (const std::filesystem::path inside = std::filesystem::path(file) / "report.json";
-      std::filesystem::exists(inside)) {
-    throw InputError(fmt::format("{}: is a folder, expected its file {}", file, inside.string()));
-  }
+  refuse_folder_of("report.json", file);
   note_input(file);
   return validation::read_report(file);
 }

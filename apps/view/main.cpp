@@ -20,6 +20,7 @@
 #include "apps/options/scene_options.h"
 #include "apps/shell/console.h"
 #include "apps/shell/failures.h"
+#include "apps/shell/folder_argument.h"
 #include "apps/shell/known_files.h"
 #include "apps/shell/max_memory.h"
 #include "apps/shell/output_file.h"
@@ -42,13 +43,6 @@
 
 namespace fathom::app {
 namespace {
-
-/// The folder of a report of `fathom validate` is no map; its page is.
-void refuse_report_folder(const std::string& map) {
-  const std::filesystem::path page = std::filesystem::path(map) / "report.html";
-  if (!std::filesystem::exists(page)) return;
-  throw InputError(fmt::format("{}: is a folder, expected its file {}", map, page.string()));
-}
 
 /// A name for a page in a new folder of its own, below $TMPDIR, which only the user can read.
 /// Fails    OutputError.
@@ -264,7 +258,7 @@ int run_view(const ViewArguments& arguments, const Console& console) {
                          ? "--serve needs --scene, the scene that the maps show"
                          : "--scene needs --serve: a server answers questions about the scene");
   }
-  for (const std::string& map : arguments.maps) refuse_report_folder(map);
+  for (const std::string& map : arguments.maps) refuse_folder_of("report.html", map);
   std::vector<ViewedMap> maps = read_maps(arguments, console);
   if (!arguments.serve) return write_and_open(arguments, maps, console);
   for (const ViewedMap& viewed : maps) {
