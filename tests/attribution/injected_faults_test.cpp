@@ -175,7 +175,7 @@ const std::vector<Injected> of_depths{
      [](double d) { return read_with(d, 0.501, 21); }},
     {"Scale", "scale", {{"scale", 1e-3}}, nullptr, [](double d) { return 1.001 * d; }},
     {"Offset", "scale", {{"offset", -3e-3}}, nullptr, [](double d) { return d - 3e-3; }},
-    {"Millimetres", "scale", {}, nullptr, [](double d) { return 1000 * d; }},
+    {"Millimetres", "scale", {{"factor", 1000, 1}}, nullptr, [](double d) { return 1000 * d; }},
     {"WholeMillimetres",
      "storage",
      {},

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -109,6 +110,55 @@ TEST(Judgement, WherePixelsAreBlamedTheModelThatExplainsThemIsNamed) {
   EXPECT_THAT(found.attribution.findings[0].text,
               HasSubstr("; or the model float32-ray does not fit: as "));
   EXPECT_THAT(found.attribution.findings[0].text, HasSubstr("gl-unorm24"));
+}
+
+/// Depths as integers of one scale, read with another.
+OtherMap in_codes_of(const Truth& truth, double stored, double read,
+                     double (*round)(double) = std::nearbyint) {
+  OtherMap map = in_binary32(truth);
+  for (double& depth : map.depths) {
+    if (depth < infinity) depth = round(depth * stored) / read;
+  }
+  map.values = map.depths;
+  map.code_scale = read;
+  return map;
+}
+
+TEST(Judgement, AWrongScaleOfCodesIsNamed) {
+  const auto truth = sphere_seen_by(sphere_camera(0.1, 100));
+  const auto expect = [&](const OtherMap& map, const std::string& text) {
+    for (const char* model : {"", "gl-unorm24", "float32-ray"}) {
+      Judgement found = *model == 0 ? judge(truth, map, std::nullopt) : judged(truth, map, model);
+      name_other_scene(truth->camera, map, found);
+      ASSERT_EQ(kinds(found), std::vector<std::string>{"scale"})
+          << text << cause_of(*found.truth, found.other, found.attribution);
+      EXPECT_THAT(found.attribution.findings[0].text, HasSubstr(text));
+      EXPECT_EQ(found.attribution.count(PixelClass::unexplained), 0U) << text;
+    }
+  };
+  expect(in_codes_of(*truth, 1000, 5000), "stored = 0.2·depth: a unit has 1000 codes, not 5000");
+  expect(in_codes_of(*truth, 5000, 1000), "stored = 5·depth: a unit has 5000 codes, not 1000");
+  expect(in_codes_of(*truth, 256, 1000), "stored = 0.256·depth: a unit has 256 codes, not 1000");
+  expect(in_codes_of(*truth, 100, 1000), "stored = 0.1·depth: a unit has 100 codes, not 1000");
+  expect(in_codes_of(*truth, 1000, 5000, std::floor),
+         "stored = 0.2·depth, rounded down: a unit has 1000 codes, not 5000");
+}
+
+TEST(Judgement, OtherCurvesAreNoFaultOfTheScene) {
+  const auto truth = sphere_seen_by(sphere_camera(0.1, 100));
+  const auto finding = [&](double (*stored)(double)) {
+    OtherMap map = in_binary32(*truth);
+    for (double& depth : map.depths) {
+      if (depth < infinity) depth = double{static_cast<float>(stored(depth))};
+    }
+    map.values = map.depths;
+    Judgement found = judge(truth, map, std::nullopt);
+    name_other_scene(truth->camera, map, found);
+    const std::vector<Finding>& findings = found.attribution.findings;
+    return findings.empty() ? "" : findings[0].kind + ": " + findings[0].text;
+  };
+  EXPECT_THAT(finding([](double d) { return std::atan(2 * d - 4); }),
+              StartsWith("decoding: the map stores a function of the depth, which rises with it"));
 }
 
 TEST(Judgement, WithoutNearAndFarItSaysThatNoRasterizerWasTried) {

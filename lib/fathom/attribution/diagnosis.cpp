@@ -208,8 +208,9 @@ class Search {
   bool by_triangles();
   bool by_hypotheses();
   bool by_lookup();
-  bool by_relations(bool gross);
+  bool by_relations(bool excluding_camera);
   bool by_deviation();
+  bool by_curve();
   bool by_pixels();
 
   void add_drawn_planes(BestTrial& best) const;
@@ -338,13 +339,13 @@ const std::vector<DepthRelation>& Search::relations() {
   return *relations_;
 }
 
-/// A gross relation has at most one constant: then the camera is not in doubt.
-bool Search::by_relations(bool gross) {
+bool Search::by_relations(bool excluding_camera) {
   BestTrial best(truth_, searched_);
   for (const DepthRelation& relation : relations()) {
     if (best.has_one()) break;
-    if (gross && !(relation.is_gross && relation.parameters <= 1)) continue;
+    if (excluding_camera && !relation.excludes_camera) continue;
     Hypothesis h{relation.kind, relation.text, model_, read_by(relation, other_)};
+    h.estimates = relation.estimates;
     h.model.recorded = relation.recorded;
     best.add(h);
   }
@@ -389,6 +390,13 @@ bool Search::by_deviation() {
   return true;
 }
 
+/// The pixels remain unexplained: no bounds follow from an unknown formula.
+bool Search::by_curve() {
+  const std::optional<std::string> text = text_of_curve(truth_, other_);
+  if (text) found_.findings.push_back({"decoding", *text, unexplained()});
+  return text.has_value();
+}
+
 /// Single wrong pixels remain unexplained: that they are few is not a cause.
 bool Search::by_pixels() {
   if (const std::optional<PixelFinding> some = isolated(truth_, other_, searched_)) {
@@ -424,7 +432,7 @@ void Search::run() {
   name_storage();
   if (unexplained() == 0) return;
   by_stored_planes() || by_triangles() || by_hypotheses() || by_lookup() || by_relations(true) ||
-      by_deviation() || by_relations(false) || by_pixels();
+      by_deviation() || by_relations(false) || by_curve() || by_pixels();
 }
 
 }  // namespace

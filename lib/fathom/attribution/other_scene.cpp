@@ -168,8 +168,9 @@ Surfaces surfaces_of(const Judgement& judged) {
 
 bool has_named_fault(const Attribution& found) {
   return found.count(PixelClass::convention) > 0 ||
-         std::any_of(found.findings.begin(), found.findings.end(),
-                     [](const Finding& f) { return f.kind == "isolated-pixels"; });
+         std::any_of(found.findings.begin(), found.findings.end(), [](const Finding& f) {
+           return f.kind == "isolated-pixels" || f.kind == "decoding";
+         });
 }
 
 /// Whether the map holds values from 0 to 1, as a depth buffer does, of a scene whose depths are

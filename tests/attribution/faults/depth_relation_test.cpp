@@ -1,27 +1,40 @@
 #include "fathom/attribution/faults/depth_relation.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ostream>
+#include <string>
 #include <vector>
 
 namespace fathom::attribution {
 namespace {
 
-/// 100 depths from 1 to 4 and what another makes of them.
+/// 100 depths from 1 to 4, which are no multiples of a code, and what another makes of them.
+struct TwoMaps {
+  Truth truth;
+  OtherMap other;
+};
+template <class Stored>
+TwoMaps maps_of(const Stored& stored) {
+  TwoMaps maps;
+  maps.truth.camera.near = 0.5;
+  maps.truth.camera.far = 20;
+  for (int i = 0; i < 100; ++i) {
+    maps.truth.depths.push_back(1 + i / std::sqrt(1100.0));
+    maps.other.depths.push_back(stored(maps.truth.depths.back()));
+  }
+  return maps;
+}
+
 template <class Stored>
 std::vector<DepthRelation> relations_of(const Stored& stored) {
-  Truth truth;
-  truth.camera.near = 0.5;
-  truth.camera.far = 20;
-  OtherMap other;
-  for (int i = 0; i < 100; ++i) {
-    truth.depths.push_back(1 + 0.03 * i);
-    other.depths.push_back(stored(truth.depths.back()));
-  }
-  return depth_relations(truth, other);
+  const TwoMaps maps = maps_of(stored);
+  return depth_relations(maps.truth, maps.other);
 }
 
 TEST(DepthRelation, NamesTheFormula) {
@@ -77,6 +90,103 @@ TEST(DepthRelation, FindsCodes) {
   EXPECT_EQ(millimetres[0].recorded.rounding, RecordedDepth::Rounding::nearest);
   EXPECT_EQ(millimetres[0].recorded.step, 1);
   EXPECT_EQ(millimetres[0].recorded.factor, 1000);
+}
+
+struct Scales {
+  double stored, read;
+};
+
+void PrintTo(const Scales& scales, std::ostream* stream) {
+  *stream << scales.stored << " read as " << scales.read;
+}
+
+/// Depths in codes of one scale, read with another.
+template <class Round>
+std::vector<DepthRelation> relations_of_codes(const Scales& scales, const Round& round) {
+  TwoMaps maps = maps_of([&](double d) { return round(scales.stored * d) / scales.read; });
+  maps.other.code_scale = scales.read;
+  return depth_relations(maps.truth, maps.other);
+}
+
+class ScaleOfCodes : public testing::TestWithParam<Scales> {};
+
+TEST_P(ScaleOfCodes, IsMeasured) {
+  const auto found = relations_of_codes(GetParam(), [](double code) { return std::round(code); });
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].kind, "scale");
+  EXPECT_TRUE(found[0].excludes_camera);
+  EXPECT_EQ(found[0].recorded.rounding, RecordedDepth::Rounding::nearest);
+  EXPECT_EQ(found[0].recorded.step, 1 / GetParam().read);
+  EXPECT_EQ(found[0].recorded.factor, GetParam().stored / GetParam().read);
+  EXPECT_THAT(found[0].text, testing::EndsWith(fmt::format(
+                                 ": a unit has {} codes, not {}; --png-scale {} reads "
+                                 "them",
+                                 GetParam().stored, GetParam().read, GetParam().stored)));
+  ASSERT_EQ(found[0].estimates.size(), 1U);
+  EXPECT_EQ(found[0].estimates[0].name, "factor");
+  EXPECT_EQ(found[0].estimates[0].value, GetParam().stored / GetParam().read);
+}
+
+TEST_P(ScaleOfCodes, IsMeasuredIfCodesAreRoundedDown) {
+  const auto found = relations_of_codes(GetParam(), [](double code) { return std::floor(code); });
+  const auto down = std::ranges::find_if(found, [](const DepthRelation& relation) {
+    return relation.recorded.rounding == RecordedDepth::Rounding::down;
+  });
+  ASSERT_NE(down, found.end());
+  EXPECT_EQ(down->recorded.factor, GetParam().stored / GetParam().read);
+  EXPECT_THAT(down->text, testing::HasSubstr(", rounded down: a unit has "));
+}
+
+INSTANTIATE_TEST_SUITE_P(DepthRelation, ScaleOfCodes,
+                         testing::Values(Scales{1000, 5000}, Scales{5000, 1000}, Scales{256, 1000},
+                                         Scales{1000, 256}, Scales{100, 1000}, Scales{10000, 1000},
+                                         Scales{1000, 900}));
+
+TEST(DepthRelation, FindsCodesOfAnyStep) {
+  const auto found = relations_of([](double d) { return std::round(100 * d) / 70; });
+  ASSERT_FALSE(found.empty());
+  EXPECT_NEAR(found[0].recorded.step, 1 / 70.0, 1e-12);
+  EXPECT_THAT(found[0].text, testing::EndsWith(", in codes of 1/70"));
+}
+
+// Thirds of a unit are in no list.
+TEST(DepthRelation, GivesTheFactorThatIsMeasured) {
+  const auto found = relations_of([](double d) { return d / 3; });
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].text, "depths are scaled: stored = 0.333333·depth");
+  EXPECT_NEAR(found[0].recorded.factor, 1 / 3.0, 1e-12);
+}
+
+TEST(DepthRelation, OfRightDepthsThereIsNone) {
+  EXPECT_TRUE(relations_of([](double d) { return d; }).empty());
+  EXPECT_TRUE(relations_of([](double d) { return double{static_cast<float>(d)}; }).empty());
+  EXPECT_TRUE(relations_of([](double d) { return std::round(500 * d) / 500; }).empty());
+}
+
+// Any two constants fit two depths.
+TEST(DepthRelation, TwoConstantsNeedSeveralDepths) {
+  TwoMaps maps = maps_of([](double d) { return d; });
+  for (std::size_t i = 0; i < maps.truth.depths.size(); ++i) {
+    maps.truth.depths[i] = 1 + static_cast<double>(i % 2);
+    maps.other.depths[i] = 7 - maps.truth.depths[i];
+  }
+  EXPECT_TRUE(depth_relations(maps.truth, maps.other).empty());
+}
+
+TEST(DepthRelation, DescribesOtherFunctionsOfTheDepth) {
+  const auto curve_of = [](const auto& stored) {
+    const TwoMaps maps = maps_of(stored);
+    return text_of_curve(maps.truth, maps.other).value_or("");
+  };
+  EXPECT_THAT(
+      curve_of([](double d) { return std::sin(d / 3); }),
+      testing::StartsWith("the map stores a function of the depth, which rises with it, and "
+                          "no model explains it: 0.3"));
+  EXPECT_THAT(curve_of([](double d) { return std::cos(d / 3); }),
+              testing::HasSubstr("which falls with it"));
+  EXPECT_EQ(curve_of([](double d) { return 1.001 * d; }), "");
+  EXPECT_EQ(curve_of([](double d) { return d + 0.5 * std::sin(40 * d); }), "");
+  EXPECT_EQ(curve_of([](double) { return 7.0; }), "");
 }
 
 TEST(DepthRelation, AFewPixelsMayBeOtherwise) {
